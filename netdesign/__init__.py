@@ -5,9 +5,14 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from netdesign.public import *
 
     __version__: str
+    # of add-ons, whose types the core does not know
+    TransientSettings: Any
+    solve_transient: Any
 
 # The linear problems are small: threads of the BLAS make them 3 to 10 times slower
 # (measured). Works if NumPy is not loaded yet; a value that is set already is kept.
@@ -87,8 +92,10 @@ if not TYPE_CHECKING:
             return _read_version()
         if name not in __all__:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from netdesign import public
+        from netdesign import addon_table, public
 
+        if name in addon_table.NAMES:
+            return addon_table.load(name, addon_table.NAMES[name])
         return getattr(public, name)
 
 

@@ -15,7 +15,27 @@ from netdesign.words.message import say
 
 # Places below netdesign.addons: MODULE:NAME.
 COMMANDS = {
+    "bench": "evidence.bench_command:bench",
+    "paper": "evidence.command:paper",
     "terrain": "terrain.command:terrain",
+    "validate": "evidence.command:validate",
+    "verify": "evidence.command:verify",
+}
+
+
+# Settings of a method of solve from what a scene file says.
+METHODS = {
+    "transient": "history.settings:build_transient",
+    "staggered": "history.settings:build_staggered",
+}
+# Function that makes a record of a row, by the field that has it.
+ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
+# Addition to the reports of a study whose rows have that field.
+SHOWN = {"reliability": "reliability.shown:SHOWN"}
+# Names of ``from netdesign import ...``.
+NAMES = {
+    "TransientSettings": "history.settings:TransientSettings",
+    "solve_transient": "history.transient:solve_transient",
 }
 
 

@@ -71,13 +71,12 @@ def _load_command(name: str, place: str) -> click.Command:
 
 
 _OWN_MODULES = (
-    *("bench", "check", "completion", "doctor", "envelope", "report"),
+    *("check", "completion", "doctor", "envelope", "report"),
     *("solve", "standards", "winter"),
 )
 _COMMANDS = CommandTable(
     {
         **{name: f"{name}.{name}" for name in _OWN_MODULES},
-        **{name: f"evidence.{name}" for name in ("paper", "validate", "verify")},
         "diff": "report.diff",
         "glide": "snow.glide",
         "init": "site_input.init",

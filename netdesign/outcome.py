@@ -220,7 +220,7 @@ class Fault:
     kind, message : str
         Its type and text.
     place : str
-        Where, in the package: ``snow/body.py:88``.
+        Where, in the package: ``snow/mesh.py:88``.
     case : str
         What was being solved, in engineer's units.
     trace : str
@@ -234,7 +234,7 @@ class Fault:
     trace: str = ""
 
     def __str__(self) -> str:
-        """``ValueError: array is empty, in snow/body.py:88``."""
+        """``ValueError: array is empty, in snow/mesh.py:88``."""
         return f"{self.kind}: {self.message}, in {self.place}"
 
 

@@ -14,8 +14,6 @@ from netdesign.cable.net import Net as Net
 from netdesign.checks import Standard as Standard
 from netdesign.checks import list_standards as list_standards
 from netdesign.checks import load_standard as load_standard
-from netdesign.coupling.history.settings import TransientSettings as TransientSettings
-from netdesign.coupling.history.transient import solve_transient as solve_transient
 from netdesign.coupling.scene import Scene as Scene
 from netdesign.coupling.scene import SolverSettings as SolverSettings
 from netdesign.coupling.scene import Wall as Wall

@@ -24,11 +24,10 @@ ROWS = (
     {ROOT},
     {"edge"},
     {"numerics", "calculation"},
-    {"resistance", "search", "snowpack", "core", "reliability"},
+    {"resistance", "search", "snowpack", "core"},
     {"snow", "cable", "structure", "checks"},
     {"coupling", "guideline"},
     {"coupling.steady", "panel"},
-    {"coupling.history"},
     {"solving"},
     {"envelope"},
     {"winter"},
@@ -47,15 +46,20 @@ ROWS = (
     {"report"},
     {"api"},
     {"public", "examples"},  # examples see the public names only
-    {"evidence"},
-    {"evidence.verification", "evidence.paper", "evidence.benchmark"},
-    {"evidence.validation"},
     {"commands"},
     {"cli"},
     {"__main__"},
     # add-ons see all of the core, which sees none of them
     {"addons"},
-    {"addons.terrain"},
+    {"addons.history", "addons.reliability", "addons.terrain"},
+    {"addons.evidence"},
+    {
+        "addons.evidence.verification",
+        "addons.evidence.paper",
+        "addons.evidence.benchmark",
+    },
+    {"addons.evidence.validation"},
+    {"addons.evidence.command", "addons.evidence.bench_command"},
 )
 ROOMS = set().union(*ROWS)
 ROOT_MODULES = {"addon_table", "outcome", "units", "quantities"}
@@ -74,25 +78,25 @@ THIRD_PARTY = {
             "guideline.*",
             "resistance.wedge",
             "search.*",
-            "reliability.*",
+            "addons.reliability.*",
             "snowpack.*",
             "winter.*",
             "solving.*",
+            "addons.history.*",
             "addons.terrain.*",
         ),
-        *("files.solution", "evidence.*"),
+        "addons.evidence.*",
         *("study.record_envelope", "study.record_support"),
-        *("study.response", "study.row_reliability"),
         "commands.doctor",
     ),
     "scipy": (
         "numerics.optimise",
         "snow.*",
-        "reliability.*",
+        "addons.reliability.*",
         "winter.maxima",
         "winter.statistics",
         "solving.identity",
-        "evidence.*",
+        "addons.evidence.*",
     ),
     "filelock": ("edge.locks",),
     "platformdirs": ("solving.store",),
@@ -100,14 +104,17 @@ THIRD_PARTY = {
     "hatchling": ("core.build",),  # it runs before the package is installed
     "skfem": (
         "snow.forms",
-        "evidence.benchmark.reference_path",
-        "evidence.verification.plan_view",
+        "addons.evidence.benchmark.reference_path",
+        "addons.evidence.verification.plan_view",
     ),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
-        *("evidence.validation.structure", "evidence.validation.measured_file"),
+        *(
+            "addons.evidence.validation.structure",
+            "addons.evidence.validation.measured_file",
+        ),
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),
         "edge.json_text",
     ),
@@ -128,8 +135,8 @@ THIRD_PARTY = {
     ),
     "pandas": ("study.records",),
     "rapidfuzz": ("site.questions",),
-    "click": ("cli", "commands.*", "addons.*.command"),
-    "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
+    "click": ("cli", "commands.*", "addons.*command"),
+    "rich": ("edge.progress", "report.terminal", "addons.evidence.*"),
 }
 
 # Slow to import: only inside functions, so that help is there at once.
@@ -154,7 +161,7 @@ def name_module(path: Path) -> str:
 
 
 # A script that other versions run by its path; no module imports it.
-PROBE = PACKAGE / "evidence" / "benchmark" / "probe.py"
+PROBE = PACKAGE / "addons" / "evidence" / "benchmark" / "probe.py"
 MODULES = {
     name_module(path): path
     for path in sorted(PACKAGE.rglob("*.py"))
@@ -273,8 +280,10 @@ def test_the_package_itself_imports_next_to_nothing():
     # What it imports later are its version and the public names: the one arrow of the
     # package upwards.
     assert [one.target for one in imports if not one.is_immediate] == [
+        "typing.Any",
         "netdesign.public.*",
         "importlib.metadata.version",
+        "netdesign.addon_table",
         "netdesign.public",
     ]
 

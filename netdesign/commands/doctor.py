@@ -174,14 +174,34 @@ def _round_trip_example() -> Message:
 
 def _solve_small_scene() -> Message:
     """Uniform snow on freely gliding ground: the net carries its whole weight."""
+    import math
     import time
 
-    from netdesign.coupling.scene import SolverSettings
-    from netdesign.evidence.scene import build_scene, solve
+    from netdesign.cable.net import Net
+    from netdesign.coupling.scene import Scene, SolverSettings
+    from netdesign.coupling.solution import require_solved
+    from netdesign.coupling.steady.solve import solve_steady
+    from netdesign.snow.ground import GroundLaw
+    from netdesign.snow.snowpack import Snowpack
 
-    scene = build_scene((2.5, 300.0), slope=38.0, length=6.0, stiffness=8e6, slack=0.05)
+    scene = Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(38.0),
+            thickness=2.5,
+            upslope_length=6.0,
+            density=300.0,
+        ),
+        ground=GroundLaw(kind="free"),
+        net=Net(
+            height_normal=2.5,
+            inclination=math.radians(30.0),
+            stiffness_per_m=8e6,
+            slack=0.05,
+            friction_angle=math.radians(30.0),
+        ),
+    )
     start = time.perf_counter()
-    solution = solve(scene, SolverSettings(accuracy=0.1))
+    solution = require_solved(solve_steady(scene, SolverSettings(accuracy=0.1)))
     elapsed = time.perf_counter() - start
     residual = solution.balance.relative_residual
     return say("doctor.solved", residual=residual, seconds=elapsed)

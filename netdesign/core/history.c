@@ -1,6 +1,6 @@
 /* The snow of a step of a history, condensed to the net's nodes.
  *
- * The kernels of coupling/history/snow.py. Theory: core/THEORY.md, section 2. */
+ * The kernels of addons/history/snow.py. Theory: core/THEORY.md, section 2. */
 #include "round.h"
 
 #include <math.h>

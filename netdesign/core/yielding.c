@@ -1,6 +1,6 @@
 /* The net on snow that yields to it: forces, friction and positions found together.
  *
- * The loop of cable/yielding.py. Theory: cable/THEORY.md, (C22) to (C26). */
+ * The loop of addons/history/yielding.py. Theory: cable/THEORY.md, (C22) to (C26). */
 #include "core.h"
 
 #include <math.h>

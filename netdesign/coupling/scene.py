@@ -346,6 +346,11 @@ class SolverSettings:
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
     step: Step | None = None
 
+    def describe(self) -> dict[str, float]:
+        """Tolerances that a rerun needs."""
+        names = ("accuracy", "stress_tolerance", "shape_tolerance", "balance_tolerance")
+        return {name: getattr(self, name) for name in names}
+
     def __post_init__(self) -> None:
         """Refuse settings that would make every result look converged."""
         require_within("accuracy", self.accuracy, 1e-4, 0.1)

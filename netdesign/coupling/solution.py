@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 import numpy as np
 
 from netdesign.coupling.interface import Estimate
-from netdesign.coupling.moments import History
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Fault, Outcome, OutputError, SolveError
 from netdesign.snow.mesh import MeshTemplate
 from netdesign.snow.placed_mesh import PlacedMesh
+from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -149,6 +149,38 @@ class Cost:
     skipped: Skipped = field(default_factory=Skipped)
 
 
+class FollowedHistory(Protocol):
+    """Record of a history, as far as the core reads it; an add-on follows it."""
+
+    @property
+    def unproven(self) -> Message | None:
+        """Reason why its forces are no result; None where it came to rest."""
+
+    def write(self, solution: Solution, language: Language) -> dict[str, Any]:
+        """Part of the solution document."""
+
+    def list_flags(self, scene: Scene) -> list[Message]:
+        """Remarks that a reader must know before using the numbers."""
+
+
+class MethodSettings(Hashable, Protocol):
+    """Settings of a method that an add-on brings."""
+
+    @property
+    def method(self) -> Method:
+        """Name of the method."""
+
+    @property
+    def accuracy(self) -> float | None:
+        """Relative error allowed in the end pulls [-]; None of one without control."""
+
+    def solve(self, scene: Scene) -> Solution | FailedSolution:
+        """Snow against the scene's net."""
+
+    def describe(self) -> dict[str, Any]:
+        """Tolerances and choices that a rerun needs."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Solution:
     """A converged state whose balances were checked. SI units.
@@ -184,7 +216,7 @@ class Solution:
         fluidity.
     balance, cost
         See there; of a history the worst balance of all its steps.
-    history : History or None
+    history : FollowedHistory or None
         Of a transient or staggered solve; shapes are then those at its end.
     is_released : bool
         A two-sided net contact was asked for, but the snow would pull on the net too
@@ -208,7 +240,7 @@ class Solution:
     mesh_velocity: Floats
     balance: Balance
     cost: Cost
-    history: History | None = None
+    history: FollowedHistory | None = None
     is_released: bool = False
 
     @property

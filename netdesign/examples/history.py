@@ -11,14 +11,15 @@ that you name.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from math import hypot, radians
+from typing import Any
 
 from netdesign import (
     FailedSolution,
     Net,
     Scene,
     Snowpack,
-    Solution,
     TransientSettings,
     build_ground_from_glide_factor,
     solve_transient,
@@ -41,11 +42,10 @@ SETTINGS = TransientSettings(
 )
 
 
-def draw(solution: Solution, path: str) -> None:
+def draw(moments: Sequence[Any], path: str) -> None:
     """Draw the pulls of foot and head against time."""
     from matplotlib.figure import Figure
 
-    moments = solution.history.moments if solution.history else ()
     hours = [one.time / HOUR for one in moments]
     figure = Figure(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
@@ -69,7 +69,7 @@ def main() -> None:
     for name, pull in (("foot", solution.foot), ("head", solution.head)):
         print(f"{name} {pull.size / 1e3:.1f} kN/m, error {pull.error / 1e3:.1f}")
     print(f"plateau from {history.plateau.time / HOUR:.1f} h on")
-    draw(solution, path)
+    draw(history.moments, path)
     print(f"wrote {path}")
 
 

@@ -10,12 +10,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationError
 
+from netdesign import addon_table
 from netdesign.cable.net import Net
-from netdesign.coupling.history.settings import (
-    LONGEST_EXCHANGE,
-    StaggeredSettings,
-    TransientSettings,
-)
 from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import Method
 from netdesign.edge.causes import explain, explain_shape
@@ -216,18 +212,14 @@ def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
 
 
 def _settings(table: SolveTable, method: Method, scene: Scene) -> Settings:
+    if method == "steady":
+        return SolverSettings(accuracy=table.accuracy)
+    build = addon_table.load(f"method {method}", addon_table.METHODS[method])
     horizon = second_from_day(table.horizon_days)
-    if method == "transient":
-        return TransientSettings(
-            accuracy=table.accuracy,
-            start=table.start or "steady",
-            horizon=horizon,
-            densifies=table.densification,
-        )
-    if method == "staggered":
-        creep_time = min(horizon / scene.time_scale, LONGEST_EXCHANGE)
-        return StaggeredSettings(start=table.start or "sagged", horizon=creep_time)
-    return SolverSettings(accuracy=table.accuracy)
+    settings: Settings = build(
+        scene, table.accuracy, table.start, horizon, table.densification
+    )
+    return settings
 
 
 def _snowpack(file: SceneFile) -> Snowpack:

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from netdesign import __version__
 from netdesign.cable.net import Net
 from netdesign.core.library import name_core
-from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
-from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     RELEASED,
     Balance,
@@ -26,7 +22,6 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.creep_law import FLUIDITY_EXPONENT
 from netdesign.solving.solve import Settings
 from netdesign.units import (
-    day_from_second,
     fluidity_per_mpa_year,
     kilonewton_from_newton,
     mm_per_day,
@@ -35,7 +30,6 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
-_NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
 
 
 def write_solution_document(
@@ -63,6 +57,7 @@ def write_solution_document(
         if isinstance(solution, WallSolution)
         else _write_net(solution)
     )
+    history = getattr(solution, "history", None)
     return {
         "schema": SOLUTION_SCHEMA,
         "outcome": solution.outcome.value,
@@ -71,7 +66,7 @@ def write_solution_document(
         **({} if support is None else {"support": support}),
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
-        **_write_history(solution, language),
+        **({"history": None} if history is None else history.write(solution, language)),
         "flags": [render(one, language) for one in _list_flags(solution, settings)],
         "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
@@ -80,7 +75,7 @@ def write_solution_document(
             "creep_law": solution.scene.creep_law.name,
             "clock": _write_clock(solution.scene),
             "element": solution.scene.flow_problem.element,
-            "settings": _write_settings(settings),
+            "settings": settings.describe(),
         },
     }
 
@@ -111,82 +106,6 @@ def _write_cost(cost: Cost, wall_s: float) -> dict[str, Any]:
             "pressure_unknowns": cost.skipped.pressure_unknowns,
         },
     }
-
-
-def _write_settings(settings: Settings) -> dict[str, Any]:
-    """Tolerances and choices that a rerun needs."""
-    if isinstance(settings, SolverSettings):
-        return {
-            "accuracy": settings.accuracy,
-            "stress_tolerance": settings.stress_tolerance,
-            "shape_tolerance": settings.shape_tolerance,
-            "balance_tolerance": settings.balance_tolerance,
-        }
-    if isinstance(settings, TransientSettings):
-        return {
-            "accuracy": settings.accuracy,
-            "start": settings.start,
-            "horizon_d": day_from_second(settings.horizon),
-            "densification": settings.densifies,
-            "stress_tolerance": settings.stress_tolerance,
-            "balance_tolerance": settings.balance_tolerance,
-        }
-    return {
-        "start": settings.start,
-        "base_drag": settings.base_drag,
-        "step_share": settings.step_share,
-        "horizon_creep_time": settings.horizon,
-        "stress_tolerance": settings.stress_tolerance,
-    }
-
-
-def _write_history(
-    solution: Solution | WallSolution, language: Language
-) -> dict[str, Any]:
-    """Null for a steady state; else the moments, the plateau and both its pulls."""
-    if not isinstance(solution, Solution) or solution.history is None:
-        return {"history": None}
-    history = solution.history
-    plateau, moment = history.plateau, history.at_plateau
-    return {
-        "history": [_write_moment(entry) for entry in history.moments],
-        "plateau": {
-            "reached": plateau.reached,
-            "time_d": None if plateau.time is None else day_from_second(plateau.time),
-            "criterion": plateau.criterion,
-            "drift_per_efold": plateau.drift,
-            "foot_kN_per_m": None if moment is None else _size(moment.foot),
-            "head_kN_per_m": None if moment is None else _size(moment.head),
-        },
-        "largest": {
-            f"{end}_kN_per_m": kilonewton_from_newton(pull.size)
-            for end, pull in (("foot", solution.foot), ("head", solution.head))
-        },
-        "start": history.start,
-        "densification": history.densifies,
-        "fallen_over_head": history.fallen_share,
-        "ended": render(history.ended or "", language),
-    }
-
-
-def _write_moment(moment: HistoryPoint) -> dict[str, Any]:
-    return {
-        "time_d": day_from_second(moment.time),
-        "foot_kN_per_m": _size(moment.foot),
-        "head_kN_per_m": _size(moment.head),
-        "tension_min_kN_per_m": kilonewton_from_newton(moment.tension_min),
-        "tension_max_kN_per_m": kilonewton_from_newton(moment.tension_max),
-        "max_relative_density": moment.max_relative_density,
-        "relative_residual": moment.residual,
-        "node_forces": [
-            [kilonewton_from_newton(float(x)), kilonewton_from_newton(float(y))]
-            for x, y in moment.on_net.T
-        ],
-    }
-
-
-def _size(vector: Floats) -> float:
-    return kilonewton_from_newton(float(np.hypot(*vector)))
 
 
 def _write_clock(scene: Scene) -> dict[str, Any]:
@@ -274,7 +193,8 @@ def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[M
     """Remarks that a reader must know before using the numbers."""
     law = solution.scene.creep_law
     missed = _find_missed_accuracy(solution, settings)
-    flags = _list_history_flags(getattr(solution, "history", None), solution.scene)
+    history = getattr(solution, "history", None)
+    flags = [] if history is None else history.list_flags(solution.scene)
     if missed is not None:
         flags.append(missed)
     if getattr(solution, "is_released", False):
@@ -291,7 +211,7 @@ def _find_missed_accuracy(
     solution: Solution | WallSolution, settings: Settings
 ) -> Message | None:
     """Accuracy that was asked for and not reached, or that nobody asked for."""
-    if isinstance(settings, StaggeredSettings):
+    if settings.accuracy is None:
         return say("solution.staggered_error")
     if isinstance(solution, WallSolution):
         pulls: tuple[EndPull, ...] = (solution.force,)
@@ -301,31 +221,3 @@ def _find_missed_accuracy(
     if error <= (1.0 + 1e-9) * settings.accuracy:
         return None
     return say("solution.accuracy_missed", asked=settings.accuracy, error=error)
-
-
-def _list_history_flags(history: History | None, scene: Scene) -> list[Message]:
-    if history is None:
-        return []
-    flags = [_describe_clock(scene)] if scene.settles_as_stations else []
-    plateau = history.plateau
-    if plateau.was_left:
-        flags.append(
-            say(
-                "solution.plateau_left",
-                drift=float(plateau.drift or 0.0),
-                strain=COUNTED_STRAIN,
-            )
-        )
-    elif not plateau.reached:
-        flags.append(say("solution.plateau_not_reached"))
-    if history.ended:
-        flags.append(say("solution.ended_early", reason=history.ended))
-    if history.fallen_share > _NOTED_LOSS:
-        flags.append(say("solution.fell_over", share=float(history.fallen_share)))
-    return flags
-
-
-def _describe_clock(scene: Scene) -> Message:
-    n = scene.creep_law.exponent
-    fluidity = fluidity_per_mpa_year(scene.creep_fluidity, n)
-    return say("solution.settling_clock", fluidity=fluidity, exponent=n)

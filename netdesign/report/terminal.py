@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from netdesign.outcome import Verdict
+from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
     describe_floor,
@@ -23,7 +24,6 @@ from netdesign.report.sections.checks import (
     name_case,
 )
 from netdesign.report.sections.decision import list_open_points
-from netdesign.report.sections.reliability import list_reliability
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
@@ -169,7 +169,8 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     if has_other_floor(study):
         floor = words("heading.floor")
         yield words("show.label", label=floor, text=describe_floor(study, words))
-    yield from list_reliability(study, words)
+    for one in list_additions(study):
+        yield from one.list_lines(study, words)
     points = list(list_open_points(study, words))
     if is_short:
         yield words("show.more_points", count=len(points))

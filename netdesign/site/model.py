@@ -549,7 +549,7 @@ class UncertainQuantity:
     row_id : str
         Empty for all net rows.
     name : str
-        As in ``reliability/assumed.toml``: "snow_height", "model", "resistance", ...
+        "snow_height", "model", "resistance", ...: a line of ``assumed.toml``.
     distribution : str
         "gumbel", "lognormal" or "normal"; empty for that which is usual.
     mean_ratio : float or None

@@ -23,6 +23,7 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _SOLVER_PARTS = (
     *("outcome.py", "units.py"),
     *("numerics", "core", "snow", "cable", "coupling", "solving"),
+    "addons/history",
 )
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 _RESOURCES = ("standards", "templates")  # beside the package

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from netdesign.coupling.history.settings import StaggeredSettings, TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings, Wall
-from netdesign.coupling.solution import FailedSolution, Method, Solution, WallSolution
+from netdesign.coupling.solution import (
+    FailedSolution,
+    Method,
+    MethodSettings,
+    Solution,
+    WallSolution,
+)
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.units import degree_from_radian
 
-Settings = SolverSettings | TransientSettings | StaggeredSettings
+Settings = SolverSettings | MethodSettings
 
 
 def solve_scene(
@@ -20,19 +25,13 @@ def solve_scene(
     ----------
     scene : Scene
         Snow, ground and net or wall.
-    settings : SolverSettings, TransientSettings or StaggeredSettings, optional
-        Of the steady state (default), of a history, or of the paper's exchange.
+    settings : SolverSettings or MethodSettings, optional
+        Of the steady state (default), or of a method that an add-on brings.
     """
-    # few runs follow histories or push a wall: they alone wait for the imports
-    if isinstance(settings, TransientSettings):
-        from netdesign.coupling.history.transient import solve_transient
-
-        return solve_transient(scene, settings)
-    if isinstance(settings, StaggeredSettings):
-        from netdesign.coupling.history.staggered import solve_staggered
-
-        return solve_staggered(scene, settings)
+    if settings is not None and not isinstance(settings, SolverSettings):
+        return settings.solve(scene)
     if isinstance(scene.net, Wall):
+        # few runs push a wall: they alone wait for the import
         from netdesign.coupling.steady.rigid import solve_rigid
 
         return solve_rigid(scene, settings)
@@ -41,11 +40,7 @@ def solve_scene(
 
 def method_of(settings: Settings) -> Method:
     """Name of the method that the settings choose."""
-    if isinstance(settings, TransientSettings):
-        return "transient"
-    if isinstance(settings, StaggeredSettings):
-        return "staggered"
-    return "steady"
+    return "steady" if isinstance(settings, SolverSettings) else settings.method
 
 
 def describe_case(scene: Scene, settings: Settings) -> str:

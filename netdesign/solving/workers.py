@@ -120,11 +120,9 @@ def _solve(job: Job) -> CaseEnd:
             reason=say("worker.wall"),
         )
     history = solution.history
-    if history is not None and not history.plateau.reached:
-        return FailedSolution(
-            outcome=Outcome.PLATEAU_NOT_REACHED,
-            reason=history.ended or Outcome.PLATEAU_NOT_REACHED.message,
-        )
+    reason = None if history is None else history.unproven
+    if reason is not None:
+        return FailedSolution(outcome=Outcome.PLATEAU_NOT_REACHED, reason=reason)
     state = keep_state(solution)
     if not state.is_finite:
         return FailedSolution(

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.edge.progress import Phase, RunProgress
 from netdesign.envelope.rows import RowEnvelope, RowGrid
@@ -67,7 +68,14 @@ def check_site(
     -------
     list of Study
         One for each profile.
+
+    Raises
+    ------
+    AddonError
+        If a reliability is asked for, and the installation lacks its add-on.
     """
+    if run.has_reliability:  # refused before anything is solved
+        addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
     runner, watch = runner or Runner(), watch or _SILENT
     names = name_rows(site, standards, run) if runner.store else {}
     known = find_rows(names, runner, len(standards))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope, RowGrid
@@ -198,15 +199,15 @@ def _find_reliability(
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
-    from netdesign.study.row_reliability import record_reliability
-
     worst = find_worst(found.records)
     judged = found.judged.get(worst.id) if worst else None
     by_case = None
     if judged is not None:
         by_case = find_check_by_case(task, known, judged, found.judged.values())
     solver = CaseSolver(run.settings, run.creep_law)
-    return record_reliability(task.site, found.records, worst, by_case, solver)
+    record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
+    made: ReliabilityRecord = record(task.site, found.records, worst, by_case, solver)
+    return made
 
 
 def _check_row(

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from netdesign.addons.history.response import keep_lengths, pull_nodes
 from netdesign.cable.net import (
     compute_end_directions,
     compute_node_forces,
@@ -13,7 +14,6 @@ from netdesign.cable.net import (
     compute_tensions,
     compute_turning_angles,
 )
-from netdesign.cable.response import keep_lengths, pull_nodes
 from tests.each import each
 
 BULGED = np.array([[0.0, 0.4, 0.7, 0.5, 0.6], [0.0, 0.6, 1.3, 2.1, 3.0]])

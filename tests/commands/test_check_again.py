@@ -6,7 +6,7 @@ from contextlib import closing
 
 import pytest
 
-from netdesign.evidence.benchmark.scenes import write_site
+from netdesign.addons.evidence.benchmark.scenes import write_site
 from netdesign.study import side_by_side
 
 SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.compiled import prepare_rounds
 from netdesign.coupling.steady.net import SteadyProblem, cut_net
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError
 from netdesign.snow.contact import Contact, FlowState, may_lift, start_contact
 from netdesign.snow.mesh import build_template, place_nodes

@@ -10,18 +10,18 @@ from pathlib import Path
 
 import numpy as np
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
+from netdesign.addons.history.instant import advance
+from netdesign.addons.history.settings import TransientSettings
+from netdesign.addons.history.state import build_problem as build_history
+from netdesign.addons.history.transient import run_history
 from netdesign.cable.net import Net
 from netdesign.core import library
-from netdesign.coupling.history.instant import advance
-from netdesign.coupling.history.settings import TransientSettings
-from netdesign.coupling.history.state import build_problem as build_history
-from netdesign.coupling.history.transient import run_history
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.compiled import prepare_rounds
 from netdesign.coupling.steady.net import find_contact_curve, start_net
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, SolveError
 from netdesign.panel.equations import build_problem, guess_point
 from netdesign.panel.inputs import CUTS, Panel, Rope

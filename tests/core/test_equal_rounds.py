@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.cable.net import Net
 from netdesign.core.library import find_core
 from netdesign.coupling.interface import find_support_forces
@@ -19,7 +20,6 @@ from netdesign.coupling.steady.net import (
     start_net,
 )
 from netdesign.coupling.steady.round import OffMeshError, take_round
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, SolveError
 from netdesign.snow.element import share_template
 from tests.each import each

@@ -6,11 +6,15 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import (
+    build_tables,
+    draw_scene,
+    load_scenes,
+)
 from netdesign.core.library import find_core
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene, load_scenes
 from netdesign.outcome import ModelError
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")

@@ -9,6 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables
+from netdesign.addons.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
@@ -16,8 +18,6 @@ from netdesign.coupling.steady import round
 from netdesign.coupling.steady import solve as steady
 from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.benchmark.scenes import build_tables
-from netdesign.evidence.benchmark.scenes import draw_scene as draw_any_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw

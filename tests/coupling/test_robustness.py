@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.settings import TRANSIENT_LEVELS, TransientSettings
-from netdesign.coupling.history.transient import run_history
+from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.addons.history.transient import run_history
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady

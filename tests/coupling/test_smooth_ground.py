@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.settings import TransientSettings
-from netdesign.coupling.history.transient import solve_transient
+from netdesign.addons.history.settings import TransientSettings
+from netdesign.addons.history.transient import solve_transient
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady

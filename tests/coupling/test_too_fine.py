@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.history.settings import TransientSettings
-from netdesign.coupling.history.transient import solve_transient
+from netdesign.addons.history.settings import TransientSettings
+from netdesign.addons.history.transient import solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid

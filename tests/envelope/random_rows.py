@@ -5,11 +5,11 @@ import random
 
 import numpy as np
 
+from netdesign.addons.evidence.scene import build_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.rows import RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
-from netdesign.evidence.scene import build_scene
 from netdesign.search.maxima import SearchSettings
 from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Runner

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.settings import TransientSettings
+from netdesign.addons.history.settings import TransientSettings
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
 from netdesign.envelope.extremes import describe_gap

@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import bound_by_less_slack
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import ModelError
 from netdesign.solving.solve import solve_scene

@@ -11,7 +11,7 @@ from functools import lru_cache, partial
 
 import pytest
 
-from netdesign.coupling.history.settings import TransientSettings
+from netdesign.addons.history.settings import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope import panel_forces
 from netdesign.outcome import SENTENCE, ModelError

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.settings import TRANSIENT_LEVELS
+from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from tests.each import each

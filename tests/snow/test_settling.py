@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.settings import TRANSIENT_LEVELS
-from netdesign.snow.body import Settling, build_body, build_material
+from netdesign.addons.history.body import Settling, build_body, build_material
+from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,

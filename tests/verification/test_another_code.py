@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.evidence.verification.another_code import (
+from netdesign.addons.evidence.verification.another_code import (
     list_another_code,
     load_results,
     solve_shared,

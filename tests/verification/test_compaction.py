@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.evidence.verification.compaction import (
+from netdesign.addons.evidence.verification.compaction import (
     MODELS,
     compute_viscosity,
     find_middle,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import sympy
 
-from netdesign.evidence.verification import manufactured
-from netdesign.evidence.verification.manufactured import (
+from netdesign.addons.evidence.verification import manufactured
+from netdesign.addons.evidence.verification.manufactured import (
     BULK_RATIO,
     exact_body_force,
     exact_pressure,

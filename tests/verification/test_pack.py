@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from netdesign.evidence.verification.case import (
+from netdesign.addons.evidence.verification.case import (
     VerificationCase,
     load_cases,
     observe_order,
 )
-from netdesign.evidence.verification.pack import run_pack, write_pack
+from netdesign.addons.evidence.verification.pack import run_pack, write_pack
 from netdesign.words.catalogue import load_texts
 from tests.each import each
 

@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.verification.panels import solve_net_in_space
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.verification.panels import solve_net_in_space
 from netdesign.panel.equations import estimate_force_along
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solution import PanelSolution, compute_end_forces

@@ -18,19 +18,22 @@ from scipy.sparse.linalg import spsolve
 from scipy.special import k0
 from skfem.helpers import dot, grad
 
-from netdesign.evidence.verification.plan_view import (
+from netdesign.addons.evidence.verification.plan_view import (
     build_block,
     find_excess,
     find_plan_excess,
 )
-from netdesign.evidence.verification.planview.free_gap import (
+from netdesign.addons.evidence.verification.planview.free_gap import (
     find_isolated_excess,
     find_isolated_load,
     solve_free_gap,
 )
-from netdesign.evidence.verification.planview.gap import find_excess_within, find_load
-from netdesign.evidence.verification.planview.pulled_gap import solve_pulled_gap
-from netdesign.evidence.verification.planview.row import (
+from netdesign.addons.evidence.verification.planview.gap import (
+    find_excess_within,
+    find_load,
+)
+from netdesign.addons.evidence.verification.planview.pulled_gap import solve_pulled_gap
+from netdesign.addons.evidence.verification.planview.row import (
     find_row_load,
     find_row_velocity,
     solve_row,

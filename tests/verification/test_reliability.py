@@ -1,6 +1,6 @@
 """Reliability indices against closed forms, another code, and drawn repeats.
 
-Theory: reliability/THEORY.md. Reference values: FACTS.md, section 15. Those of pystra
+Theory: addons/reliability/THEORY.md. Values: FACTS.md, section 15. Those of pystra
 1.6.0 (FORM, and its importance sampling of 200,000 samples or more) were worked out
 apart; the tests do not need it.
 """
@@ -12,16 +12,16 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from netdesign.checks import load_standard
-from netdesign.guideline.load_model import read_load_model
-from netdesign.reliability.form import NotAvailable, find_design_points
-from netdesign.reliability.limit_state import (
+from netdesign.addons.reliability.form import NotAvailable, find_design_points
+from netdesign.addons.reliability.limit_state import (
     LimitState,
     Variable,
     build_annual_maximum,
 )
-from netdesign.reliability.reliability import find_reliability
-from netdesign.reliability.sampling import LARGEST_ERROR, estimate_betas
+from netdesign.addons.reliability.reliability import find_reliability
+from netdesign.addons.reliability.sampling import LARGEST_ERROR, estimate_betas
+from netdesign.checks import load_standard
+from netdesign.guideline.load_model import read_load_model
 from tests.each import each
 
 REPEATS = 200

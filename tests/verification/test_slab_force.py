@@ -8,23 +8,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import netdesign.evidence.verification
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
-from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.evidence.verification.slab import (
+import netdesign.addons.evidence.verification
+from netdesign.addons.evidence.verification.slab import (
     Slab,
     compute_influence_length,
     compute_slab_force,
     find_linear_slip,
     scale_slip_length,
 )
+from netdesign.coupling.scene import Scene, SolverSettings, Wall
+from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack
 
 PAGE = (
-    Path(netdesign.evidence.verification.__file__)
+    Path(netdesign.addons.evidence.verification.__file__)
     .with_name("THEORY.md")
     .read_text("utf-8")
 )

@@ -10,12 +10,12 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from netdesign.commands.snow import snowpack
-from netdesign.evidence.verification.winters import (
+from netdesign.addons.evidence.verification.winters import (
     list_snow_heights,
     measure_imbalance,
     read_weissfluhjoch,
 )
+from netdesign.commands.snow import snowpack
 from netdesign.snowpack.follow import MODELS, follow_heights
 from netdesign.snowpack.hs2swe import HS2SWE
 from netdesign.snowpack.series import name_winter

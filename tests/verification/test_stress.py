@@ -8,10 +8,10 @@ import sys
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.snow import element
 from netdesign.snow.element import share_template
 from netdesign.snow.mesh import MeshTemplate, build_template
@@ -88,7 +88,7 @@ def test_order_of_cases_does_not_matter():
 
 
 PROBE = """
-from netdesign.evidence.benchmark.scenes import SCENES, build_tables
+from netdesign.addons.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 for name in ("paper-30", "slipping-part"):

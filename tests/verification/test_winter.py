@@ -10,7 +10,7 @@ from datetime import date, timedelta
 
 import pytest
 
-from netdesign.evidence.verification.winters import (
+from netdesign.addons.evidence.verification.winters import (
     read_made_up_winter,
     solve_winter,
 )

@@ -13,10 +13,10 @@ from netdesign.report.sections import (
     decision,
     guideline,
     quality,
-    reliability,
     schedule,
     worked,
 )
+from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.row import RowSections
 from netdesign.report.what_if import mark_title
 from netdesign.report.words import Words, show_text
@@ -80,7 +80,7 @@ def build_report(
         basis.show_profile(study, words),
         quality.show_quality(study, words),
         annexes.show_verification(study, words),
-        *reliability.show_reliability(study, words),
+        *(part for one in list_additions(study) for part in one.show(study, words)),
     )
 
 
@@ -108,7 +108,7 @@ def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
     parts = ("basis", *(("map",) if has_map else ()), "schedule")
     named = {name: words(f"heading.{name}") for name in parts}
     named["inputs"] = words("heading.inputs_of_rows")
-    further = ("annex-reliability",) if reliability.list_records(study) else ()
+    further = [one.annex for one in list_additions(study)]
     for name in (*_ANNEXES, *further):
         named[name] = words(f"heading.{name.replace('-', '_')}")
     lines = [_list_links(named.items())]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from netdesign.outcome import NetDesignError, Verdict
@@ -20,6 +19,7 @@ from netdesign.report.blocks import (
     number_column,
     text_cell,
 )
+from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
@@ -42,12 +42,6 @@ from netdesign.report.sections.quality import (
     stack_rows,
     stack_tables,
 )
-from netdesign.report.sections.reliability import (
-    list_records,
-    tabulate_indices,
-    tabulate_shares,
-    tabulate_variables,
-)
 from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.whole import list_properties, title_pages
 from netdesign.report.what_if import build_what_if, mark_title, name_kind
@@ -63,7 +57,9 @@ from netdesign.report.workbook.check_sheet import (
     count_block,
 )
 from netdesign.report.workbook.writer import (
+    BETWEEN_TABLES,
     DEFAULT_FONT,
+    TABLE_TOP,
     Book,
     count_lines,
     fit_headings,
@@ -225,8 +221,6 @@ def _write_below(book: Book, sheet: Any, study: Study, top: int) -> None:
         top += 2
 
 
-_FIRST_LINE = 4  # of a table below its caption and headings, zero-based
-_BETWEEN = 3  # lines from one table of a sheet to the next
 SHEETS = (
     "decision",
     "schedule",
@@ -237,8 +231,6 @@ SHEETS = (
     "notes",
     "provenance",
 )
-_RELIABILITY = "reliability"  # a sheet more, where somebody asks for it
-_SHARE = 2  # column of the shares, zero-based
 
 
 def render_workbook(
@@ -274,7 +266,7 @@ def render_workbook(
         book = Book(workbook, properties["subject"], words)
         _add_sheets(book, study, is_verified=is_verified)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
-        further = (_RELIABILITY,) if list_records(study) else ()
+        further = [one.sheet for one in list_additions(study)]
         if names != tuple(book.name(sheet) for sheet in (*SHEETS, *further)):
             raise NetDesignError(f"the workbook is incomplete: it has only {names}")
     return buffer.getvalue()
@@ -299,8 +291,8 @@ def _add_sheets(book: Book, study: Study, *, is_verified: bool) -> None:
     )
     made = [build_provenance(study, words)]
     book.add_table_sheet("provenance", words("heading.provenance"), made)
-    if list_records(study):
-        _add_reliability(book, study)
+    for one in list_additions(study):
+        one.add_sheet(book, study)
     link_sheets(book, SHEETS[1:])
 
 
@@ -313,7 +305,7 @@ def _add_schedule(book: Book, study: Study) -> None:
     ordered = build_quantities(study, words, has_prices=True)
     title = words("heading.schedule")
     sheet = book.add_table_sheet("schedule", title, [built, ordered])
-    first = _FIRST_LINE + len(built.rows) + _BETWEEN
+    first = TABLE_TOP + len(built.rows) + BETWEEN_TABLES
     number, total, price = (len(ordered.columns) - one for one in (6, 4, 3))
     for line, cells in enumerate(ordered.rows, first):
         by_piece = cells[number].number is not None
@@ -338,20 +330,6 @@ def _add_cases(book: Book, study: Study) -> None:
         stack_rows(words("caption.extremes"), study, build_extremes, words),
     ]
     book.add_table_sheet("cases", words("heading.all_cases"), shown)
-
-
-def _add_reliability(book: Book, study: Study) -> None:
-    """Sheet of the notional reliability, with bars behind its shares."""
-    words = book.words
-    indices, shares = tabulate_indices(study, words), tabulate_shares(study, words)
-    note = words("reliability.is_not")
-    told = words("reliability.captioned", caption=indices.caption, note=note)
-    tables = [replace(indices, caption=told), shares, tabulate_variables(study, words)]
-    sheet = book.add_table_sheet(_RELIABILITY, words("heading.reliability"), tables)
-    first = _FIRST_LINE + len(indices.rows) + _BETWEEN
-    if shares.rows:
-        last = first + len(shares.rows) - 1
-        book.add_ratio_bars(sheet, (first, _SHARE, last, _SHARE), full=1.0)
 
 
 def _list_notes(book: Book, study: Study) -> Iterator[Table]:

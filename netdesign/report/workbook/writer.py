@@ -21,6 +21,8 @@ _NARROWEST, _WIDEST, _ALONE = 6.0, 50.0, 130.0  # columns; one without others
 _CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
 _WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
 _INDENT = 1.5  # of a text
+TABLE_TOP = 4  # line of a table below its caption and headings, zero-based
+BETWEEN_TABLES = 3  # lines from one table of a sheet to the next
 
 
 def count_lines(

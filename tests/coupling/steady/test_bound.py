@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings, Wall
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
 from netdesign.coupling.steady.solve import bound_by_less_slack, solve_steady
-from netdesign.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.outcome import ModelError, Outcome
 
 ROUGH = SolverSettings(accuracy=0.05)

@@ -1,0 +1,347 @@
+"""Run time against error: scenes by resolution, method and path, in one run.
+
+A row is a solve on one mesh with the coarser one before it, which gives the error
+estimate: the cheapest result of that mesh that the program would hand out. Both paths
+are timed in turns, so that a busy machine slows both; meshes and start values of a
+scene's shape are found before the first timing, as in an envelope of many cases.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import platform
+import tracemalloc
+from collections import defaultdict
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from importlib.metadata import version
+from itertools import pairwise
+from statistics import median
+from typing import TYPE_CHECKING, Any, Literal
+
+from netdesign import __version__
+from netdesign.addons.evidence.benchmark import reference_path
+from netdesign.addons.evidence.benchmark.truth import (
+    Truth,
+    build_truth,
+    refine_size,
+    solve_truth,
+    state_error,
+)
+from netdesign.addons.evidence.runner import (
+    fit_order,
+    measure,
+    run_in_turns,
+    summarise_times,
+)
+from netdesign.addons.evidence.table import show_document, show_rows
+from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.addons.history.transient import solve_transient
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution, require_solved
+from netdesign.coupling.steady.solve import solve_steady
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    GREY,
+    INK,
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
+)
+from netdesign.report.words import ENGLISH
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+BENCH_SCHEMA = "netdesign.bench/1"
+HISTORY_ACCURACY = 0.01  # of the steps
+
+# Accuracies asked for: of the truth, and of a pair of meshes (both are always solved).
+# The iterations leave a 25th of them.
+_TIGHT, _OFFERED = 1e-4, 5e-3
+
+
+QUICK = {"finest": 2, "repeats": 3}  # place of the finest level; of each timing
+_ASKED = (1e-2, 5e-3, 1e-3)  # accuracies whose times are told
+
+Solve = Callable[[], Solution | FailedSolution]
+
+
+def measure_steady(
+    name: str, scene: Scene, finest: int = 3, repeats: int = 5
+) -> list[Row]:
+    """Rows of one scene: every pair of levels up to the finest, all paths, in turns.
+
+    Raises
+    ------
+    SolveError
+        If a mesh gives no converged solution.
+    """
+    settings = SolverSettings(accuracy=_OFFERED)
+    tight = replace(settings, accuracy=_TIGHT)
+    # cut in four once: to cut it twice would take minutes a scene
+    truth = solve_truth(scene, MESH_LEVELS[finest], tight, halvings=1)
+    rows = []
+    for pair in pairwise(MESH_LEVELS[: finest + 1]):
+        fast = replace(settings, levels=pair)
+        plain = replace(fast, step=reference_path.advance)
+        solves: dict[Path, Solve] = {
+            "fast": partial(solve_steady, scene, fast),
+            "reference": partial(solve_steady, scene, plain),
+        }
+        rows += _measure(name, "steady", solves, truth, repeats)
+    return rows
+
+
+def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
+    """Rows of one scene's history up to its plateau; errors of its largest pulls.
+
+    The truth is a history on twice the finest mesh with steps for a tenth of the
+    accuracy; a finer one would take minutes.
+    """
+    settings = TransientSettings(accuracy=HISTORY_ACCURACY, stops_at_plateau=True)
+    finest = TRANSIENT_LEVELS[-1]
+    fine = replace(
+        settings,
+        accuracy=HISTORY_ACCURACY / 10.0,
+        levels=(finest, refine_size(finest, 1)),
+    )
+    truth = build_truth(solve_transient(scene, fine))
+    rows = []
+    for pair in pairwise(TRANSIENT_LEVELS):
+        solve = partial(solve_transient, scene, replace(settings, levels=pair))
+        rows += _measure(name, "transient", {"fast": solve}, truth, repeats)
+    return rows
+
+
+def time_accuracies(
+    scenes: Collection[Scene], repeats: int = 5
+) -> list[dict[str, Any]]:
+    """Times of all scenes to each accuracy, which is stated with the result."""
+    shown = []
+    for accuracy in _ASKED:
+        settings = SolverSettings(accuracy=accuracy)
+        solves = [partial(solve_steady, scene, settings) for scene in scenes]
+        times = [min(measure(solve) for _ in range(repeats)) for solve in solves]
+        shown.append({"accuracy": accuracy, **summarise_times(times)})
+    return shown
+
+
+def _measure(
+    name: str, method: Method, solves: Mapping[Path, Solve], truth: Truth, repeats: int
+) -> list[Row]:
+    """Solve each path once for its result and memory, then all in turns for time."""
+    found = {path: _observe(solve) for path, solve in solves.items()}
+    works = {path: partial(measure, solve) for path, solve in solves.items()}
+    timed = run_in_turns(works, repeats)
+    return [
+        Row(
+            scene=name,
+            method=method,
+            path=path,
+            elements=solution.cost.elements,
+            degrees_of_freedom=solution.cost.degrees_of_freedom,
+            wall_s=min(timed[path]),
+            error=truth.compare(solution),
+            stated_error=state_error(solution),
+            linear_solves=solution.cost.linear_solves,
+            rounds=solution.cost.rounds,
+            peak_mb=peak_mb,
+        )
+        for path, (solution, peak_mb) in found.items()
+    ]
+
+
+def _observe(solve: Solve) -> tuple[Solution, float]:
+    """Solution, and the memory that a second, warm solve takes [MB]."""
+    solution = require_solved(solve())
+    tracemalloc.start()
+    try:
+        solve()
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    return solution, peak / 1e6
+
+
+def write_bench(rows: Sequence[Row], asked: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Plain values in the form ``netdesign.bench/1``."""
+    return {
+        "schema": BENCH_SCHEMA,
+        "provenance": {
+            "version": __version__,
+            "python": platform.python_version(),
+            "machine": platform.machine(),
+            "cores": os.cpu_count(),
+            **{name: version(name) for name in ("numpy", "scipy", "scikit-fem")},
+        },
+        "rows": [asdict(row) for row in rows],
+        "asked": list(asked),
+        "summary": summarise(rows),
+    }
+
+
+def print_bench(document: dict[str, Any], console: Console) -> None:
+    """Print a line for each row, times to accuracies, then what all say together."""
+    show_rows(document["rows"], console)
+    show_rows(document["asked"], console)
+    show_document(document["summary"], console)
+
+
+Path = Literal["fast", "reference"]
+Method = Literal["steady", "transient"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """One method on one mesh.
+
+    Attributes
+    ----------
+    scene, method : str
+        What was solved, and how.
+    path : str
+        ``fast`` kernel, or its meshes solved in scikit-fem (``reference``).
+    elements, degrees_of_freedom : int
+        Of the finer mesh.
+    wall_s : float
+        Shortest of the repeated timings: what else runs can only lengthen one [s].
+    error : float
+        Worse of the end pulls, relative, against a mesh twice as fine as the
+        finest that is measured [-].
+    stated_error : float
+        What the solution itself says [-].
+    linear_solves, rounds : int
+        Of both meshes.
+    peak_mb : float
+        Most memory that Python and NumPy held at once, beyond what they held before;
+        SciPy's sparse factors are not seen [MB].
+    """
+
+    scene: str
+    method: Method
+    path: Path
+    elements: int
+    degrees_of_freedom: int
+    wall_s: float
+    error: float
+    stated_error: float
+    linear_solves: int
+    rounds: int
+    peak_mb: float
+
+
+def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
+    """Figures of the steady rows over all scenes; None where there are too few.
+
+    ``times_faster``: time of scikit-fem over that of the fast path on the same mesh,
+    hence at equal error.
+    ``cost_order``: p in time ~ degrees of freedom^p, of the fast path; ``error_order``:
+    q in error ~ degrees of freedom^-q/2. All are medians unless named otherwise.
+    """
+    steady = [row for row in rows if row.method == "steady"]
+    ratios = compare_paths(steady)
+    by_scene: dict[str, list[Row]] = defaultdict(list)
+    for row in steady:
+        if row.path == "fast":
+            by_scene[row.scene].append(row)
+    fitted = [group for group in by_scene.values() if len(group) > 2]
+    costs = [_fit(group, "wall_s") for group in fitted]
+    orders = [-2.0 * _fit(group, "error") for group in fitted]
+    return {
+        "times_faster": median(ratios) if ratios else None,
+        "least_times_faster": min(ratios, default=None),
+        "most_times_faster": max(ratios, default=None),
+        "cost_order": median(costs) if costs else None,
+        "worst_cost_order": max(costs, default=None),
+        "error_order": median(orders) if orders else None,
+    }
+
+
+def _fit(rows: Sequence[Row], name: str) -> float:
+    """Power of the degrees of freedom with which a field of the rows grows."""
+    sizes = [row.degrees_of_freedom for row in rows]
+    return fit_order(sizes, [getattr(row, name) for row in rows])
+
+
+def compare_paths(rows: Sequence[Row]) -> list[float]:
+    """Time of the reference path over the fast one's, wherever both were measured.
+
+    Both are on one mesh, so their errors are equal to the solvers' tolerances.
+    """
+    fast = {(r.scene, r.elements): r.wall_s for r in rows if r.path == "fast"}
+    return [
+        row.wall_s / fast[row.scene, row.elements]
+        for row in rows
+        if row.path == "reference" and (row.scene, row.elements) in fast
+    ]
+
+
+_TALL, _LEFT, _ABOVE, _BELOW = 200.0, 42.0, 28.0, 32.0  # of the panel, beside it [pt]
+
+
+def draw_work_precision(rows: Sequence[Row]) -> str:
+    """Run time against error: a dot a row, the median of each resolution joined."""
+    chart, points = Chart(language="en"), [_place(row) for row in rows]
+    (left, right), (low, high) = (
+        bounds_of([axis]) for axis in zip(*points, strict=True)
+    )
+    frame = Frame(
+        left=_LEFT,
+        top=_ABOVE,
+        width=WIDTH - _LEFT - 8.0,
+        height=_TALL,
+        x_low=right + 0.1,  # falling: better is to the right
+        x_high=left - 0.1,
+        y_low=low - 0.1,
+        y_high=high + 0.1,
+    )
+    looks = {"fast": (ACCENT, ""), "reference": (INK, "5 1.6"), "transient": (GREY, "")}
+    for number, (name, (stroke, dash)) in enumerate(looks.items()):
+        found = [one for one in rows if name in (one.method, one.path)]
+        if name != "transient":
+            found = [one for one in found if one.method == "steady"]
+        if found:
+            _draw_rows(chart, frame, found, stroke, dash)
+            x = frame.left + 130.0 * number
+            chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke, dash=dash)
+            chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{name}"))
+    chart.axes(frame, x_ticks=False, y_ticks=False)
+    for across in (True, False):
+        chart.decades(frame, across=across)
+    chart.text(2.0, _ABOVE - 5.0, ENGLISH("bench_plot.time"))
+    bottom = _ABOVE + _TALL + _BELOW
+    middle = frame.left + frame.width / 2.0
+    chart.text(middle, bottom - 6.0, ENGLISH("bench_plot.error"), anchor="middle")
+    return chart.write(bottom, ENGLISH("bench_plot.title"))
+
+
+def _draw_rows(
+    chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str, dash: str
+) -> None:
+    """Dots of all rows; steady ones have a line through the medians of their meshes."""
+    for x, y in map(_place, rows):
+        chart.dot((frame.x(x), frame.y(y)), 1.2, fill=stroke, stroke=stroke)
+    if rows[0].method == "steady":
+        groups = [list(map(_place, one)) for one in _group_by_resolution(rows)]
+        middles = [map(median, zip(*one, strict=True)) for one in groups]
+        line = [(frame.x(x), frame.y(y)) for x, y in middles]
+        chart.line(line, stroke=stroke, width=1.2, dash=dash)
+
+
+def _place(row: Row) -> tuple[float, float]:
+    """Logarithms of error [%] and run time [ms]."""
+    return math.log10(100.0 * row.error), math.log10(1e3 * row.wall_s)
+
+
+def _group_by_resolution(rows: Sequence[Row]) -> list[list[Row]]:
+    """First rows of all scenes, second rows, ...: one group a mesh level."""
+    seen: dict[str, int] = defaultdict(int)
+    groups: dict[int, list[Row]] = defaultdict(list)
+    for row in rows:
+        groups[seen[row.scene]].append(row)
+        seen[row.scene] += 1
+    return [groups[place] for place in sorted(groups)]

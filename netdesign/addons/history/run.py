@@ -1,0 +1,286 @@
+"""A whole history on one mesh, and the solution in SI units that histories make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from netdesign.addons.history.body import largest_density
+from netdesign.addons.history.followed import History
+from netdesign.addons.history.instant import Instant
+from netdesign.addons.history.moments import (
+    HistoryPoint,
+    Plateau,
+    largest_pull,
+    select_counted,
+)
+from netdesign.addons.history.settings import Start
+from netdesign.addons.history.state import TransientProblem, TransientState
+from netdesign.cable.net import compute_node_forces
+from netdesign.coupling.balance import check_balance, negative_share
+from netdesign.coupling.interface import Estimate
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.words.message import Message
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Run:
+    """A whole history on one mesh, dimensionless.
+
+    Attributes
+    ----------
+    problem : TransientProblem
+        Scene.
+    moments : tuple of HistoryPoint
+        After every step.
+    plateau : Plateau
+        Whether it came to rest.
+    state, instant : TransientState, Instant
+        At the end.
+    fallen : float
+        Share of the snow's mass that fell over the head.
+    ended : Message or None
+        Why the run ended before its horizon; None if it did not.
+    linear_solves, rejected : int
+        Solves taken; steps that were repeated.
+    start : str
+        ``steady``, ``sagged`` or ``straight``.
+    """
+
+    problem: TransientProblem
+    moments: tuple[HistoryPoint, ...]
+    plateau: Plateau
+    state: TransientState
+    instant: Instant
+    fallen: float
+    ended: Message | None
+    linear_solves: int
+    rejected: int
+    start: Start
+
+    @property
+    def counted(self) -> Sequence[HistoryPoint]:
+        """Moments whose pulls are those of the scene's snow on its net."""
+        is_guessed = self.start != "steady"
+        return select_counted(self.moments, self.plateau, is_guessed=is_guessed)
+
+
+def record_moment(
+    problem: TransientProblem,
+    state: TransientState,
+    instant: Instant,
+    way: Floats | float,
+    moments: Sequence[HistoryPoint],
+    step: float,
+) -> tuple[HistoryPoint, Floats]:
+    """Point of a history at the end of a step.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        After the step.
+    instant : Instant
+        Equilibrium at the step's end.
+    way : ndarray, shape (n,), or float
+        Ways of the net's vertices before the step [thickness]; 0 at first.
+    moments : sequence of HistoryPoint
+        Those before the step.
+    step : float
+        Duration [time scale].
+
+    Returns
+    -------
+    HistoryPoint, ndarray, shape (n,)
+        And the ways after the step [thickness].
+    """
+    net = state.body.topology.net
+    axes = _net_normals(state.body.vertices[:, net])
+    across = np.abs((instant.velocity[:, net] * axes).sum(axis=0))
+    ways = way + across * step
+    tensions = instant.response.sliding.tensions
+    ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
+    strain = moments[-1].strain if moments else 0.0
+    moment = HistoryPoint(
+        time=state.time,
+        foot=instant.foot_pull,
+        head=instant.head_pull,
+        tension_min=float(min(tensions.min(), *ends)),
+        tension_max=float(max(tensions.max(), *ends)),
+        on_net=instant.on_net,
+        max_relative_density=largest_density(problem.settling, state.body),
+        way=float(ways.max()),
+        speed=float(across.max()),
+        strain=strain + instant.creep_rate * step,
+        residual=instant.residual,
+    )
+    return moment, ways
+
+
+def measure_run(run: Run) -> list[Floats]:
+    """Largest pulls that count.
+
+    Parameters
+    ----------
+    run : Run
+        On one mesh.
+
+    Returns
+    -------
+    list of ndarray, shape (2,)
+        On foot and head [rho g d^2].
+    """
+    return [
+        largest_pull([moment.foot for moment in run.counted]),
+        largest_pull([moment.head for moment in run.counted]),
+    ]
+
+
+def _net_normals(points: Floats) -> Floats:
+    """Unit normals of a polygon at its points (2, n)."""
+    along = np.gradient(points, axis=1)
+    return np.asarray(np.array([along[1], -along[0]]) / np.hypot(*along))
+
+
+def scale_history(run: Run, scene: Scene) -> History:
+    """History of a run in SI units.
+
+    Parameters
+    ----------
+    run : Run
+        Dimensionless.
+    scene : Scene
+        Its scales.
+    """
+    plateau = run.plateau
+    if plateau.time is not None:
+        plateau = replace(plateau, time=plateau.time * scene.time_scale)
+    return History(
+        moments=tuple(_scale_moment(moment, scene) for moment in run.moments),
+        plateau=plateau,
+        start=run.start,
+        densifies=run.problem.settling.densifies,
+        fallen_share=run.fallen,
+        ended=run.ended,
+    )
+
+
+def build_solution(
+    scene: Scene,
+    runs: Sequence[Run],
+    pulls: Sequence[Estimate],
+    method: Method,
+    balance_tolerance: float,
+    friction_tolerance: float | None = None,
+) -> Solution:
+    """Solution whose shapes are those at the end of the finest run.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was solved.
+    runs : sequence of Run
+        Of all meshes; the finest is the last.
+    pulls : sequence of Estimate
+        Largest on foot and head, with their errors [rho g d^2].
+    method : str
+        ``transient`` or ``staggered``.
+    balance_tolerance : float
+        Largest force missing over the weight [-].
+    friction_tolerance : float, optional
+        Shear beyond the friction limit over the weight [-]; default is the former.
+
+    Raises
+    ------
+    SolveError
+        If a balance is not met.
+    """
+    run = runs[-1]
+    foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in pulls)
+    thickness, body = scene.snowpack.thickness, run.state.body
+    template = body.topology.template
+    vertices = body.vertices
+    nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
+    points = run.instant.points
+    along = run.problem.head / np.hypot(*run.problem.head)
+    balance = _measure_balance(run, scene)
+    check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
+    return Solution(
+        scene=scene,
+        method=method,
+        foot=foot,
+        head=head,
+        tension_min=min(one.tension_min for one in run.counted) * scene.force_scale,
+        tension_max=max(one.tension_max for one in run.counted) * scene.force_scale,
+        sag=float((along[1] * points[0] - along[0] * points[1]).max()) * thickness,
+        net_curve=points * thickness,
+        net_forces=_list_forces(run) * scene.force_scale,
+        net_slides=_find_slides(run),
+        mesh_nodes=nodes * thickness,
+        mesh_edges=template.edges,
+        mesh_triangles=body.topology.triangles.T,
+        mesh_density=body.density * scene.snowpack.density,
+        mesh_velocity=run.instant.velocity * scene.velocity_scale,
+        balance=balance,
+        cost=Cost(
+            linear_solves=sum(part.linear_solves for part in runs),
+            rounds=sum(len(part.moments) + part.rejected for part in runs),
+            elements=template.triangles.shape[1],
+            degrees_of_freedom=2 * template.nodes.shape[1],
+        ),
+        history=scale_history(run, scene),
+    )
+
+
+def _list_forces(run: Run) -> Floats:
+    """Forces of the snow on the net's nodes, shape (2, n), foot to head."""
+    on_net = run.instant.on_net
+    corner = -on_net.sum(axis=1)
+    corner += run.instant.foot_pull + run.instant.head_pull
+    return np.column_stack([corner, on_net])
+
+
+def _find_slides(run: Run) -> Mask:
+    """Net nodes at which the snow slips, foot to head."""
+    signs = run.instant.response.sliding.slide_signs
+    slides = np.append(False, signs != 0)
+    if run.instant.on_net.shape[1] > signs.size:
+        slides = np.append(slides, True)  # a corner held at the head slips freely
+    return slides
+
+
+def _scale_moment(moment: HistoryPoint, scene: Scene) -> HistoryPoint:
+    force, thickness = scene.force_scale, scene.snowpack.thickness
+    return replace(
+        moment,
+        time=moment.time * scene.time_scale,
+        foot=moment.foot * force,
+        head=moment.head * force,
+        tension_min=moment.tension_min * force,
+        tension_max=moment.tension_max * force,
+        on_net=moment.on_net * force,
+        way=moment.way * thickness,
+        speed=moment.speed * scene.velocity_scale,
+    )
+
+
+def _measure_balance(run: Run, scene: Scene) -> Balance:
+    weight = float(run.state.body.mass.sum())
+    tensions = run.instant.response.sliding.tensions
+    normal, tangential = compute_node_forces(run.instant.points, tensions)
+    friction = run.problem.snow.friction
+    excess = np.abs(tangential) - friction * np.maximum(normal, 0.0)
+    size = weight * float(np.hypot(*run.problem.snow.gravity))
+    return Balance(
+        weight_along_slope=weight * run.problem.snow.gravity[0] * scene.force_scale,
+        relative_residual=max(moment.residual for moment in run.moments),
+        friction_excess=max(0.0, float(excess.max())) / size,
+        smallest_tension=float(tensions.min()) * scene.force_scale,
+        suction_share=negative_share(normal),
+        ground_tension_share=negative_share(run.instant.ground_normal),
+    )

@@ -1,0 +1,329 @@
+"""The history: snow that creeps against the net until neither moves the other.
+
+Steps are implicit in the net's stiffness and as long as accuracy allows; the snow
+keeps its mass and may densify. Theory: coupling/THEORY.md, section 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from netdesign.addons.history.follow import follow
+from netdesign.addons.history.instant import Instant, advance
+from netdesign.addons.history.moments import (
+    HistoryPoint,
+    Plateau,
+    find_plateau,
+    judge_plateau,
+)
+from netdesign.addons.history.net_start import build_start, find_start
+from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.run import (
+    Run,
+    build_solution,
+    measure_run,
+    record_moment,
+)
+from netdesign.addons.history.settings import (
+    TransientSettings,
+)
+from netdesign.addons.history.state import (
+    TransientProblem,
+    TransientState,
+    build_problem,
+)
+from netdesign.coupling.interface import ErrorModel, refine
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import (
+    FailedSolution,
+    OnFailure,
+    Solution,
+    end_solve,
+)
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.words.message import say
+
+# First step, in creep time. A straight net takes up its load from the corners inward,
+# within a time that goes with the square of their size; one that sags has most of its
+# load from the start.
+_FIRST_STRAIGHT, _FIRST_SAGGED = 1e-4, 1e-5
+_SHORTEST_STEP, _SHORTEST_SHARE = 1e-12, 1e-4  # of creep time; of the time so far
+_LONGEST_GROWTH, _SHORTEST_GROWTH = 2.0, 0.25
+_SAFETY = 0.9
+_FAILED_CUT = 0.25
+# Error of a step, as the tension feels it, over the accuracy (measured: 3 gives about
+# the accuracy on the way to the plateau, and a fifth of it there).
+_STEP_SHARE = 3.0
+# Step error of the coarsest mesh over that of the next, and so on: errors in time fall
+# as those in space, so that the difference of two meshes shows both.
+_LEVEL_RATIO = 4.0
+_TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is repeated
+# Local error of a BDF2 step over its distance from the extrapolation.
+_ERROR_SHARE = 0.25
+# Of the largest pulls of a history (coupling/THEORY.md, section 6).
+_ERROR = ErrorModel(share=2.0, floor=5e-3)
+# Balance of a whole history, over what is asked of a step.
+_WHOLE_BALANCE = 100.0
+_LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
+
+
+def solve_transient(
+    scene: Scene,
+    settings: TransientSettings | None = None,
+    *,
+    on_failure: OnFailure = "return",
+) -> Solution | FailedSolution:
+    """History of a scene on two meshes or more.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : TransientSettings, optional
+        Start, horizon, accuracy.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` a SolveError.
+
+    Returns
+    -------
+    Solution or FailedSolution
+        ``foot`` and ``head`` are the largest pulls while the snow is the scene's
+        (``select_counted``), whatever the horizon; the plateau's own are in
+        ``history``. A history whose plateau is not reached, or is left again, says so
+        and proves nothing.
+
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
+    Verified by
+    -----------
+    tests/addons/history/test_transient.py, ``netdesign verify``
+    """
+    return end_solve(
+        lambda: _refine(scene, settings or TransientSettings()), on_failure
+    )
+
+
+def run_history(
+    scene: Scene,
+    size: MeshSize,
+    settings: TransientSettings,
+    horizon: float,
+    *,
+    step_share: float = 1.0,
+    on_state: Callable[[TransientState], None] | None = None,
+) -> Run:
+    """One history on one mesh.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Resolution.
+    settings : TransientSettings
+        Start, tolerances.
+    horizon : float
+        Creep time, dimensionless.
+    step_share : float
+        Error allowed in a step over that of the settings [-].
+    on_state : callable, optional
+        Called with the state after every step.
+
+    Raises
+    ------
+    SolveError
+        If not even the first step succeeds.
+    """
+    problem = build_problem(scene, densifies=settings.densifies)
+    template = build_template(scene.snowpack.aspect, size, scene.layer_tops)
+    first = _FIRST_SAGGED
+    if settings.start == "straight":
+        first = _FIRST_STRAIGHT * size.corner**2
+    walk = _Walk(
+        problem=problem,
+        settings=settings,
+        state=build_start(problem, template, find_start(scene, size, settings.start)),
+        step=first,
+        step_share=step_share,
+        horizon=horizon,
+    )
+    if on_state is not None:
+        on_state(walk.state)
+    while not walk.is_over:
+        if walk.take_step() and on_state is not None:
+            on_state(walk.state)
+    return walk.finish()
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class _Walk:
+    """A run under way: the one place with a state that changes."""
+
+    problem: TransientProblem
+    settings: TransientSettings
+    state: TransientState
+    step: float
+    step_share: float
+    horizon: float
+    moments: list[HistoryPoint] = field(default_factory=list)
+    instant: Instant | None = None
+    way: Floats | float = 0.0
+    fallen: float = 0.0
+    solves: int = 0
+    rejected: int = 0
+    failure: SolveError | None = None
+    plateau: Plateau = field(default_factory=lambda: Plateau(reached=False))
+
+    @property
+    def is_over(self) -> bool:
+        """Nothing more to do."""
+        if self.failure is not None or self.state.time >= self.horizon * (1 - 1e-12):
+            return True
+        return self.settings.stops_at_plateau and self.plateau.reached
+
+    def take_step(self) -> bool:
+        """Try one step; True if it was accepted."""
+        if len(self.moments) >= self.settings.max_steps:
+            self.failure = SolveError(
+                Outcome.MAX_ITERATIONS, f"{len(self.moments)} steps were not enough"
+            )
+            return False
+        step = min(self.step, self.horizon - self.state.time)
+        try:
+            instant = self._advance(step)
+            error = self._estimate_error(instant, step)
+            if error > _TOO_LARGE:
+                self.rejected += 1
+                self.step = step * _grow(error)
+                return False
+            state, fallen = follow(self.problem, self.state, instant, step)
+        except SolveError as failure:
+            self.rejected += 1
+            self.step = step * _FAILED_CUT
+            shortest = max(_SHORTEST_STEP, _SHORTEST_SHARE * self.state.time)
+            if self.step < shortest:
+                self.failure = failure
+            return False
+        self._record(instant, state, fallen, step)
+        self.step = step * _grow(error)
+        return True
+
+    def finish(self) -> Run:
+        """The run; one that failed ends where its last step was in balance."""
+        if self.instant is None:
+            failure = self.failure or SolveError(Outcome.MAX_ITERATIONS)
+            raise SolveError(
+                failure.outcome, say("history.first_step", reason=failure.reason)
+            )
+        total = float(self.state.body.mass.sum()) + self.fallen
+        return Run(
+            problem=self.problem,
+            moments=tuple(self.moments),
+            plateau=judge_plateau(self.moments, self.plateau),
+            state=self.state,
+            instant=self.instant,
+            fallen=self.fallen / total,
+            ended=None if self.failure is None else self.failure.reason,
+            linear_solves=self.solves,
+            rejected=self.rejected,
+            start=self.settings.start,
+        )
+
+    def _advance(self, step: float) -> Instant:
+        return advance(
+            self.problem,
+            self.state,
+            step,
+            tolerance=self.settings.stress_tolerance,
+            balance_tolerance=self.settings.balance_tolerance,
+            max_iterations=self.settings.max_iterations,
+        )
+
+    def _estimate_error(self, instant: Instant, step: float) -> float:
+        """Error of the step's displacements over what is allowed."""
+        if self.state.step == 0.0:
+            return 0.0
+        count = self.state.moved.shape[1]
+        last = self.state.velocity[:, :count]
+        trend = (last - self.state.moved / self.state.step) / self.state.step
+        expected = step * last + step**2 * trend
+        off = instant.displaced - self.state.body.vertices - expected
+        distance = float(np.hypot(*off)[self.state.body.topology.net].max())
+        share = _STEP_SHARE * self.step_share
+        allowed = share * self.settings.accuracy * self._sensitive_way(instant)
+        return _ERROR_SHARE * distance / allowed
+
+    def _sensitive_way(self, instant: Instant) -> float:
+        """Way of the net's middle that changes its tension by its own size, (K8)."""
+        head = self.problem.head
+        chord = float(np.hypot(*head))
+        x, y = instant.points
+        sag = float((head[1] * x - head[0] * y).max()) / chord
+        strain = float(measure_arcs(instant.points).sum()) / self.problem.length - 1.0
+        least = (8.0 / 3.0) * (sag / chord) ** 2 * 1e-2
+        return 3.0 / 16.0 * max(strain, least) * chord**2 / max(sag, 1e-9)
+
+    def _record(
+        self, instant: Instant, state: TransientState, fallen: float, step: float
+    ) -> None:
+        moment, self.way = record_moment(
+            self.problem, state, instant, self.way, self.moments, step
+        )
+        self.moments.append(moment)
+        self.solves += instant.linear_solves
+        self.state, self.instant = state, instant
+        self.fallen += fallen
+        if self.fallen < -_LARGEST_GAIN * float(self.state.body.mass.sum()):
+            self.failure = SolveError(
+                Outcome.BALANCE_VIOLATED, "the snow's mass is not kept on this mesh"
+            )
+        if not self.plateau.reached:
+            self.plateau = find_plateau(self.moments)
+
+
+def _grow(error: float) -> float:
+    """Factor to the next step of a second-order method."""
+    wanted: float = _SAFETY * max(error, 1e-6) ** (-1.0 / 3.0)
+    return min(_LONGEST_GROWTH, max(_SHORTEST_GROWTH, wanted))
+
+
+def _list_pulls(run: Run, time: float) -> list[Floats]:
+    """Largest pulls, and those at one time."""
+    times = np.log([moment.time for moment in run.moments])
+    ends = [[getattr(m, end) for m in run.moments] for end in ("foot", "head")]
+    at_time = [
+        np.array([np.interp(np.log(time), times, axis) for axis in np.array(end).T])
+        for end in ends
+    ]
+    return [*measure_run(run), *at_time]
+
+
+def _refine(scene: Scene, settings: TransientSettings) -> Solution:
+    horizon = settings.horizon / scene.time_scale
+
+    rests: list[float] = []
+
+    def run(size: MeshSize, _: Run | None) -> Run:
+        share = _LEVEL_RATIO ** (1 - settings.levels.index(size))
+        history = run_history(scene, size, settings, horizon, step_share=share)
+        rests.append(history.plateau.time or history.moments[-1].time)
+        return history
+
+    runs, estimates = refine(
+        settings.levels,
+        run,
+        lambda run: _list_pulls(run, rests[0]),
+        settings.accuracy,
+        _ERROR,
+    )
+    # the largest pulls come first
+    tolerance = _WHOLE_BALANCE * settings.balance_tolerance
+    return build_solution(scene, runs, estimates[:2], "transient", tolerance)

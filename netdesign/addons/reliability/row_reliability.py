@@ -1,0 +1,322 @@
+"""Notional annual reliability of the governing check of a net row.
+
+It decides nothing: verdicts, exit code and all other records are the same without it.
+Theory: addons/reliability/THEORY.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from netdesign.addons.reliability.form import (
+    DesignPoint,
+    NotAvailable,
+    follow_design_point,
+)
+from netdesign.addons.reliability.limit_state import LimitState
+from netdesign.addons.reliability.reliability import Reliability, find_reliability
+from netdesign.addons.reliability.response import (
+    Rater,
+    Response,
+    build_response,
+    meet,
+    move,
+)
+from netdesign.addons.reliability.row_variables import (
+    HEIGHT,
+    MODEL,
+    RESISTANCE,
+    KnownVariable,
+    list_lines,
+    list_variables,
+)
+from netdesign.envelope.ranges import PARAMETERS, Case
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
+from netdesign.site.model import Site
+from netdesign.snowpack.model_code import compare_densities
+from netdesign.study.check_by_case import CheckByCase
+from netdesign.study.record_envelope import record_point
+from netdesign.study.records import CheckRecord, ReliabilityRecord, VariableRecord
+from netdesign.study.row_to_check import CaseSolver
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_check
+
+MOST_ROUNDS = 3  # in which the design point is solved again
+LARGEST_MISS = 0.1  # of ln mu at the last one
+_CLOSE = 0.02  # a miss at which the rounds end
+_LEAST_HEIGHT = 1e-6  # [m]
+_HEIGHTS = ("thickness", "snow_height")
+
+
+def record_reliability(
+    site: Site,
+    checks: Sequence[CheckRecord],
+    check: CheckRecord | None,
+    by_case: CheckByCase | None,
+    solver: CaseSolver,
+) -> ReliabilityRecord:
+    """Reliability of a row's governing check, or the reason why there is none.
+
+    There is none of a row with a check that has no numbers: it may be the weakest.
+
+    Parameters
+    ----------
+    site : Site
+        What is known of the variables.
+    checks : sequence of CheckRecord
+        All of the row.
+    check : CheckRecord or None
+        The governing check.
+    by_case : CheckByCase or None
+        The same as a function of a solved case, where it follows from one.
+    solver : CaseSolver
+        One of its own: what fails here is no fault of the checks.
+    """
+    reason = _find_open(checks) or _find_lack(check, by_case)
+    if check is None or by_case is None or reason is not None:
+        return ReliabilityRecord(check=check.id if check else "", reason=reason)
+    analysis = partial(_analyse, site, check, by_case, solver)
+    try:
+        found = catch_fault(analysis, check.id)
+    except ModelError as lack:
+        found = ReliabilityRecord(check=check.id, reason=lack.message)
+    if isinstance(found, Fault):
+        told = say("reliability.fault", kind=found.kind)
+        found = ReliabilityRecord(check=check.id, reason=told)
+    return replace(found, solves=solver.count)
+
+
+def _find_open(checks: Sequence[CheckRecord]) -> Message | None:
+    """First check that is not proven by its numbers, nor fails by them."""
+    for one in checks:
+        is_met = one.verdict is Verdict.PASS
+        if not is_met and (one.verdict is not Verdict.FAIL or one.utilisation is None):
+            named = name_check(one.member, one.mode, one.position)
+            return say("reliability.open_check", check=named)
+    return None
+
+
+def _find_lack(
+    check: CheckRecord | None, by_case: CheckByCase | None
+) -> Message | None:
+    """Reason why a check has no limit state of its solved force."""
+    if check is None:
+        return say("reliability.no_check")
+    if check.governs == "guideline":
+        return say("reliability.by_guideline")
+    numbers = [check.utilisation, check.read("γ_E"), check.read("γ_R")]
+    if by_case is None or not all(numbers):
+        return say("reliability.not_followed")
+    if any(name in by_case.ranges.axes for name in _HEIGHTS):
+        return say("reliability.height_ranges")
+    return None
+
+
+def _analyse(
+    site: Site, check: CheckRecord, by_case: CheckByCase, solver: CaseSolver
+) -> ReliabilityRecord:
+    known = list_variables(site, by_case, check)
+    used = check.utilisation or math.nan
+    governing = next(
+        one
+        for one in by_case.results
+        if one.case == by_case.governing and by_case.has_result(one)
+    )
+    scale = used / (by_case.utilisation(governing) or math.nan)
+    rater = Rater(check=by_case, solver=solver, scale=scale)
+    response = build_response(rater, list_lines(by_case, known))
+    factors = (check.read("γ_E") or math.nan, check.read("γ_R") or math.nan)
+    state = _State(
+        known=known,
+        response=response,
+        factor=math.log(factors[0] * factors[1]),
+        slope_cosine=math.cos(by_case.row.slope_angle),
+        height=by_case.row.snow_thickness / math.cos(by_case.row.slope_angle),
+    )
+    state, miss = _meet_design_point(state, rater)
+    found = find_reliability(state.build(), math.log(used))
+    if isinstance(found, NotAvailable):
+        raise ModelError(found.reason)
+    state.require_within(found.design_point)
+    return _record(check, state, found, miss, by_case.governing)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _State:
+    """Limit state of a check in physical terms: (U6).
+
+    ``factor`` is the logarithm of the product of both partial factors, ``height`` the
+    row's vertical snow height [m], to which the density refers.
+    """
+
+    known: tuple[KnownVariable, ...]
+    response: Response
+    factor: float
+    slope_cosine: float
+    height: float
+
+    @property
+    def names(self) -> list[str]:
+        return [one.name for one in self.known]
+
+    def build(self) -> LimitState:
+        variables = tuple(one.variable for one in self.known)
+        return LimitState(variables=variables, margin=self._find_margin)
+
+    def _find_margin(self, values: Floats) -> Floats:
+        columns = dict(zip(self.names, values.T, strict=True))
+        strong, model = columns.pop(RESISTANCE), columns.pop(MODEL)
+        result: Floats = (
+            np.log(np.maximum(strong, 1e-12))
+            - np.log(np.maximum(model, 1e-12))
+            - self.response.find(self._name_solved(columns))
+            + self.factor
+        )
+        return result
+
+    def _name_solved(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Quantities as they are solved: thickness of a height, density by (U5a)."""
+        found = dict(columns)
+        heights = np.maximum(found.pop(HEIGHT), _LEAST_HEIGHT)
+        found["thickness"] = heights * self.slope_cosine
+        found["density"] = found["density"] * compare_densities(heights, self.height)
+        return found
+
+    def read_point(self, values: Sequence[float]) -> dict[str, float]:
+        """Quantities of a design point as they are solved [SI]."""
+        named = dict(zip(self.names, values, strict=True))
+        height = next(one for one in self.known if one.name == HEIGHT)
+        named[HEIGHT] = min(named[HEIGHT], height.variable.cap)
+        arrays = {
+            name: np.array([one])
+            for name, one in named.items()
+            if name not in (MODEL, RESISTANCE)
+        }
+        return {k: float(v[0]) for k, v in self._name_solved(arrays).items()}
+
+    def require_within(self, values: Sequence[float]) -> None:
+        """Refuse a design point beyond what was solved."""
+        beyond = self.response.find_beyond(self.read_point(values))
+        if beyond is not None:
+            name = say(f"label.{PARAMETERS[beyond].key}")
+            raise ModelError(say("reliability.beyond", name=name))
+
+    def with_error(self, error: float) -> _State:
+        """State whose model factor has another error beside its own, (U8)."""
+        known = []
+        for one in self.known:
+            variable = one.variable
+            if one.name == MODEL:
+                deviation = math.hypot(variable.deviation, error * variable.mean)
+                one = replace(one, variable=replace(variable, deviation=deviation))
+            known.append(one)
+        return replace(self, known=tuple(known))
+
+
+def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, _Miss]:
+    """State that agrees with the full model at its design point; the last miss."""
+    point: DesignPoint | None = None
+    miss = _Miss(by_model=0.0, solved=0.0)
+    error = 0.0
+    for _ in range(MOST_ROUNDS):
+        limit = state.with_error(error).build()
+        point = follow_design_point(limit, point)
+        if point is None:
+            raise ModelError(say("reliability.not_converged"))
+        at = limit.place(point.place[None])[0].tolist()
+        state.require_within(at)
+        values = state.read_point(at)
+        miss = _solve(state, rater, values)
+        error = math.hypot(state.response.find_error(values), miss.size)
+        state = replace(state, response=meet(state.response, values, miss.solved))
+        if miss.size < _CLOSE:
+            break
+    if miss.size > LARGEST_MISS:
+        raise ModelError(say("reliability.missed", share=miss.size))
+    return state.with_error(error), miss
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Miss:
+    """Values of ln mu at a design point: by the model before it was solved, solved."""
+
+    by_model: float
+    solved: float
+
+    @property
+    def size(self) -> float:
+        return abs(self.solved - self.by_model)
+
+
+def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
+    (solved,) = rater.solve(rater.check.governing, [_order(values)])
+    if solved is None:
+        raise ModelError(say("reliability.no_solve"))
+    return _Miss(by_model=state.response.find_at(values), solved=solved)
+
+
+def _record(
+    check: CheckRecord,
+    state: _State,
+    found: Reliability,
+    miss: _Miss,
+    governing: Case,
+) -> ReliabilityRecord:
+    values = dict(zip(state.names, found.design_point, strict=True))
+    used = math.log(check.utilisation or math.nan)
+    point = state.read_point(found.design_point)
+    ratio = math.exp(state.response.find_at(point) - used)
+    return ReliabilityRecord(
+        check=check.id,
+        reason=None,
+        variables=_record_variables(state, found, point),
+        beta=found.beta,
+        standard_error=found.standard_error,
+        beta_by_form=found.beta_by_form,
+        beta_at_full=found.beta_shifted,
+        action_factor=ratio * values[MODEL],
+        resistance_factor=1.0 / values[RESISTANCE],
+        profile_action_factor=check.read("γ_E"),
+        profile_resistance_factor=check.read("γ_R"),
+        design_point=record_point(move(governing, _order(point))),
+        force_ratio=math.exp(miss.solved - used),
+        force_ratio_by_model=math.exp(miss.by_model - used),
+        samples=found.samples,
+    )
+
+
+def _order(values: Mapping[str, float]) -> dict[str, float]:
+    """Quantities as a case takes them: the thickness before the glide."""
+    return {name: values[name] for name in PARAMETERS if name in values}
+
+
+def _record_variables(
+    state: _State, found: Reliability, point: Mapping[str, float]
+) -> list[VariableRecord]:
+    """Variables, with the values that were solved at the design point."""
+    records = []
+    for one, share, value in zip(
+        state.known, found.alpha_squared, found.design_point, strict=True
+    ):
+        variable, parameter = one.variable, PARAMETERS.get(one.name)
+        show = parameter.show if parameter else float
+        records.append(
+            VariableRecord(
+                name=one.name,
+                key=parameter.key if parameter else "",
+                distribution=variable.kind,
+                mean=show(variable.mean),
+                variation=variable.deviation / variable.mean,
+                source=one.source,
+                is_assumed=one.is_assumed,
+                alpha_squared=share,
+                at_design_point=show(point.get(one.name, min(value, variable.cap))),
+            )
+        )
+    return records

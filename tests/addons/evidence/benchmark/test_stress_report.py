@@ -1,0 +1,91 @@
+"""Stress test: what counts as converged, refused and failed, and the report of it."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from netdesign.addons.evidence.benchmark import attempts
+from netdesign.addons.evidence.benchmark.attempts import (
+    Attempt,
+    attempt_scene,
+    list_accepted,
+    write_stress,
+)
+from netdesign.coupling.solution import FailedSolution
+from netdesign.outcome import Outcome
+
+SEED = 2
+ACCEPTED = next(list_accepted(SEED))
+
+
+def attempt_with(monkeypatch, solve) -> Attempt:
+    monkeypatch.setattr(attempts, "solve_steady", solve)
+    return attempt_scene(ACCEPTED, seed=SEED)
+
+
+def fail_with(outcome: Outcome):
+    return lambda *_: FailedSolution(outcome=outcome, reason="told why")
+
+
+@pytest.mark.parametrize("outcome", [o for o in Outcome if o is not Outcome.CONVERGED])
+def test_only_what_the_model_excludes_is_refused(monkeypatch, outcome):
+    attempt = attempt_with(monkeypatch, fail_with(outcome))
+    is_refused = outcome in (Outcome.OUT_OF_VALIDITY, Outcome.NO_EQUILIBRIUM)
+    assert attempt.kind == ("refused while solving" if is_refused else "failed")
+    assert str(attempt.reason) == f"{outcome.value}: told why"
+
+
+def test_a_bug_is_a_failure(monkeypatch):
+    attempt = attempt_with(monkeypatch, lambda *_: 1 / 0)
+    assert attempt.kind == "failed"
+    assert "ZeroDivisionError" in str(attempt.reason)
+
+
+def test_a_warning_is_a_failure(monkeypatch):
+    def overflow(*_):
+        return np.array([1e308]) * 10.0
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        attempt = attempt_with(monkeypatch, overflow)
+    assert attempt.kind == "failed"
+    assert "overflow" in str(attempt.reason)
+
+
+@pytest.mark.parametrize(
+    ("balance", "kind"), [(1e-8, "converged"), (2e-8, "failed"), (np.nan, "failed")]
+)
+def test_a_poor_balance_is_a_failure(monkeypatch, solved, balance, kind):
+    class Poor:
+        """A solution but for its balance."""
+
+        def __getattr__(self, name):
+            return getattr(solved(), name)
+
+        @property
+        def balance(self):
+            return type("Balance", (), {"relative_residual": balance})
+
+    assert attempt_with(monkeypatch, lambda *_: Poor()).kind == kind
+
+
+ATTEMPTS = [
+    Attempt(number=0, kind="converged", cpu_s=0.5, linear_solves=20, balance=1e-10,
+            stated_error=0.004),
+    Attempt(number=1, kind="converged", cpu_s=0.1, linear_solves=30, balance=3e-9,
+            stated_error=0.006),
+    Attempt(number=2, kind="refused before", reason="net height = 2.5 m is low"),
+    Attempt(number=3, kind="refused before", reason="net height = 1e-3 m is low"),
+    Attempt(number=4, kind="refused while solving", reason="out_of_validity: 6% pull",
+            cpu_s=2.0),
+]  # fmt: skip
+
+
+def test_one_failure_fails_the_whole():
+    failed = Attempt(number=5, kind="failed", reason="diverged", tables={"slope": {}})
+    document = write_stress([*ATTEMPTS, failed], 7)
+    assert document["pass"] is False
+    assert document["failures"] == [
+        {"scene": 5, "reason": "diverged", "tables": {"slope": {}}}
+    ]

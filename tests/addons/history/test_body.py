@@ -1,0 +1,322 @@
+"""The snowpack that moves: mesh put back, mass kept, snow that leans over falls."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.addons.history import body as body_module
+from netdesign.addons.history.body import (
+    build_body,
+    compute_areas,
+    move_body,
+)
+from netdesign.addons.history.settings import TRANSIENT_LEVELS
+from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.law import FlowLayer
+from netdesign.snow.mesh import MeshSize, build_template
+
+ASPECT = 5.0
+# Fine enough for a heap that is read off the surface's vertices.
+FINE = MeshSize(net_spacing=0.06, corner=1e-2, sectors=4, upslope_spacing=0.25)
+ROUNDING = 1e-13  # of the mass, after sums over some hundred triangles
+HEAP_WIDTH = 0.3
+STRAIGHT = [0.0, 0.6]  # x of the head, at height 1
+
+
+def net_curve(template, head_x=0.0, sag=0.0, height=1.0):
+    part = template.net_fractions
+    bulge = 4.0 * sag * part * (1.0 - part)
+    return np.array([head_x * part + bulge, height * part - bulge * head_x])
+
+
+def a_body(law, *, head_x=0.0, sag=0.0, size=TRANSIENT_LEVELS[1], tops=()):
+    template = build_template(ASPECT, size, tops)
+    return build_body(law, template, net_curve(template, head_x, sag))
+
+
+def on_net(body):
+    return body.vertices[:, body.topology.net]
+
+
+def creep(body, seed=5):
+    """Vertices after some creep that leaves all four sides straight and the net alone.
+
+    The snow shears and slides towards the net; the inside is stirred at random.
+    """
+    topology = body.topology
+    distance, height = topology.template.nodes[:, : topology.template.n_vertices]
+    away = np.minimum(1.0, distance)  # 0 at the net
+    moved = body.vertices.copy()
+    moved[0] += 0.1 * away * height * (1.0 - height)
+    moved[0] += 0.02 * away * (ASPECT - distance)
+    inside = (distance > 0.0) & (distance < ASPECT) & (height > 0.0) & (height < 1.0)
+    push = np.random.default_rng(seed).normal(size=moved.shape)
+    size = np.sqrt(np.abs(body.areas).min())
+    moved[:, inside] += 0.2 * size * push[:, inside]
+    upstream = (distance == ASPECT) & (height > 0.0) & (height < 1.0)
+    moved[0, upstream] += 0.02
+    return moved
+
+
+def uneven(body, seed=6):
+    """The same mesh with mass that differs from triangle to triangle."""
+    draw = np.random.default_rng(seed)
+    return replace(
+        body,
+        mass=body.areas * draw.uniform(0.5, 1.5, body.mass.size),
+        warmth=draw.uniform(0.5, 2.0, body.mass.size),
+    )
+
+
+# --- topology ----------------------------------------------------------------
+
+
+# --- undeformed snow ---------------------------------------------------------
+
+
+@pytest.mark.parametrize("head_x", STRAIGHT)
+def test_mass_of_uniform_snow_is_its_area(a_flow_problem, head_x):
+    body = a_body(a_flow_problem(), head_x=head_x)
+    assert body.mass.sum() == pytest.approx(ASPECT + head_x / 2.0, rel=1e-13)
+    np.testing.assert_allclose(body.density, 1.0, rtol=1e-14)
+    np.testing.assert_array_equal(body.warmth, 1.0)
+
+
+LAYERS = (
+    FlowLayer(top=0.4, bulk_ratio=1.8, density=1.2, warmth=2.0),
+    FlowLayer(top=1.0, bulk_ratio=1.8, density=1.0 - 0.2 * 0.4 / 0.6, warmth=0.5),
+)
+
+
+def layered(law):
+    return replace(law, layers=LAYERS)
+
+
+def test_layers_keep_their_mass_and_warmth(a_flow_problem):
+    body = a_body(layered(a_flow_problem()), tops=(0.4,))
+    heights = body.vertices[1, body.topology.triangles].mean(axis=1)
+    below = heights < 0.4
+    np.testing.assert_allclose(body.density[below], 1.2, rtol=1e-13)
+    np.testing.assert_array_equal(body.warmth, np.where(below, 2.0, 0.5))
+    assert body.mass[below].sum() == pytest.approx(1.2 * 0.4 * ASPECT, rel=1e-12)
+    assert body.mass.sum() == pytest.approx(ASPECT, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_problem, seed):
+    """Weight of each from the area between two level lines, up to the net."""
+    rng = np.random.default_rng(seed)
+    top, sag = rng.uniform(0.2, 0.8), rng.uniform(0.05, 0.2)
+    densities = rng.uniform(0.5, 1.5, 2)
+    warmths = rng.uniform(0.1, 9.0, 2)
+    layers = tuple(
+        FlowLayer(top=high, bulk_ratio=1.8, density=density, warmth=warmth)
+        for high, density, warmth in zip((top, 1.0), densities, warmths, strict=True)
+    )
+    law = replace(a_flow_problem(), layers=layers)
+    body = a_body(law, head_x=0.5, sag=sag, tops=(top,))
+    x, y = on_net(body)
+    heights = np.unique(np.append(y, top))
+    across = ASPECT + np.interp(heights, y, x)
+    lower = heights <= top
+    areas = [
+        np.trapezoid(across[part], heights[part])
+        for part in (lower, ~lower | (heights == top))
+    ]
+    assert body.mass.sum() == pytest.approx(densities @ areas, rel=1e-12)
+    heat = (body.mass * body.warmth).sum()
+    assert heat == pytest.approx((densities * warmths) @ areas, rel=1e-12)
+
+
+# --- rezoning ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("head_x", STRAIGHT)
+@pytest.mark.parametrize("level", [0, 1])
+def test_snow_that_rests_keeps_its_mesh(a_flow_problem, head_x, level):
+    body = uneven(a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
+    head = on_net(body)[:, -1]
+    moved, fallen = move_body(body, body.vertices, on_net(body), head)
+    np.testing.assert_allclose(moved.vertices, body.vertices, atol=1e-14)
+    np.testing.assert_allclose(moved.mass, body.mass, atol=ROUNDING)
+    np.testing.assert_allclose(moved.warmth, body.warmth, rtol=1e-9)
+    assert fallen == pytest.approx(0.0, abs=ROUNDING)
+
+
+def test_a_mended_mesh_is_not_mended_again(a_flow_problem):
+    """Against a bulging net: what the first mending has placed stays."""
+    body = a_body(a_flow_problem(), head_x=0.3, sag=0.1)
+    head = on_net(body)[:, -1]
+    once, _ = move_body(body, body.vertices, on_net(body), head)
+    twice, _ = move_body(once, once.vertices, on_net(once), head)
+    np.testing.assert_allclose(twice.vertices, once.vertices, atol=1e-13)
+    np.testing.assert_allclose(twice.mass, once.mass, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("tops", [(), (0.4,)], ids=["uniform", "layers"])
+def test_rigid_shift_along_the_slope(a_flow_problem, tops):
+    law = layered(a_flow_problem()) if tops else a_flow_problem()
+    body = a_body(law, tops=tops)
+    shift = np.array([[0.07], [0.0]])
+    net = on_net(body) + shift
+    moved, fallen = move_body(body, body.vertices + shift, net, net[:, -1])
+    np.testing.assert_allclose(moved.density, body.density, rtol=1e-11)
+    np.testing.assert_allclose(moved.warmth, body.warmth, rtol=1e-11)
+    assert fallen == pytest.approx(0.0, abs=ROUNDING)
+    ends = moved.vertices[0].min(), moved.vertices[0].max()
+    assert ends == pytest.approx((0.07 - ASPECT, 0.07), abs=1e-14)
+
+
+# --- mass --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("head_x", STRAIGHT)
+@pytest.mark.parametrize("level", [0, 1])
+def test_mass_is_kept_to_rounding(a_flow_problem, head_x, level):
+    """The four sides are straight, so that mending them cuts nothing off."""
+    body = uneven(a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
+    displaced = creep(body)
+    assert np.abs(displaced - body.vertices).max() > 0.02
+    moved, fallen = move_body(body, displaced, on_net(body), on_net(body)[:, -1])
+    assert np.abs(moved.vertices - displaced).max() > 1e-3
+    assert fallen == pytest.approx(0.0, abs=ROUNDING)
+    assert moved.mass.sum() == pytest.approx(body.mass.sum(), rel=ROUNDING)
+    assert moved.mass.min() > 0.0
+
+
+@pytest.mark.parametrize("head_x", STRAIGHT)
+def test_heat_is_kept_with_the_mass(a_flow_problem, head_x):
+    body = uneven(a_body(a_flow_problem(), head_x=head_x))
+    moved, _ = move_body(body, creep(body), on_net(body), on_net(body)[:, -1])
+    heat = (body.mass * body.warmth).sum()
+    assert (moved.mass * moved.warmth).sum() == pytest.approx(heat, rel=ROUNDING)
+    # donor cells mix, so they stay between the extremes
+    assert body.warmth.min() <= moved.warmth.min()
+    assert moved.warmth.max() <= body.warmth.max()
+
+
+@pytest.mark.parametrize("head_x", STRAIGHT)
+@pytest.mark.parametrize("level", [0, 1])
+def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_problem, head_x, level):
+    """What edges sweep is what areas gain: no density arises from moving vertices."""
+    body = a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level])
+    displaced = creep(body)
+    even = replace(body, mass=compute_areas(body.topology, displaced))
+    moved, fallen = move_body(even, displaced, on_net(body), on_net(body)[:, -1])
+    np.testing.assert_allclose(moved.density, 1.0, rtol=1e-11)
+    np.testing.assert_allclose(moved.warmth, 1.0, rtol=1e-12)
+    lost = even.mass.sum() - moved.areas.sum()
+    assert fallen == pytest.approx(lost, abs=ROUNDING)
+
+
+def test_density_is_mass_over_deformed_area(a_flow_problem):
+    """Even settling by 4 %: rho(0) / J, in every triangle."""
+    body = a_body(a_flow_problem())
+    displaced = body.vertices * np.array([[1.0], [0.96]])
+    net = on_net(body) * np.array([[1.0], [0.96]])
+    moved, fallen = move_body(body, displaced, net, net[:, -1])
+    np.testing.assert_allclose(moved.density, 1.0 / 0.96, rtol=1e-11)
+    assert fallen == pytest.approx(0.0, abs=ROUNDING)
+
+
+def test_a_long_way_in_parts_keeps_mass(a_flow_problem, monkeypatch):
+    body = uneven(a_body(a_flow_problem()))
+    displaced, net = creep(body), on_net(body)
+    found = []
+    for share in (0.5, 0.01):
+        monkeypatch.setattr(body_module, "_LARGEST_SWEEP", share)
+        monkeypatch.setattr(body_module, "_MOST_PARTS", 10**4)
+        moved, fallen = move_body(body, displaced, net, net[:, -1])
+        assert fallen == pytest.approx(0.0, abs=ROUNDING)
+        found.append(moved.mass)
+    few, many = found
+    assert np.abs(few - many).max() > 0.0  # another path ...
+    np.testing.assert_allclose(few, many, atol=0.1 * few.max())  # ... to the same
+
+
+# --- overhang ----------------------------------------------------------------
+
+
+def heap(body, slope):
+    """Snow that has risen beside the head; the corner itself is held there."""
+    topology = body.topology
+    distance = topology.template.nodes[0, : topology.template.n_vertices]
+    eta = topology.template.nodes[1, : topology.template.n_vertices]
+    moved = body.vertices.copy()
+    moved[1] += slope * distance * np.exp(-((distance / HEAP_WIDTH) ** 2)) * eta
+    return moved
+
+
+@pytest.mark.parametrize("head_x", [0.0, 0.3])
+def test_snow_that_leans_over_the_head_falls(a_flow_problem, head_x):
+    """What lies beyond 135 degrees from the net goes, with the mass that it has."""
+    body = a_body(a_flow_problem(), head_x=head_x, size=FINE)
+    slope = 3.0
+    displaced = heap(body, slope)
+    even = replace(body, mass=compute_areas(body.topology, displaced))
+    net = on_net(body)
+    head = net[:, -1]
+    moved, fallen = move_body(even, displaced, net, head)
+    assert fallen == pytest.approx(even.mass.sum() - moved.areas.sum(), abs=1e-12)
+    np.testing.assert_allclose(moved.density, 1.0, rtol=1e-9)
+
+    steepest = math.radians(135.0) - math.atan2(1.0, head_x)
+    assert steepness(displaced, body, head) > steepest
+    assert steepness(moved.vertices, body, head) <= steepest + 1e-9
+    # between the heap, slope r exp(-(r / w)^2), and the line, r the distance from the
+    # net in the template; its triangles, some 0.1 wide there, cut corners
+    stretch = 1.0 + head_x / 3.0
+    line = math.tan(steepest) * stretch
+    reach = HEAP_WIDTH * math.sqrt(math.log(slope / line))
+    heap_area = slope * HEAP_WIDTH**2 / 2.0 * (1.0 - line / slope)
+    expected = stretch * (heap_area - line * reach**2 / 2.0)
+    assert expected > 5e-3
+    assert fallen == pytest.approx(expected, abs=8e-3)
+    assert fallen > 0.5 * expected
+
+
+def steepness(vertices, body, head):
+    """Largest angle of the surface above the ground's direction, from the head."""
+    x, y = vertices[:, body.topology.surface[1:]] - head[:, None]
+    return np.arctan2(y, -x).max()
+
+
+# --- inversion ---------------------------------------------------------------
+
+
+def test_snow_that_turns_a_triangle_over_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
+    displaced = body.vertices.copy()
+    inner = body.topology.triangles[0, 0]
+    displaced[0, inner] += 1.0
+    assert compute_areas(body.topology, displaced).min() < 0.0
+    net = on_net(body)
+    with pytest.raises(SolveError, match="the mesh of the snow folds over") as failure:
+        move_body(body, displaced, net, net[:, -1])
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_start_that_folds_over_is_refused(a_flow_problem):
+    with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
+        a_body(a_flow_problem(), sag=-8.0)
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_snow_that_flows_over_the_head_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[0])
+    displaced = body.vertices.copy()
+    displaced[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : displaced.shape[1]]
+    net = on_net(body)
+    with pytest.raises(SolveError, match="flows over the net's head") as failure:
+        move_body(body, displaced, net, net[:, -1])
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_a_net_that_leaves_no_room_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
+    net = on_net(body)
+    net[0, 1:-1] -= 4.0
+    with pytest.raises(SolveError, match="cannot be repaired"):
+        move_body(body, body.vertices, net, net[:, -1])

@@ -1,0 +1,197 @@
+"""The paper's increments: its equations, and the exact sliding they approach."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.addons.history.incremental import (
+    CableState,
+    IncrementalStep,
+    advance_increment,
+    build_cable_state,
+)
+from netdesign.cable.net import (
+    compute_node_forces,
+    compute_ratio_bounds,
+    compute_segment_lengths,
+    compute_turning_angles,
+)
+from netdesign.cable.sliding import solve_sliding
+from netdesign.outcome import Outcome
+from tests.each import each
+
+STIFFNESS = 2e7
+FRICTION = math.tan(math.radians(15.0))
+NODES = 20
+
+
+def net_points(time: float):
+    """A bulge of 0.3 that grows and shifts to the head, and a node row that climbs."""
+    along = np.linspace(0.0, 1.0, NODES + 2)
+    climbed = along + 0.03 * time * along * (1.0 - along)
+    bulge = (1.2 + 0.4 * time * (1.0 + climbed)) * climbed * (1.0 - climbed)
+    return np.array([bulge, 3.0 * climbed])
+
+
+def slide(points, old_lengths):
+    bounds = compute_ratio_bounds(compute_turning_angles(points), FRICTION)
+    step = solve_sliding(
+        compute_segment_lengths(points), old_lengths, bounds, stiffness=STIFFNESS
+    )
+    assert step.outcome is Outcome.CONVERGED
+    return step
+
+
+def advance(state: CableState, points, **options) -> IncrementalStep:
+    return advance_increment(
+        state,
+        compute_segment_lengths(points),
+        compute_turning_angles(points),
+        friction=FRICTION,
+        stiffness=STIFFNESS,
+        **options,
+    )
+
+
+def initial_lengths():
+    """Strain 1 % at time 0, less towards the foot, as far as friction allows."""
+    final = compute_segment_lengths(net_points(0.0))
+    return slide(net_points(0.0), final / np.linspace(1.008, 1.012, NODES + 1)).lengths
+
+
+def initial_state() -> CableState:
+    final = compute_segment_lengths(net_points(0.0))
+    return build_cable_state(final, initial_lengths(), STIFFNESS)
+
+
+def test_sticking_node_by_hand():
+    """The paper's Eq. 10 with dlo = 0."""
+    state = build_cable_state(np.array([1.01, 1.01]), np.ones(2), STIFFNESS)
+    step = advance_increment(
+        state,
+        np.array([1.012, 1.009]),
+        np.array([1.0]),
+        friction=1.0,
+        stiffness=STIFFNESS,
+    )
+    assert step.slide_signs.tolist() == [0]
+    expected = STIFFNESS * np.array([0.01 + 0.002, 0.01 - 0.001])
+    np.testing.assert_allclose(step.state.tensions, expected, rtol=1e-10)
+    np.testing.assert_array_equal(step.state.unstressed_lengths, 1.0)
+
+
+def test_gliding_node_by_hand():
+    """Eqs 10, 13, 14 with two unknowns, solved as they stand."""
+    final, beta = np.array([1.03, 1.005]), 0.2
+    state = build_cable_state(np.array([1.01, 1.01]), np.ones(2), STIFFNESS)
+    step = advance_increment(
+        state, final, np.array([beta]), friction=FRICTION, stiffness=STIFFNESS
+    )
+    # R_t = -R_n tan phi: (T1 - T0) cos = -(T1 + T0) sin tan phi
+    lower = -math.cos(beta / 2) + FRICTION * math.sin(beta / 2)
+    upper = math.cos(beta / 2) + FRICTION * math.sin(beta / 2)
+    stuck = final - 1.0  # tensions over ES if nothing slid
+    matrix = np.array([[-lower * final[0], -upper * final[1]], [1.0, 1.0]])
+    sides = np.array([-lower * stuck[0] - upper * stuck[1], 0.0])
+    growth = np.linalg.solve(matrix, sides)
+    assert step.slide_signs.tolist() == [1]
+    np.testing.assert_allclose(step.state.unstressed_lengths, 1.0 + growth, rtol=1e-12)
+
+
+def test_conditions_of_the_paper_hold_at_every_node():
+    points = net_points(0.025)
+    before = initial_state()
+    step = advance(before, points)
+    assert step.outcome is Outcome.CONVERGED
+    assert set(step.slide_signs) == {-1, 0, 1}
+    normal, tangential = compute_node_forces(points, step.state.tensions)
+    usage = tangential / (normal * FRICTION)
+    glides = step.slide_signs != 0
+    np.testing.assert_allclose(usage[glides], -step.slide_signs[glides], rtol=1e-9)
+    assert np.abs(usage[~glides]).max() < 1.0
+    growth = step.state.unstressed_lengths - before.unstressed_lengths
+    slides = np.cumsum(growth)
+    np.testing.assert_allclose(slides[:-1][~glides], 0.0, atol=1e-15)
+    assert slides[-1] == pytest.approx(0.0, abs=1e-15)
+    np.testing.assert_array_equal(
+        np.sign(slides[:-1][glides]), step.slide_signs[glides]
+    )
+
+
+def test_one_increment_differs_from_the_exact_step_at_second_order():
+    """Below the size where the set of gliding nodes still changes with the step."""
+    state = initial_state()
+    errors = []
+    for size in 0.0125 * 0.5 ** np.arange(5):
+        exact = slide(net_points(size), state.unstressed_lengths)
+        step = advance(state, net_points(size))
+        assert step.outcome is Outcome.CONVERGED
+        np.testing.assert_array_equal(step.slide_signs, exact.slide_signs)
+        errors.append(np.abs(step.state.tensions - exact.tensions).max())
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    np.testing.assert_allclose(orders, 2.0, atol=0.02)
+
+
+def end_tensions(count: int):
+    """Tensions at time 1 after ``count`` steps: increments, and exact sliding."""
+    state = initial_state()
+    lengths = state.unstressed_lengths
+    exact = None
+    for time in np.linspace(0.0, 1.0, count + 1)[1:]:
+        step = advance(state, net_points(time))
+        assert step.outcome is Outcome.CONVERGED
+        state = step.state
+        exact = slide(net_points(time), lengths)
+        lengths = exact.lengths
+    return state.tensions, exact.tensions
+
+
+def test_many_increments_tend_to_exact_sliding_at_first_order():
+    errors = []
+    for count in (20, 40, 80, 160):
+        increments, exact = end_tensions(count)
+        errors.append(np.abs(increments / exact - 1.0).max())
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert errors[-1] < 2e-4
+    np.testing.assert_allclose(orders, 1.0, atol=0.02)
+
+
+@each("seed", range(60))
+def test_gliding_nodes_are_found_for_random_nets(seed):
+    """To 1 % of the exact tensions, strains of 1 % changing by up to a tenth."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 80))
+    angles = rng.uniform(-0.02, 1.0, n) * 2.0 / n
+    friction = math.tan(math.radians(rng.integers(0, 46)))
+    bounds = compute_ratio_bounds(angles, friction)
+    final = rng.uniform(0.1, 1.0, n + 1)
+    old = final / (1.0 + 0.01 * np.exp(rng.normal(0.0, 0.5, n + 1)))
+    old = solve_sliding(final, old, bounds, stiffness=STIFFNESS).lengths
+    moved = final * (1.0 + rng.uniform(-1e-3, 1e-3, n + 1))
+    step = advance_increment(
+        build_cable_state(final, old, STIFFNESS),
+        moved,
+        angles,
+        friction=friction,
+        stiffness=STIFFNESS,
+    )
+    exact = solve_sliding(moved, old, bounds, stiffness=STIFFNESS)
+    assert step.outcome is Outcome.CONVERGED
+    np.testing.assert_allclose(step.state.tensions, exact.tensions, rtol=1e-2)
+
+
+def test_start_of_the_paper_a_straight_net_without_tension():
+    points = net_points(0.0)
+    straight = np.array([np.zeros(NODES + 2), points[1]])
+    lengths = compute_segment_lengths(straight)
+    step = advance(build_cable_state(lengths, lengths, STIFFNESS), points)
+    assert step.outcome is Outcome.CONVERGED
+    assert step.state.tensions.min() > 0.0
+
+
+def test_limit_of_rounds_is_an_outcome():
+    state = initial_state()
+    step = advance(state, net_points(0.2), max_rounds=1)
+    assert step.outcome is Outcome.MAX_ITERATIONS
+    assert step.state is state

@@ -1,0 +1,139 @@
+"""Where a history begins: shapes of known length, snow at rest against them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.addons.history.net_start import build_start
+from netdesign.addons.history.response import measure_arcs, respond
+from netdesign.addons.history.settings import TRANSIENT_LEVELS
+from netdesign.addons.history.state import build_problem
+from netdesign.coupling.steady.net import guess_pressure
+from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.mesh import MeshSize, build_template
+from tests.each import each
+
+SLACKS = [0.0, 0.02, 0.15]
+
+
+# Fine enough for sags and lengths that are read off the nodes.
+FINE = MeshSize(net_spacing=0.06, corner=2.5e-3, sectors=10, upslope_spacing=0.25)
+
+
+def begin(scene, start, size=TRANSIENT_LEVELS[1]):
+    problem = build_problem(scene, densifies=True)
+    template = build_template(5.0, size, scene.layer_tops)
+    return problem, build_start(problem, template, start)
+
+
+def points_of(problem, state):
+    nodes = state.body.vertices[:, state.carried]
+    return np.column_stack([np.zeros(2), nodes, problem.head])
+
+
+def largest_sag(problem, points):
+    """Largest distance from the chord over the chord, of a net that is a parabola."""
+    along = problem.head / np.hypot(*problem.head)
+    across = along[1] * points[0] - along[0] * points[1]
+    chord = np.hypot(*problem.head)
+    share, lowest = (along @ points) / chord, across[1:-1].argmax() + 1
+    # f = y / (4 x (1 - x)) at every point; no node need be in the middle
+    return across[lowest] / chord / (4.0 * share * (1.0 - share))[lowest]
+
+
+def parabola_length(sag):
+    """Over the chord, of y = 4 f x (1 - x), by fine chords."""
+    x = np.linspace(0.0, 1.0, 20001)
+    return np.hypot(np.diff(x), np.diff(4.0 * sag * x * (1.0 - x))).sum()
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_straight_net_is_a_line_without_tension(a_scene, inclination):
+    problem, state = begin(a_scene(inclination_deg=inclination), "straight")
+    points = points_of(problem, state)
+    assert largest_sag(problem, points) < 1e-8
+    chords = np.hypot(*np.diff(points))
+    np.testing.assert_allclose(state.lengths, chords, rtol=1e-8)
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+    assert not state.velocity.any()
+    assert state.time == state.step == 0.0
+
+
+@pytest.mark.parametrize("slack", SLACKS[1:])
+@pytest.mark.parametrize("inclination", [0.0, 20.0])
+def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
+    """A parabola as long as the net: c (1 + slack)."""
+    problem, state = begin(
+        a_scene(slack=slack, inclination_deg=inclination), "straight", size=FINE
+    )
+    points = points_of(problem, state)
+    assert parabola_length(largest_sag(problem, points)) == pytest.approx(
+        1.0 + slack, rel=1e-4
+    )
+    # the nodes' arcs are those of the parabola up to their fourth order
+    assert measure_arcs(points).sum() == pytest.approx(problem.length, rel=1e-4)
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+
+
+@each("slack", SLACKS)
+@each("ground", ["free", "no-slip"])
+def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
+    """Parabola of the guideline: H = p c / (8 f), V = p / 2, T = ES strain."""
+    problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", size=FINE)
+    points = points_of(problem, state)
+    sag = largest_sag(problem, points)
+    pressure = guess_pressure(problem.snow, 5.0)
+    tension = pressure * math.hypot(1.0 / (8.0 * sag), 1.0 / 2.0)
+    # force of half the load at each end: p c / 2
+    strain = parabola_length(sag) / (1.0 + slack) - 1.0
+    middle = pressure / (8.0 * sag)
+    assert middle <= strain * problem.stiffness <= tension * (1.0 + 1e-3)
+    net = respond(points, state.lengths, friction=0.5, stiffness=problem.stiffness)
+    assert net.sliding.tensions.min() > 0.0
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_snow_fills_the_bulge(a_scene, start):
+    """L d and two thirds of chord times sag, on chords between vertices."""
+    problem, state = begin(a_scene(slack=0.05), start, size=FINE)
+    sag = largest_sag(problem, points_of(problem, state))
+    expected = 5.0 + 2.0 / 3.0 * sag
+    assert state.body.mass.sum() == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_head_above_the_snow_leaves_a_free_segment(a_scene, start):
+    problem, state = begin(a_scene(height_m=4.8, slack=0.03), start)
+    assert state.top == "on-net"
+    net = state.body.topology.net
+    assert state.carried.size == net.size - 1  # all but the foot
+    assert state.lengths.size == net.size
+    top = state.body.vertices[:, net[-1]]
+    assert top[1] == pytest.approx(1.0, abs=1e-12)
+    assert problem.head[1] == pytest.approx(1.2, rel=1e-12)
+
+
+# --- refused -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("stiffness", "clear"), [(2e3, False), (2e4, True)])
+def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
+    """Its sag over the chord, against that at which a parabola's end is level.
+
+    At its foot the parabola leaves the chord, 90 - 40 degrees above the ground, by
+    atan(4 sag): 0.298 would be level.
+    """
+    scene = a_scene(inclination_deg=40.0, slack=0.15, stiffness_kN_per_m=stiffness)
+    if clear:
+        problem, state = begin(scene, "sagged")
+        sag = largest_sag(problem, points_of(problem, state))
+        assert 0.23 < sag < math.tan(math.radians(50.0)) / 4.0
+        return
+    with pytest.raises(SolveError, match="the net touches the ground") as failure:
+        begin(scene, "sagged")
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+# --- mean pressure -----------------------------------------------------------

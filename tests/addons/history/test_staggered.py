@@ -1,0 +1,93 @@
+"""The paper's exchange: it oscillates, its drag is stated, and what it refuses."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.addons.history import staggered
+from netdesign.addons.history.incremental import advance_increment
+from netdesign.addons.history.settings import (
+    TRANSIENT_LEVELS,
+    StaggeredSettings,
+    TransientSettings,
+)
+from netdesign.addons.history.staggered import run_exchange, solve_staggered
+from netdesign.addons.history.transient import run_history
+from netdesign.coupling.solution import FailedSolution
+from netdesign.outcome import Outcome, SolveError
+
+SETTINGS = StaggeredSettings(base_drag=0.1, horizon=0.02)
+
+
+def foot(moments):
+    return np.array([np.hypot(*moment.foot) for moment in moments])
+
+
+def test_steps_are_all_alike(a_scene):
+    """Explicit: one length for all, half as long with half the share or half the drag.
+
+    A stiffer net needs shorter ones (time of a spring and a dashpot).
+    """
+    short = replace(SETTINGS, horizon=0.002)
+    first, half, light = (
+        run_exchange(a_scene(), settings).moments
+        for settings in (
+            short,
+            replace(short, step_share=0.5),
+            replace(short, base_drag=0.05),
+        )
+    )
+    step = first[0].time
+    np.testing.assert_allclose(np.diff([m.time for m in first]), step, rtol=1e-9)
+    assert half[0].time == pytest.approx(step / 2.0, rel=1e-12)
+    assert light[0].time == pytest.approx(step / 2.0, rel=1e-12)
+
+
+def test_drag_takes_its_share_of_the_weight(a_scene):
+    """While the snow moves, net and drag hold it; at rest the net alone."""
+    scene = a_scene()
+    moments = run_exchange(scene, SETTINGS).moments
+    held = [(moment.foot + moment.head)[0] for moment in moments]
+    weight = 5.0 * math.sin(math.radians(40.0))
+    assert held[0] < 0.5 * weight
+    assert 0.7 * weight < held[-1] < 1.02 * weight
+
+
+def test_exchange_ends_near_the_implicit_history(a_scene):
+    """Twelve per cent at these drags; the trend is in netdesign verify."""
+    scene = a_scene()
+    implicit = run_history(
+        scene, TRANSIENT_LEVELS[0], TransientSettings(start="straight"), 0.06
+    )
+    exchange = run_exchange(scene, replace(SETTINGS, horizon=0.06, base_drag=0.05))
+    assert foot(exchange.moments)[-1] == pytest.approx(
+        foot(implicit.moments)[-1], rel=0.12
+    )
+
+
+def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
+    def without(*arguments, **options):
+        increment = advance_increment(*arguments, **options)
+        return replace(increment, outcome=Outcome.NO_EQUILIBRIUM)
+
+    monkeypatch.setattr(staggered, "advance_increment", without)
+    result = solve_staggered(a_scene(), SETTINGS)
+    assert isinstance(result, FailedSolution)
+    assert "a shorter step may" in str(result.reason)
+    with pytest.raises(SolveError, match="a shorter step may"):
+        solve_staggered(a_scene(), SETTINGS, on_failure="raise")
+
+
+SETTINGS_REFUSED = [
+    ({"base_drag": 0.0}, "base drag"),
+    ({"base_drag": math.nan}, "base drag"),
+    ({"base_drag": 11.0}, "base drag"),
+    ({"step_share": 0.0}, "step share"),
+    ({"step_share": 2.1}, "step share"),
+    ({"horizon": 0.0}, "horizon"),
+    ({"horizon": math.inf}, "horizon"),
+    ({"stress_tolerance": 1e-3}, "stress tolerance"),
+    ({"max_iterations": 0}, "iterations"),
+]

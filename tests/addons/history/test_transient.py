@@ -1,0 +1,196 @@
+"""Histories: steps in balance, mass kept, plateau, starts, what ends a run early."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.addons.history import transient
+from netdesign.addons.history.moments import select_counted
+from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.addons.history.transient import run_history, solve_transient
+from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.outcome import Outcome, SolveError
+from tests.each import each
+
+COARSE = TRANSIENT_LEVELS[0]
+SHORT = 0.02  # creep time in which a sagged net comes to rest
+
+
+def run(scene, horizon=SHORT, **options):
+    return run_history(scene, COARSE, TransientSettings(**options), horizon)
+
+
+def sizes(moments, end):
+    return np.array([np.hypot(*getattr(moment, end)) for moment in moments])
+
+
+@each("start", ["straight", "sagged"])
+@each("friction_deg", [0.0, 5.0, 30.0])
+def test_every_step_is_in_balance(a_scene, start, friction_deg):
+    scene = a_scene(inclination_deg=20.0, friction_deg=friction_deg)
+    history = run(scene, start=start)
+    assert len(history.moments) > 5
+    assert max(moment.residual for moment in history.moments) < 1e-8
+
+
+@pytest.mark.parametrize("densifies", [False, True])
+def test_mass_is_kept(a_scene, densifies):
+    """What crosses the net's line while its nodes are spread anew is counted."""
+    masses = []
+    history = run_history(
+        a_scene(),
+        COARSE,
+        TransientSettings(densifies=densifies),
+        SHORT,
+        on_state=lambda state: masses.append(float(state.body.mass.sum())),
+    )
+    np.testing.assert_allclose(masses, masses[0], rtol=1e-4)
+    assert masses[-1] / (1.0 - history.fallen) == pytest.approx(masses[0], rel=1e-12)
+
+
+@each("inclination_deg", [0.0, 30.0])
+@each("friction_deg", [15.0, 30.0, 45.0])
+def test_the_papers_history_takes_few_steps_and_is_smooth(
+    a_scene, inclination_deg, friction_deg
+):
+    """Straight start to the plateau: no step fails, none takes back the one before."""
+    scene = a_scene(inclination_deg=inclination_deg, friction_deg=friction_deg)
+    settings = TransientSettings(start="straight", stops_at_plateau=True)
+    history = run_history(scene, TRANSIENT_LEVELS[1], settings, 5.0)
+    assert history.plateau.reached
+    assert history.rejected == 0
+    assert len(history.moments) <= 45
+    assert history.linear_solves <= 4.5 * len(history.moments)
+    later = [moment for moment in history.moments if moment.time > 1e-4]
+    for end in ("foot", "head"):
+        change = np.diff(np.log(sizes(later, end)))
+        back = np.where(change[1:] * change[:-1] < 0.0, np.abs(change[1:]), 0.0)
+        assert np.minimum(back, np.abs(change[:-1])).max() < 5e-3
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "friction_deg", [pytest.param(15.0, marks=pytest.mark.slow), 30.0]
+)
+def test_stated_error_holds_on_a_finer_mesh_with_finer_steps(a_scene, friction_deg):
+    """Coarse steps on the coarse mesh: the difference shows space and time."""
+    scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg)
+    settings = TransientSettings(
+        start="straight", stops_at_plateau=True, levels=TRANSIENT_LEVELS[:2]
+    )
+    stated = solve_transient(scene, settings)
+    fine = run_history(
+        scene, TRANSIENT_LEVELS[2], replace(settings, accuracy=2e-3), 5.0
+    )
+    for end in ("foot", "head"):
+        pull = getattr(stated, end)
+        assert pull.error < 0.04 * pull.size
+        true = sizes(fine.moments, end).max() * scene.force_scale
+        assert abs(pull.size - true) < pull.error
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_more_accuracy_takes_more_steps_to_the_same_pull(a_scene, start):
+    """While the pulls still change, each within about its accuracy of the last."""
+    accuracies = (0.1, 0.01, 0.001)
+    runs = [run(a_scene(), start=start, accuracy=accuracy) for accuracy in accuracies]
+    counts = [len(history.moments) for history in runs]
+    assert counts[0] <= counts[1] < counts[2]
+    exact = runs[2].moments[-1]
+    for accuracy, history in zip(accuracies[:2], runs[:2], strict=True):
+        for end in ("foot", "head"):
+            np.testing.assert_allclose(
+                getattr(history.moments[-1], end),
+                getattr(exact, end),
+                atol=accuracy * np.hypot(*exact.foot),
+            )
+
+
+def test_fluidity_only_rescales_time(a_scene):
+    """Seven times the fluidity: the same history in a seventh of the time."""
+    scene = a_scene()
+    slow = solve(scene, horizon=7 * 86400.0)
+    fast = solve(replace(scene, fluidity=7.0 * scene.creep_fluidity), horizon=86400.0)
+    for end in ("foot", "head"):
+        np.testing.assert_allclose(
+            sizes(fast.history.moments, end),
+            sizes(slow.history.moments, end),
+            rtol=1e-9,
+        )
+    times = [[m.time for m in s.history.moments] for s in (slow, fast)]
+    np.testing.assert_allclose(times[0], 7.0 * np.array(times[1]), rtol=1e-9)
+
+
+def solve(scene, **options) -> Solution:
+    options = {"horizon": 86400.0, "accuracy": 0.1, **options}
+    settings = TransientSettings(**options)
+    solution = solve_transient(scene, settings, on_failure="raise")
+    assert isinstance(solution, Solution)
+    return solution
+
+
+def test_solution_keeps_the_largest_pull_and_the_plateau(a_scene):
+    solution = solve(a_scene(inclination_deg=30.0))
+    history = solution.history
+    counted = select_counted(history.moments, history.plateau, is_guessed=False)
+    assert 0 < len(counted) < len(history.moments)
+    assert solution.method == "transient"
+    for end in ("foot", "head"):
+        pull = getattr(solution, end)
+        assert pull.size == pytest.approx(sizes(counted, end).max(), rel=1e-12)
+    largest = max(moment.tension_max for moment in counted)
+    assert solution.tension_max == pytest.approx(largest, rel=1e-12)
+    assert solution.history.plateau.reached
+    assert solution.balance.relative_residual < 1e-8
+
+
+def test_step_that_fails_later_ends_the_history_there(a_scene, monkeypatch):
+    """The last good moment stands, and the plateau is not claimed."""
+    taken = []
+
+    def fail_late(*arguments, **options):
+        if len(taken) >= 4:
+            raise SolveError(Outcome.NONFINITE, "broken on purpose")
+        taken.append(1)
+        return advance(*arguments, **options)
+
+    advance = transient.advance
+    monkeypatch.setattr(transient, "advance", fail_late)
+    history = run(a_scene())
+    assert len(history.moments) <= 4
+    assert "broken on purpose" in str(history.ended)
+    assert not history.plateau.reached
+
+
+SETTINGS_REFUSED = [
+    ({"accuracy": 0.2}, "accuracy"),
+    ({"accuracy": math.nan}, "accuracy"),
+    ({"horizon": 0.0}, "horizon"),
+    ({"horizon": math.inf}, "horizon"),
+    ({"stress_tolerance": 1e-3}, "stress tolerance"),
+    ({"balance_tolerance": 1e-5}, "balance tolerance"),
+    ({"max_steps": 0}, "steps"),
+    ({"max_iterations": 0}, "iterations"),
+    ({"levels": TRANSIENT_LEVELS[:1]}, "two mesh levels"),
+]
+
+
+def test_too_few_steps_are_said(a_scene):
+    solution = solve(a_scene(), max_steps=5)
+    assert "5 steps were not enough" in str(solution.history.ended)
+    assert not solution.history.plateau.reached
+
+
+def test_first_step_that_fails_is_a_failure(a_scene, monkeypatch):
+    def fail(*_, **__):
+        raise SolveError(Outcome.NO_EQUILIBRIUM, "nothing holds")
+
+    monkeypatch.setattr(transient, "advance", fail)
+    result = solve_transient(a_scene())
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.NO_EQUILIBRIUM
+    assert str(result.reason).startswith("first step: ")
+    with pytest.raises(SolveError, match="nothing holds"):
+        solve_transient(a_scene(), on_failure="raise")

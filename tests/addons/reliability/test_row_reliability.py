@@ -1,0 +1,254 @@
+"""Notional reliability of rows: what it rests on, what it never changes."""
+
+import copy
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.addons.reliability.form import follow_design_point
+from netdesign.addons.reliability.response import Line
+from netdesign.addons.reliability.row_reliability import record_reliability
+from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
+from netdesign.site.model import UncertainQuantity
+from netdesign.site.reader import read_site
+from netdesign.snowpack.model_code import compare_densities
+from netdesign.study.cases import search_site
+from netdesign.study.check_site import check_site
+from netdesign.study.document import read_document, write_document
+from netdesign.study.judge import find_worst, judge_site
+from netdesign.study.record_envelope import read_point
+from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.side_by_side import name_rows
+from tests.each import each
+from tests.short_example import write_short_example
+from tests.small_site import RUN
+
+STANDARD = load_standard("nf-p-95-304-style")
+WITH = replace(RUN, has_reliability=True)
+
+
+def tell(name, variation, **more):
+    return UncertainQuantity(
+        row_id="", name=name, variation=variation, source="told here", **more
+    )
+
+
+@pytest.fixture(scope="module")
+def searched(tmp_path_factory):
+    """Site of one row that glides and one that does not, and its cases."""
+    path = tmp_path_factory.mktemp("site") / "site.xlsx"
+    write_short_example(path, ["R2", "R4"], is_grid=False)
+    site = read_site(path)
+    return site, search_site(site, RUN)
+
+
+@pytest.fixture(scope="module")
+def judge(searched):
+    def judge(*uncertain, run=WITH):
+        site, solved = searched
+        site = replace(site, uncertain=uncertain)
+        solver = CaseSolver(run.settings, run.creep_law)
+        return judge_site(site, solved, STANDARD, run, solver)
+
+    return judge
+
+
+@pytest.fixture(scope="module")
+def study(judge):
+    return judge()
+
+
+def test_everything_else_is_the_same_without_it(judge, study):
+    bare = judge(run=RUN)
+    assert [row.reliability for row in bare.rows] == [None, None]
+    without = [replace(row, reliability=None) for row in study.rows]
+    assert without == list(bare.rows)
+    assert study.verdict is bare.verdict
+
+
+def test_snow_is_denser_where_it_is_deeper(judge, searched):
+    site, _ = searched
+    told = tell("density", 0.01), tell("snow_height", 0.25)
+    for record, row in zip(judge(*told).rows, site.rows, strict=True):
+        found = {one.name: one for one in record.reliability.variables}
+        deep = found["snow_height"].at_design_point
+        height = row.snow_thickness / math.cos(row.slope_angle)
+        assert abs(deep / height - 1.0) > 0.03
+        denser = float(compare_densities(np.array([deep]), height)[0])
+        density = found["density"].at_design_point / found["density"].mean
+        assert density == pytest.approx(denser, rel=0.01)
+
+
+@pytest.mark.parametrize("verdict", [Verdict.NOT_PROVEN, Verdict.DECLARED])
+def test_a_row_with_an_open_check_has_none_however_safe_the_others_are(study, verdict):
+    row = study.rows[0]
+    for number in range(0, len(row.checks), 7):
+        checks = list(row.checks)
+        checks[number] = replace(checks[number], verdict=verdict)
+        found = record_reliability(None, checks, find_worst(checks), None, None)
+        assert found.reason.key == "reliability.open_check"
+        assert found.beta is None
+    failing = replace(row.checks[3], verdict=Verdict.FAIL, utilisation=None)
+    found = record_reliability(None, [*row.checks, failing], None, None, None)
+    assert found.reason.key == "reliability.open_check"
+
+
+def test_it_is_of_the_governing_check_and_has_a_number(study):
+    for row in study.rows:
+        record, worst = row.reliability, find_worst(row.checks)
+        assert record.reason is None
+        assert record.check == worst.id
+        assert 2.0 < record.beta < 7.0
+        assert 0.0 < record.standard_error < 0.02
+        assert record.solves <= 10
+        shares = [one.alpha_squared for one in record.variables]
+        assert sum(shares) == pytest.approx(1.0)
+        # less used than 1: safer than at 1
+        assert record.beta > record.beta_at_full
+        implied = record.action_factor * record.resistance_factor
+        given = record.profile_action_factor * record.profile_resistance_factor
+        assert implied == pytest.approx(given / worst.utilisation, rel=0.01)
+
+
+def test_the_design_point_is_solved_by_the_full_model(searched, study):
+    site, _ = searched
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    for given, row in zip(site.rows, study.rows, strict=True):
+        record, worst = row.reliability, find_worst(row.checks)
+        cases = (read_point(record.design_point), read_point(worst.case))
+        wanted = [(given, case, solver.law) for case in cases]
+        at, now = (
+            one.member_forces[worst.member].value for one in solver.solve_all(wanted)
+        )
+        assert record.force_ratio == pytest.approx(at / now, rel=0.03)
+        assert record.force_ratio == pytest.approx(record.force_ratio_by_model, rel=0.1)
+
+
+def test_around_the_design_point_the_model_is_that_of_full_solves(judge, monkeypatch):
+    from netdesign.addons.reliability import row_reliability
+
+    met, real = [], row_reliability._meet_design_point
+
+    def keep(state, rater):
+        found = real(state, rater)
+        met.append((found[0], rater))
+        return found
+
+    monkeypatch.setattr(row_reliability, "_meet_design_point", keep)
+    judge()
+    rng = np.random.default_rng(17)
+    for state, rater in met:
+        limit = state.build()
+        place = follow_design_point(limit, None).place
+        drawn = place + 0.8 * rng.standard_normal((15, len(place)))
+        points = limit.place(np.minimum(drawn, limit.caps))
+        moved = [state.read_point(one) for one in points.tolist()]
+        solved = [rater.solve(rater.check.governing, [one])[0] for one in moved]
+        errors = [
+            float(state.response.find({k: np.array([v]) for k, v in one.items()})[0])
+            - rate
+            for one, rate in zip(moved, solved, strict=True)
+            if rate is not None
+        ]
+        assert len(errors) > 10
+        assert np.sqrt(np.mean(np.square(errors))) < 0.03
+
+
+def test_what_nobody_typed_is_told_as_assumed(judge, study):
+    assert all(
+        one.is_assumed for row in study.rows for one in row.reliability.variables
+    )
+    told = judge(tell("snow_height", 0.27, period=80.0), tell("model", 0.11))
+    for row in told.rows:
+        typed = {one.name for one in row.reliability.variables if not one.is_assumed}
+        assert typed == {"snow_height", "model"}
+        sources = {str(one.source.arguments) for one in row.reliability.variables}
+        assert "{'text': 'told here'}" in sources
+
+
+@each(
+    "quantity",
+    [
+        tell("model", 0.31),
+        tell("resistance", 0.33),
+        tell("resistance", 0.2, mean_ratio=1.02),
+        tell("snow_height", 0.3, period=30.0),
+        tell("model", 0.2, mean_ratio=1.2),
+    ],
+)
+def test_more_scatter_and_less_margin_lower_the_index(judge, study, quantity):
+    for row, again in zip(study.rows, judge(quantity).rows, strict=True):
+        now, moved = row.reliability, again.reliability
+        assert moved.beta is None or moved.beta < now.beta - 0.05
+
+
+def test_a_design_point_beyond_what_was_solved_is_not_available(judge):
+    (_, gliding) = judge(tell("glide_factor", 0.9), tell("model", 0.02)).rows
+    record = gliding.reliability
+    assert record.beta is None
+    assert record.reason.key in ("reliability.beyond", "reliability.missed")
+    assert record.variables == []
+
+
+def test_without_a_distribution_it_is_not_available(searched, judge):
+    site, solved = searched
+    rows = tuple(replace(row, glide_factor=None) for row in site.rows)
+    solver = CaseSolver(WITH.settings, WITH.creep_law)
+    found = judge_site(replace(site, rows=rows), solved, STANDARD, WITH, solver)
+    gliding = found.rows[1].reliability
+    assert (gliding.beta, gliding.reason.key) == (None, "reliability.no_distribution")
+
+
+def test_a_fault_of_its_own_is_a_reason_and_no_fault_of_the_checks(
+    judge, study, monkeypatch
+):
+    from netdesign.addons.reliability import row_reliability
+
+    def fail(*_):
+        raise ZeroDivisionError("made up")
+
+    monkeypatch.setattr(row_reliability, "find_reliability", fail)
+    found = judge()
+    assert found.verdict is study.verdict
+    for row, before in zip(found.rows, study.rows, strict=True):
+        assert row.reliability.reason.key == "reliability.fault"
+        assert row.checks == before.checks
+
+
+def test_a_stored_study_has_it_and_contradicts_nothing(searched, study):
+    _, _ = searched
+    again = read_document(write_document(study))
+    assert [row.reliability for row in again.rows] == [
+        row.reliability for row in study.rows
+    ]
+
+
+def test_a_whole_run_finds_the_same(searched, study):
+    site, _ = searched
+    (whole,) = check_site(copy.deepcopy(site), [STANDARD], WITH)
+    for row, same in zip(whole.rows, study.rows, strict=True):
+        assert row.reliability.beta == pytest.approx(same.reliability.beta, abs=1e-9)
+
+
+def test_the_store_keeps_rows_with_and_without_it_apart(searched):
+    site, _ = searched
+    typed = replace(site, uncertain=(tell("model", 0.19),))
+    pairs = [(site, RUN), (site, WITH), (typed, WITH)]
+    names = [name_rows(one, [STANDARD], run)["R2"] for one, run in pairs]
+    assert len(set(names)) == 3
+
+
+def test_a_line_goes_through_its_values_and_on_along_its_tangent():
+    line = Line(
+        name="thickness", low=1.3, centre=2.1, high=2.9, solved=2.7, bend=-0.4
+    ).meet(2.7, 0.53)
+    assert line.find(np.array([2.7]))[0] == pytest.approx(0.53)
+    assert line.find(np.array([2.1]))[0] == 0.0
+    steps = np.array([2.9 - 1e-6, 2.9, 2.9 + 1e-6, 3.4, 3.4 * (3.4 / 2.9)])
+    found = line.find(steps)
+    inner, outer = np.diff(found[:3])
+    assert outer == pytest.approx(inner, rel=1e-4)
+    assert found[4] - found[3] == pytest.approx(found[3] - found[1])

@@ -1,0 +1,117 @@
+"""Notional reliability in every output: one decimal, no verdict, reasons."""
+
+import html
+import io
+import math
+import re
+from dataclasses import replace
+
+import docx
+import pytest
+from rich.console import Console
+
+from netdesign.addons.reliability.section import (
+    list_reliability,
+    show_reliability,
+    tabulate_indices,
+)
+from netdesign.report.document.word import render_document
+from netdesign.report.page.html import render_html
+from netdesign.report.terminal import print_summary
+from netdesign.report.words import ENGLISH, Words
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.study.records import ReliabilityRecord
+from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
+from tests.each import each
+from tests.report.build_study import build_reliability, build_study
+from tests.report.reading import read_workbook
+
+BARE = build_study()
+KNOWN = build_reliability(BARE.rows[0].checks[0].id)
+LACKING = ReliabilityRecord(check="", reason=say("reliability.no_check"))
+STUDY = replace(
+    BARE,
+    rows=[
+        replace(BARE.rows[0], reliability=KNOWN),
+        replace(BARE.rows[1], reliability=LACKING),
+        BARE.rows[2],
+    ],
+)
+LONG = re.compile(r"\b3[.,](?:42|43|31|32|12|13)")  # of an index with two decimals
+
+
+def test_nobody_asked_nobody_is_told():
+    assert list(show_reliability(BARE, ENGLISH)) == []
+    assert list(list_reliability(BARE, ENGLISH)) == []
+    assert "annex-reliability" not in render_html(BARE)
+    assert "Reliability" not in read_workbook(render_workbook(BARE)).sheetnames
+
+
+@each("language", LANGUAGES)
+def test_a_page_has_index_bars_and_reasons(language):
+    words = Words(language)
+    page = render_html(STUDY, language)
+    annex = html.unescape(page[page.index('id="annex-reliability"') :])
+    assert words("reliability.is_not") in annex
+    assert words.write("3.4") in annex
+    assert words.write("+0.3") in annex
+    assert not LONG.search(annex)
+    assert all(words.write(one) in annex for one in ("3.1", "3.3", "3.7"))
+    assert words("reliability.percent", share="47") in annex
+    assert words.show(LACKING.reason) in annex
+    assert annex.count("<rect ") == len(KNOWN.variables)
+    assert "fit 2026" in annex
+
+
+@each("beta, error, shown", [
+    (3.4271, 0.0137, "3.4 (3.3 to 3.5)"),
+    (3.35, 0.005, "3.4 (3.3 to 3.4)"),
+    (2.96, 0.019, "3.0 (2.9 to 3.0)"),
+])  # fmt: skip
+def test_the_band_is_rounded_outwards(beta, error, shown):
+    record = replace(KNOWN, beta=beta, standard_error=error)
+    study = replace(STUDY, rows=[replace(STUDY.rows[0], reliability=record)])
+    (line, *_) = tabulate_indices(study, ENGLISH).rows
+    assert shown in [cell.text for cell in line]
+    low, high = map(float, re.findall(r"[\d.]+", shown)[1:])
+    assert low <= beta - 2.0 * error
+    assert high >= beta + 2.0 * error
+
+
+def test_bars_are_as_long_as_their_shares():
+    page = render_html(STUDY)
+    annex = page[page.index('id="annex-reliability"') :]
+    widths = [float(one) for one in re.findall(r'<rect [^>]*width="([\d.]+)"', annex)]
+    shares = sorted((one.alpha_squared for one in KNOWN.variables), reverse=True)
+    assert math.fsum(shares) == pytest.approx(1.0)
+    longest = widths[0] / shares[0]
+    assert widths == pytest.approx([longest * one for one in shares], abs=0.02)
+
+
+@each("language", LANGUAGES)
+def test_a_terminal_has_it_in_two_lines_without_a_word_of_a_verdict(language):
+    words = Words(language)
+    lines = list(list_reliability(STUDY, words))
+    assert len(lines) == 2
+    assert words.write("3.4 (3.3") in lines[0]
+    assert words.show(LACKING.reason) in lines[1]
+    verdicts = [words(f"verdict.{one}") for one in ("pass", "fail", "not_proven")]
+    assert not any(one in line for one in verdicts for line in lines)
+    console = Console(file=io.StringIO(), width=200)
+    print_summary(STUDY, console, language)
+    assert lines[0] in console.file.getvalue()
+
+
+def test_workbook_and_document_say_the_same():
+    book = read_workbook(render_workbook(STUDY))
+    sheet = book["Reliability"]
+    cells = [one for line in sheet.iter_rows(values_only=True) for one in line if one]
+    assert "3.4 (3.3 to 3.5)" in cells
+    assert 0.471 in cells
+    document = docx.Document(io.BytesIO(render_document(STUDY)))
+    texts = [one.text for one in document.paragraphs]
+    tables = [c.text for one in document.tables for c in one._cells]
+    assert ENGLISH("reliability.is_not") in texts
+    assert "3.4 (3.3 to 3.5)" in tables
+    assert not any(LONG.search(one) for one in (*texts, *tables) if "β" in one)
