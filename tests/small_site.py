@@ -5,21 +5,17 @@ import math
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.resistance.steel import Link, Wear
-from netdesign.site.model import (
+from netdesign.resistance.wedge import AnchorType
+from netdesign.site.model import InputEcho, NetRow, Project, Resistance, Site
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,
     END_MODES,
     MEMBER_MODES,
     NET_MODES,
-    AnchorType,
-    InputEcho,
-    NetRow,
-    Project,
-    Resistance,
-    Site,
 )
-from netdesign.snow.ground import GroundLaw
-from netdesign.structure.layout import SupportLayout
 from netdesign.structure.splay import Guys
 from netdesign.study.check_run import CheckRun
 from netdesign.study.pulls import ANCHORS

@@ -115,7 +115,7 @@ THIRD_PARTY = {
             "addons.evidence.validation.structure",
             "addons.evidence.validation.measured_file",
         ),
-        *("checks.schema", "files.scene", "files.support_tables", "study.document"),
+        *("checks.schema", "files.scene", "study.document"),
         "edge.json_text",
     ),
     "pydantic_core": ("checks.schema", "edge.json_text", "words.message"),

@@ -13,8 +13,8 @@ from netdesign.envelope.extremes import (
     describe_gap,
     find_extremes,
 )
-from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.ranges import Case, Ranges, build_case, place_scene
+from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
 from netdesign.panel.inputs import Panel
 from netdesign.search.maxima import Maxima, SearchSettings

@@ -11,8 +11,7 @@ from itertools import islice
 
 from netdesign.edge.progress import Wave
 from netdesign.envelope.cases import Cases, FirstCases, FrictionSkip
-from netdesign.envelope.lift import bound_lifted
-from netdesign.envelope.result_reader import ResultReader
+from netdesign.envelope.result_reader import ResultReader, bound_lifted
 from netdesign.envelope.rows import (
     Confirmation,
     RowEnvelope,

@@ -19,7 +19,7 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import build_case
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
-from netdesign.files.support_tables import GivenSupport
+from netdesign.files.scene import GivenSupport
 from netdesign.panel.solution import EndForces, RopeForces, compute_end_forces
 from netdesign.search.maxima import Addition
 from netdesign.solving.runner import Counts

@@ -14,8 +14,8 @@ from netdesign.guideline.load_model import (
     compute_net_pull,
     compute_snow_load,
 )
-from netdesign.numerics.arrays import Number
-from netdesign.numerics.either import (
+from netdesign.numerics.arrays import (
+    Number,
     find_cosine,
     find_tangent,
     take_larger,

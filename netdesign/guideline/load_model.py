@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Generic
 
 from netdesign.checks.loader import Standard
-from netdesign.numerics.arrays import Number
-from netdesign.numerics.either import (
+from netdesign.numerics.arrays import (
+    Number,
     find_cosine,
     find_cube_root,
     find_root,

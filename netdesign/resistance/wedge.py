@@ -1,4 +1,4 @@
-"""Ground that an anchor may pull out with itself: a wedge between two planes.
+"""Anchor in its ground, and what it may pull out with itself: between two planes.
 
 Theory: resistance/THEORY.md, (R18) and (R19).
 """
@@ -12,6 +12,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import require_positive, require_within
+from netdesign.resistance.steel import RoundSection
 
 _LEAST = math.radians(0.5)  # between a plane and the slope
 _PLANES = 400  # tried at once
@@ -138,3 +139,56 @@ def _hold(soil: Soil, depth: float, slope: float, planes: Floats) -> Floats:
     area = 0.5 * depth**2 * (1.0 / np.tan(planes) - 1.0 / np.tan(behind))
     cohesion = soil.cohesion * math.cos(soil.friction) * lengths
     return cohesion + soil.weight * area * np.sin(planes + soil.friction - slope)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchorType:
+    """What an anchor is, beside its resistances along its axis.
+
+    Attributes
+    ----------
+    kind : str
+        "bar", "micropile", "rope anchor", or "" where none is given.
+    section : RoundSection or None
+        Of a bar or tube; None where its dimensions are not given.
+    lever : float or None
+        Free length over which it bends [m]; None where none is given.
+    drilled, bond : float or None
+        Lengths from the ground's surface, and of the bond at its end [m].
+    least_cover, least_edge : float or None
+        As the geotechnical engineer asks of the ground around the bond [m].
+    soil : Soil or None
+        Strength of that ground, which is given instead of a cover.
+    """
+
+    kind: str
+    section: RoundSection | None
+    lever: float | None
+    drilled: float | None = None
+    bond: float | None = None
+    least_cover: float | None = None
+    least_edge: float | None = None
+    soil: Soil | None = None
+
+    def find_cover(self, axis: float) -> float:
+        """Depth of the bond's middle, normal to the slope [m]; (S22).
+
+        A length that is not given is the other one.
+
+        Parameters
+        ----------
+        axis : float
+            Inclination of the anchor against the slope [rad].
+        """
+        drilled, bond = self.drilled or self.bond, self.bond or self.drilled
+        return ((drilled or 0.0) - 0.5 * (bond or 0.0)) * math.sin(axis)
+
+    def list_depths(self, axis: float) -> tuple[float, ...]:
+        """Least and largest depth that the bond's middle may have [m].
+
+        One where its length is given; none without a drilled length.
+        """
+        if self.drilled is None:
+            return ()
+        least = self.find_cover(axis)
+        return (least,) if self.bond else (least, self.drilled * math.sin(axis))

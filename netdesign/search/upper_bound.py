@@ -115,15 +115,7 @@ def bound_quantities(
     around = np.array([model.places[np.argmax(column)] for column in values.T])
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
-    def reach(at: Floats) -> Floats:
-        mean, standard_error = model.predict(at, asked)
-        factor = _inflate(at, inflations, len(best))[:, asked]
-        result: Floats = np.full((len(at), len(best)), np.inf)
-        likely = mean + certainty * factor * standard_error
-        sway = model.find_sway(at, asked)
-        result[:, asked] = likely + sway + NOISE * tolerance[asked]
-        return result
-
+    reach = _build_reach(model, asked, tolerance, certainty, inflations)
     allowed = reach(looked_at)
     upper = allowed.max(axis=0)
     order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in asked}
@@ -151,6 +143,27 @@ def bound_quantities(
         ),
         wanted=tuple(wanted),
     )
+
+
+def _build_reach(
+    model: Surrogate,
+    asked: list[int],
+    tolerance: Floats,
+    certainty: float,
+    inflations: Sequence[Inflation],
+) -> Callable[[Floats], Floats]:
+    """Places to what each quantity may reach there; infinity of one not asked for."""
+
+    def reach(at: Floats) -> Floats:
+        mean, standard_error = model.predict(at, asked)
+        factor = _inflate(at, inflations, len(tolerance))[:, asked]
+        result: Floats = np.full((len(at), len(tolerance)), np.inf)
+        likely = mean + certainty * factor * standard_error
+        sway = model.find_sway(at, asked)
+        result[:, asked] = likely + sway + NOISE * tolerance[asked]
+        return result
+
+    return reach
 
 
 def _close_above(upper: Floats, best: Floats, margin: Floats) -> Floats:

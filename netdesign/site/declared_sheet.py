@@ -25,20 +25,18 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
-from netdesign.site.model import (
+from netdesign.site.model import InputEcho, NetRow, ReplacedCell
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import read_rows
+from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,
     END_MODES,
     LIFTED_MODE,
     MEMBER_MODES,
     NET_MODES,
-    InputEcho,
-    NetRow,
-    ReplacedCell,
+    Member,
 )
-from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import read_rows
-from netdesign.structure.members import Member
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check

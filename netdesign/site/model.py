@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
-from datetime import datetime
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from netdesign.checks import Declaration, GivenResistance
 from netdesign.coupling.scene import is_overtopped
@@ -14,8 +13,8 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import PostSection
-from netdesign.resistance.steel import Link, RoundSection, Wear
-from netdesign.resistance.wedge import Soil
+from netdesign.resistance.steel import Link, Wear
+from netdesign.resistance.wedge import AnchorType
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -32,119 +31,15 @@ from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, Text, say
 
-# What a member can fail by; the keys under which resistances are given.
-MEMBER_MODES: tuple[tuple[Member, str], ...] = (
-    (Member.FOOT_ANCHOR, "tendon"),
-    (Member.FOOT_ANCHOR, "pull_out"),
-    (Member.UPHILL_GUY, "rope"),
-    (Member.UPHILL_ANCHOR, "tendon"),
-    (Member.UPHILL_ANCHOR, "pull_out"),
-    (Member.DOWNHILL_GUY, "rope"),
-    (Member.DOWNHILL_ANCHOR, "tendon"),
-    (Member.DOWNHILL_ANCHOR, "pull_out"),
-    (Member.POST, "compression"),
-    (Member.POST_BASE, "bearing"),
-)
-# Columns that name the type of a member without a type of its own.
-NAMED_BY: Mapping[Member, Member] = {
-    Member.POST_BASE: Member.POST,
-    Member.POST_FOOT: Member.POST,
-}
-# Members whose resistance follows the demand; anchors that bend come in addition.
-DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
-    (Member.POST, "compression_bending"),
-    (Member.POST_BASE, "sliding"),
-)
-# Checked only where some case lifts a post.
-LIFTED_MODE = (Member.POST_FOOT, "tension")
+if TYPE_CHECKING:
+    from netdesign.site.further_sheets import MonitoringSeries, UncertainQuantity
+
 
 # What a row takes of a case, beside the usual three; glide if its ground slides.
 _GLIDE = frozenset(("slip_length", "glide_factor"))
 _OF_ROW = _GLIDE | {
     *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
 }
-# Of the ends of a row of panels.
-END_MODES: tuple[tuple[EndMember, str], ...] = (
-    (EndMember.LATERAL_ANCHOR, "tendon"),
-    (EndMember.LATERAL_ANCHOR, "pull_out"),
-    (EndMember.END_GUY, "rope"),
-    (EndMember.END_GUY_ANCHOR, "tendon"),
-    (EndMember.END_GUY_ANCHOR, "pull_out"),
-)
-
-
-# Members whose chain of links is checked, and the anchor that pulls at its end.
-CONNECTED: Mapping[str, Member | None] = {
-    Member.FOOT_ANCHOR: Member.FOOT_ANCHOR,
-    Member.UPHILL_GUY: Member.UPHILL_ANCHOR,
-    Member.UPHILL_ANCHOR: Member.UPHILL_ANCHOR,
-    Member.DOWNHILL_GUY: Member.DOWNHILL_ANCHOR,
-    Member.DOWNHILL_ANCHOR: Member.DOWNHILL_ANCHOR,
-    EndMember.LATERAL_ANCHOR: None,
-    EndMember.END_GUY: None,
-    EndMember.END_GUY_ANCHOR: None,
-    NetPart.RIDGE_ROPE: None,
-    NetPart.LOWER_ROPE: None,
-}
-# Of the net itself; those of its ropes where it has some.
-NET_MODES: tuple[tuple[NetPart, str], ...] = (
-    (NetPart.MESH, "mesh"),
-    (NetPart.RIDGE_ROPE, "rope"),
-    (NetPart.LOWER_ROPE, "rope"),
-)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AnchorType:
-    """What an anchor is, beside its resistances along its axis.
-
-    Attributes
-    ----------
-    kind : str
-        "bar", "micropile", "rope anchor", or "" where none is given.
-    section : RoundSection or None
-        Of a bar or tube; None where its dimensions are not given.
-    lever : float or None
-        Free length over which it bends [m]; None where none is given.
-    drilled, bond : float or None
-        Lengths from the ground's surface, and of the bond at its end [m].
-    least_cover, least_edge : float or None
-        As the geotechnical engineer asks of the ground around the bond [m].
-    soil : Soil or None
-        Strength of that ground, which is given instead of a cover.
-    """
-
-    kind: str
-    section: RoundSection | None
-    lever: float | None
-    drilled: float | None = None
-    bond: float | None = None
-    least_cover: float | None = None
-    least_edge: float | None = None
-    soil: Soil | None = None
-
-    def find_cover(self, axis: float) -> float:
-        """Depth of the bond's middle, normal to the slope [m]; (S22).
-
-        A length that is not given is the other one.
-
-        Parameters
-        ----------
-        axis : float
-            Inclination of the anchor against the slope [rad].
-        """
-        drilled, bond = self.drilled or self.bond, self.bond or self.drilled
-        return ((drilled or 0.0) - 0.5 * (bond or 0.0)) * math.sin(axis)
-
-    def list_depths(self, axis: float) -> tuple[float, ...]:
-        """Least and largest depth that the bond's middle may have [m].
-
-        One where its length is given; none without a drilled length.
-        """
-        if self.drilled is None:
-            return ()
-        least = self.find_cover(axis)
-        return (least,) if self.bond else (least, self.drilled * math.sin(axis))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -447,35 +342,6 @@ class NetRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MonitoringSeries:
-    """Measurements at one member of one net row.
-
-    Attributes
-    ----------
-    row_id, member : str
-        Net row; ``foot_anchor``, ``uphill_guy``, ``downhill_guy`` or ``post``.
-    times : tuple of float
-        Ascending, from 0 at the first reading [s].
-    tensions : tuple of float or None
-        Per anchor [N]; None where a line has none.
-    air_temperatures : tuple of float or None
-        [K]; None where a line has none.
-    source : str
-        First cell.
-    start : datetime or None
-        Of the first reading; None where times are given without a date.
-    """
-
-    row_id: str
-    member: str
-    times: tuple[float, ...]
-    tensions: tuple[float | None, ...]
-    air_temperatures: tuple[float | None, ...]
-    source: str
-    start: datetime | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class StationWinter:
     """Series of a station, and how it reaches the rows.
 
@@ -538,37 +404,6 @@ class Project:
     revision: str = ""
     standard: str = ""
     accepted_law: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class UncertainQuantity:
-    """What is known of the scatter of one quantity, of one net row or of all.
-
-    Attributes
-    ----------
-    row_id : str
-        Empty for all net rows.
-    name : str
-        "snow_height", "model", "resistance", ...: a line of ``assumed.toml``.
-    distribution : str
-        "gumbel", "lognormal" or "normal"; empty for that which is usual.
-    mean_ratio : float or None
-        Mean over the value of the workbook [-].
-    variation : float
-        Coefficient of variation [-].
-    period : float or None
-        Return period of the snow height of the workbook [a].
-    source : str
-        Where it is from, as typed.
-    """
-
-    row_id: str
-    name: str
-    variation: float
-    source: str
-    distribution: str = ""
-    mean_ratio: float | None = None
-    period: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

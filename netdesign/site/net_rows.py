@@ -66,6 +66,8 @@ from netdesign.structure.layout import (
 )
 from netdesign.words.message import Message, say
 
+Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
+
 _CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
 _SIZES = ("snow_thickness", "snow_height")
@@ -137,13 +139,9 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
     echoes = _echo_inputs(line, thickness, ground)
-    return _compose_net_row(
-        row,
-        end,
-        lines.types,
-        snow=(thickness, layers, ground),
-        inputs=(*echoes, *echo_layers(snow), *echo_ends(end)),
-    )
+    inputs = (*echoes, *echo_layers(snow), *echo_ends(end))
+    held = (thickness, layers, ground)
+    return _compose_net_row(row, end, lines.types, held, inputs)
 
 
 def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Row:
@@ -165,14 +163,9 @@ def _is_faulty(named: list[Row], unreadable: Iterable[str]) -> bool:
 
 
 def _compose_net_row(
-    row: Row,
-    end: Row | None,
-    types: Types,
-    *,
-    snow: tuple[float, tuple[Layer, ...], GroundLaw],
-    inputs: tuple[InputEcho, ...],
+    row: Row, end: Row | None, types: Types, snow: Snow, inputs: tuple[InputEcho, ...]
 ) -> NetRow:
-    """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
+    """Net row of a line without a fault."""
     thickness, layers, ground = snow
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0

@@ -37,6 +37,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import SheetPlan, find_item
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
+from netdesign.site.further_sheets import read_monitoring, read_uncertain
 from netdesign.site.headings import Table, count_known, refuse_unused_answers
 from netdesign.site.lines import (
     Lines,
@@ -44,7 +45,7 @@ from netdesign.site.lines import (
     refuse_unknown_ids,
     spread_over_rows,
 )
-from netdesign.site.model import NetRow, Project, Site, UncertainQuantity
+from netdesign.site.model import NetRow, Project, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
@@ -60,7 +61,6 @@ from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import (
     check_layers,
     read_layers,
-    read_monitoring,
     read_winter,
 )
 from netdesign.site.statements import list_missing
@@ -138,24 +138,28 @@ def read_site(
     workbook, replaced = replace_cells(cells, instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
-    cover = find_table(workbook, PROJECT, findings)
+    return replace(_build_site(workbook, replaced, findings), text_format=text_format)
+
+
+def _build_site(
+    workbook: Workbook, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
+) -> Site:
+    project, of_project = _read_project(workbook, findings)
     workbook = add_answered_ranges(workbook)
-    project, of_project = _read_project(cover, findings)
     tables, nets, ranges = _find_tables(workbook, findings)
     typed = [line for table in nets for line in read_rows(table, findings)]
     lines = _read_lines(workbook, tables, typed, ranges, findings)
     net_rows = _build_rows(tables[RANGES.name], nets, lines, findings)
     monitoring = read_monitoring(tables[MONITORING.name], lines.places, findings)
     winter = read_winter(tables[WINTER.name], lines.places, findings)
-    uncertain = _read_uncertain(tables[UNCERTAINTY.name], lines.places, findings)
+    uncertain = read_uncertain(tables[UNCERTAINTY.name], lines.places, findings)
     links = read_links(lines.links, lines.types, findings)
     declared, confirmed = read_declared(
         tables[DECLARED.name], workbook, lines.places, findings
     )
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
-        findings.extend(_list_unknown_profiles(workbook, project, of_project))
-        raise SiteDataError(findings, fold_findings(findings, workbook.file))
+        raise _refuse(workbook, project, of_project, findings)
     notes = fold_findings(list(map(_shorten, findings)))
     asked = ask(lines, confirmed, findings)
     rows = (_complete(row, ranges, links, asked[row.id]) for row in net_rows)
@@ -174,12 +178,21 @@ def read_site(
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
-        text_format=text_format,
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,
         uncertain=uncertain,
     )
+
+
+def _refuse(
+    workbook: Workbook,
+    project: Project,
+    of_project: Mapping[str, str],
+    findings: list[Finding],
+) -> SiteDataError:
+    findings.extend(_list_unknown_profiles(workbook, project, of_project))
+    return SiteDataError(findings, fold_findings(findings, workbook.file))
 
 
 def _ask_for_rows_elsewhere(
@@ -301,15 +314,7 @@ def _read_lines(
     nets, made = place_in_ground(nets, anchors, grounds, findings)
     ends, more = place_in_ground(ends, anchors, grounds, findings)
     made += [one for one in more if one["id"].word not in {m["id"].word for m in made}]
-    of_types = {
-        ANCHORS.name: [*name_by_ground(anchors), *made],
-        ROPES.name: read_rows(tables[ROPES.name], findings),
-        POSTS.name: read_rows(tables[POSTS.name], findings),
-    }
-    types = {
-        sheet: _read_types(tables[sheet], rows, findings)
-        for sheet, rows in of_types.items()
-    }
+    types = _read_all_types(tables, [*name_by_ground(anchors), *made], findings)
     lines = Lines(
         nets=nets,
         ends=index_lines(ends, "row", say("ends.one_line"), findings),
@@ -327,6 +332,21 @@ def _read_lines(
         named = (one["row"] for one in lines.ends.values())
         refuse_unknown_ids(named, lines.places, findings)
     return lines
+
+
+def _read_all_types(
+    tables: Mapping[str, Table | None], anchors: list[Row], findings: list[Finding]
+) -> dict[str, dict[str, Row] | None]:
+    """Lines of the sheets of types by id; None of a sheet whose ids cannot be read."""
+    of_types = {
+        ANCHORS.name: anchors,
+        ROPES.name: read_rows(tables[ROPES.name], findings),
+        POSTS.name: read_rows(tables[POSTS.name], findings),
+    }
+    return {
+        sheet: _read_types(tables[sheet], rows, findings)
+        for sheet, rows in of_types.items()
+    }
 
 
 def _build_rows(
@@ -383,9 +403,10 @@ def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
 
 
 def _read_project(
-    table: Table | None, findings: list[Finding]
+    workbook: Workbook, findings: list[Finding]
 ) -> tuple[Project, Mapping[str, str]]:
     """Project of the cover sheet, and cells of its items."""
+    table = find_table(workbook, PROJECT, findings)
     values: dict[str, str] = {}
     cells: dict[str, str] = {}
     if table is None:
@@ -466,44 +487,3 @@ def _read_types(
         check_ends(row, findings)
     by_id = index_lines(filled, "id", say("nets.ids_once"), findings)
     return by_id if "id" in table.columns else None
-
-
-def _read_uncertain(
-    table: Table | None, places: Mapping[str, str], findings: list[Finding]
-) -> tuple[UncertainQuantity, ...]:
-    """Scatter of some quantities, each of one net row or of all.
-
-    It serves the notional reliability alone; no check hangs on it.
-
-    Parameters
-    ----------
-    table : Table or None
-        Sheet Uncertainty, if there is one.
-    places : mapping of str to str
-        Cells of the ids of sheet Nets.
-    findings : list of Finding
-        Appended to: unknown rows, a quantity that comes twice.
-    """
-    found: dict[tuple[str, str], UncertainQuantity] = {}
-    lines = read_rows(table, findings)
-    if places:
-        refuse_unknown_ids((one["row"] for one in lines), places, findings)
-    for line in lines:
-        if any(one.state == "faulty" for one in line.values()):
-            continue
-        word = line["variable"].word
-        quantity = UncertainQuantity(
-            row_id=line["row"].word,
-            name="model" if word == "model factor" else word.replace(" ", "_"),
-            distribution=line["distribution"].word.lower(),
-            mean_ratio=line["mean_ratio"].given_si,
-            variation=line["variation"].si,
-            period=line["period"].given_si,
-            source=line["source"].word,
-        )
-        key = (quantity.row_id, quantity.name)
-        if key in found:
-            rule = say("uncertainty.twice")
-            refuse(line["variable"], rule, say("uncertainty.once"), findings)
-        found[key] = quantity
-    return tuple(found.values())

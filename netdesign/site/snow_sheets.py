@@ -1,12 +1,11 @@
-"""Sheets Snow, Winter, Monitoring: layers of rows, heights of a station, forces."""
+"""Sheets Snow and Winter: layers of rows, heights of a station."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from datetime import date, datetime, timedelta
-from itertools import pairwise
+from datetime import date
 from pathlib import Path
 
 from netdesign.envelope.ranges import Ranges
@@ -19,7 +18,7 @@ from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
-from netdesign.site.model import InputEcho, MonitoringSeries, NetRow, StationWinter
+from netdesign.site.model import InputEcho, NetRow, StationWinter
 from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.tables import find_table, read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
@@ -219,7 +218,6 @@ def _check_temperatures(lines: list[Row], findings: list[Finding]) -> None:
     refuse(empty["temperature"], rule, say("layer.all_or_none"), findings)
 
 
-_EPOCH = datetime(1970, 1, 1)
 _MOST_LISTED = 8  # days in one remark
 
 
@@ -430,68 +428,3 @@ def _read_factors(
             rule = say("winter_sheet.factor_of_none")
             refuse(factor, rule, say("winter_sheet.factor_place"), findings)
     return general, {row: one for row, one in factors.items() if one is not None}
-
-
-def read_monitoring(
-    table: Table | None, places: Mapping[str, str], findings: list[Finding]
-) -> tuple[MonitoringSeries, ...]:
-    """Series of the sheet, one for each net row and member; none without the sheet.
-
-    Parameters
-    ----------
-    table : Table or None
-        Sheet Monitoring, if there is one.
-    places : mapping of str to str
-        Cells of the ids of sheet Nets.
-    findings : list of Finding
-        Appended to: unknown rows, lines without a time or a measurement, times that
-        do not ascend.
-    """
-    series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
-    lines = read_rows(table, findings)
-    if places:
-        refuse_unknown_ids((line["row"] for line in lines), places, findings)
-    for line in lines:
-        name, member = line["row"], line["member"]
-        time = _read_time(line, findings)
-        if time is None or not name.word or not member.word:
-            continue
-        if line["tension"].state == line["temperature"].state == "blank":
-            rule = say("measured.no_measurement")
-            refuse(name, rule, say("measured.accepted"), findings)
-        key = (name.word, member.word.replace(" ", "_"))
-        series.setdefault(key, []).append((time, line))
-    return tuple(_build(key, lines, findings) for key, lines in series.items())
-
-
-def _build(
-    key: tuple[str, str], lines: list[tuple[float, Row]], findings: list[Finding]
-) -> MonitoringSeries:
-    first, head = lines[0]
-    is_dated = head["date"].state == "given"
-    for (before, _), (after, line) in pairwise(lines):
-        place = line["time"] if line["time"].state == "given" else line["date"]
-        if (line["date"].state == "given") != is_dated:
-            rule = say("measured.mixed")
-            refuse(place, rule, say("measured.one_kind"), findings)
-        elif after <= before:
-            rule = say("measured.not_after")
-            refuse(place, rule, say("measured.ascending"), findings)
-    return MonitoringSeries(
-        row_id=key[0],
-        member=key[1],
-        times=tuple(time - first for time, _ in lines),
-        tensions=tuple(line["tension"].given_si for _, line in lines),
-        air_temperatures=tuple(line["temperature"].given_si for _, line in lines),
-        source=head["row"].place,
-        start=_EPOCH + timedelta(seconds=first) if is_dated else None,
-    )
-
-
-def _read_time(line: Row, findings: list[Finding]) -> float | None:
-    """Time of a line [s], from days or from a date; None with a finding."""
-    given = choose_given(line, ("time", "date"), findings)
-    if given is None or given.field.key == "time":
-        return given.si if given else None
-    moment = read_moment(given.word)
-    return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()

@@ -16,15 +16,7 @@ from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.model import (
-    CONNECTED,
-    LIFTED_MODE,
-    MEMBER_MODES,
-    NAMED_BY,
-    InputEcho,
-    NetRow,
-    Resistance,
-)
+from netdesign.site.model import InputEcho, NetRow, Resistance
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -34,7 +26,14 @@ from netdesign.site.readings import (
     refuse_with,
 )
 from netdesign.site.type_resistances import find_breaking
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import (
+    CONNECTED,
+    LIFTED_MODE,
+    MEMBER_MODES,
+    NAMED_BY,
+    EndMember,
+    Member,
+)
 from netdesign.words.message import Message, say
 
 _LAYERED = ("layered", "layered with temperatures")

@@ -13,18 +13,9 @@ from dataclasses import replace
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import RoundSection, Wear
-from netdesign.resistance.wedge import Soil
+from netdesign.resistance.wedge import AnchorType, Soil
 from netdesign.site.lines import Types
-from netdesign.site.model import (
-    END_MODES,
-    LIFTED_MODE,
-    MEMBER_MODES,
-    NAMED_BY,
-    NET_MODES,
-    AnchorType,
-    Resistance,
-    RowEnd,
-)
+from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
 from netdesign.site.type_resistances import (
     SECTION,
@@ -36,7 +27,16 @@ from netdesign.site.type_resistances import (
     read_inner,
     reduce_breaking,
 )
-from netdesign.structure.members import EndMember, Member, NetPart
+from netdesign.structure.members import (
+    END_MODES,
+    LIFTED_MODE,
+    MEMBER_MODES,
+    NAMED_BY,
+    NET_MODES,
+    EndMember,
+    Member,
+    NetPart,
+)
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 

@@ -116,8 +116,7 @@ def _solve(job: Job) -> CaseEnd:
         return solution
     if isinstance(solution, WallSolution):
         return FailedSolution(
-            outcome=Outcome.OUT_OF_VALIDITY,
-            reason=say("worker.wall"),
+            outcome=Outcome.OUT_OF_VALIDITY, reason=say("worker.wall")
         )
     history = solution.history
     reason = None if history is None else history.unproven
@@ -398,13 +397,7 @@ def build_workers(executor: str, processes: int) -> Workers:
 
 
 def _require_answer(address: str) -> None:
-    """Refuse at once where nobody listens; Dask would try again and again.
-
-    Raises
-    ------
-    ClusterError
-        Also for an address that is not ``HOST:PORT``.
-    """
+    """Refuse at once where nobody listens; Dask would try again and again."""
     host, _, port = address.removeprefix("tcp://").rpartition(":")
     if not (host and port.isascii() and port.isdecimal() and int(port) < _PORTS):
         raise ClusterError(say("cluster.accepted", executor=f"dask://{address}"))

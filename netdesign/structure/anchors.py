@@ -9,8 +9,15 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from netdesign.numerics.arrays import Floats, Mask, Number
-from netdesign.numerics.either import as_mask, measure_length, measure_turn, take_larger
+from netdesign.numerics.arrays import (
+    Floats,
+    Mask,
+    Number,
+    as_mask,
+    measure_length,
+    measure_turn,
+    take_larger,
+)
 from netdesign.outcome import Outcome, require_positive, require_within
 from netdesign.structure.head import (
     FailedSupport,

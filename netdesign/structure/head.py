@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields
 from itertools import chain
 from typing import ClassVar, Generic, TypeAlias
 
-from netdesign.numerics.arrays import Number
-from netdesign.numerics.either import (
+from netdesign.numerics.arrays import (
+    Number,
     Truth,
     as_mask,
     choose,

@@ -88,3 +88,57 @@ BROUGHT_BY: Mapping[str, Member] = MappingProxyType(
         Member.POST_BASE: Member.POST,
     }
 )
+
+
+# What a member can fail by; the keys under which resistances are given.
+MEMBER_MODES: tuple[tuple[Member, str], ...] = (
+    (Member.FOOT_ANCHOR, "tendon"),
+    (Member.FOOT_ANCHOR, "pull_out"),
+    (Member.UPHILL_GUY, "rope"),
+    (Member.UPHILL_ANCHOR, "tendon"),
+    (Member.UPHILL_ANCHOR, "pull_out"),
+    (Member.DOWNHILL_GUY, "rope"),
+    (Member.DOWNHILL_ANCHOR, "tendon"),
+    (Member.DOWNHILL_ANCHOR, "pull_out"),
+    (Member.POST, "compression"),
+    (Member.POST_BASE, "bearing"),
+)
+# Columns that name the type of a member without a type of its own.
+NAMED_BY: Mapping[Member, Member] = {
+    Member.POST_BASE: Member.POST,
+    Member.POST_FOOT: Member.POST,
+}
+# Members whose resistance follows the demand; anchors that bend come in addition.
+DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
+    (Member.POST, "compression_bending"),
+    (Member.POST_BASE, "sliding"),
+)
+# Checked only where some case lifts a post.
+LIFTED_MODE = (Member.POST_FOOT, "tension")
+# Of the ends of a row of panels.
+END_MODES: tuple[tuple[EndMember, str], ...] = (
+    (EndMember.LATERAL_ANCHOR, "tendon"),
+    (EndMember.LATERAL_ANCHOR, "pull_out"),
+    (EndMember.END_GUY, "rope"),
+    (EndMember.END_GUY_ANCHOR, "tendon"),
+    (EndMember.END_GUY_ANCHOR, "pull_out"),
+)
+# Members whose chain of links is checked, and the anchor that pulls at its end.
+CONNECTED: Mapping[str, Member | None] = {
+    Member.FOOT_ANCHOR: Member.FOOT_ANCHOR,
+    Member.UPHILL_GUY: Member.UPHILL_ANCHOR,
+    Member.UPHILL_ANCHOR: Member.UPHILL_ANCHOR,
+    Member.DOWNHILL_GUY: Member.DOWNHILL_ANCHOR,
+    Member.DOWNHILL_ANCHOR: Member.DOWNHILL_ANCHOR,
+    EndMember.LATERAL_ANCHOR: None,
+    EndMember.END_GUY: None,
+    EndMember.END_GUY_ANCHOR: None,
+    NetPart.RIDGE_ROPE: None,
+    NetPart.LOWER_ROPE: None,
+}
+# Of the net itself; those of its ropes where it has some.
+NET_MODES: tuple[tuple[NetPart, str], ...] = (
+    (NetPart.MESH, "mesh"),
+    (NetPart.RIDGE_ROPE, "rope"),
+    (NetPart.LOWER_ROPE, "rope"),
+)

@@ -15,9 +15,10 @@ from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.search.upper_bound import list_first_design
-from netdesign.site.model import CONNECTED, NetRow, Site
+from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner
+from netdesign.structure.members import CONNECTED
 from netdesign.study.check_run import CheckRun
 from netdesign.study.row_to_check import build_row_task, build_scene
 from netdesign.words.message import Message, say

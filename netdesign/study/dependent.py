@@ -54,12 +54,8 @@ from netdesign.resistance.steel import (
     leave_area,
     resist_link,
 )
-from netdesign.resistance.wedge import Soil, compute_wedge_resistance
-from netdesign.site.model import (
-    AnchorType,
-    NetRow,
-    Resistance,
-)
+from netdesign.resistance.wedge import AnchorType, Soil, compute_wedge_resistance
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
 from netdesign.study.member_force import MemberForce

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, withhold
 from netdesign.outcome import Verdict
-from netdesign.site.model import CONNECTED, NetRow, Resistance
-from netdesign.structure.members import ROPE_OF, Member
+from netdesign.site.model import NetRow, Resistance
+from netdesign.structure.members import CONNECTED, ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.case_records import ForceRecord

@@ -21,7 +21,7 @@ from netdesign.checks.forces import (
     load_post,
 )
 from netdesign.checks.schema import LATERAL_SHARE
-from netdesign.envelope.lift import POST_PULLS
+from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
     ROPE_OF,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from netdesign.site.model import MonitoringSeries, NetRow, Site
+from netdesign.site.further_sheets import MonitoringSeries
+from netdesign.site.model import NetRow, Site
 from netdesign.study.records import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_if_known
 from netdesign.words.message import Message, say

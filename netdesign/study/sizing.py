@@ -13,8 +13,14 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
 from netdesign.outcome import Verdict
-from netdesign.site.model import END_MODES, MEMBER_MODES, NAMED_BY, NetRow, Site
-from netdesign.structure.members import EndMember, Member
+from netdesign.site.model import NetRow, Site
+from netdesign.structure.members import (
+    END_MODES,
+    MEMBER_MODES,
+    NAMED_BY,
+    EndMember,
+    Member,
+)
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite

@@ -20,8 +20,8 @@ from netdesign.resistance.post import compute_buckling_resistance
 from netdesign.resistance.product_data import load_products
 from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
-from netdesign.site.model import NAMED_BY, Resistance, Site
-from netdesign.structure.members import EndMember, Member, NetPart
+from netdesign.site.model import Resistance, Site
+from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.study.dependent import corrode, find_short_post
 from netdesign.study.judgement import find_lasting
 from netdesign.study.records import ChangeRecord

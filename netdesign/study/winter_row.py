@@ -10,7 +10,8 @@ from datetime import timedelta
 
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import ModelError
-from netdesign.site.model import MonitoringSeries, NetRow, Site, StationWinter
+from netdesign.site.further_sheets import MonitoringSeries
+from netdesign.site.model import NetRow, Site, StationWinter
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snowpack.series import HeightSeries, name_winter
 from netdesign.study.row_to_check import build_scene

@@ -17,7 +17,7 @@ from netdesign.checks.check import find_resistance, judge
 from netdesign.checks.geometry import check_inclination
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import PullOutTests
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from netdesign.words.names import as_given, name, name_mode

@@ -14,7 +14,7 @@ from netdesign.checks.schema import (
     check_table,
 )
 from netdesign.outcome import StandardError
-from netdesign.site.model import MEMBER_MODES
+from netdesign.structure.members import MEMBER_MODES
 from tests.each import each
 
 

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from netdesign.checks import Band
-from netdesign.envelope.lift import POST_PULLS, bound_lifted
 from netdesign.envelope.ranges import Case
+from netdesign.envelope.result_reader import POST_PULLS, bound_lifted
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings

@@ -10,13 +10,13 @@ from netdesign.addons.history.settings import TransientSettings
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
 from netdesign.envelope.extremes import describe_gap
-from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.panel_forces import (
     PANEL_QUANTITIES,
     PanelForces,
     resolve_panels,
 )
 from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, refine_settings
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows

@@ -9,8 +9,8 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
-from netdesign.envelope.lift import POST_PULLS
 from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.outcome import ModelError, Outcome

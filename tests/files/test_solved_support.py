@@ -8,8 +8,8 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.files.cases import resolve_support, write_support
+from netdesign.files.scene import GivenSupport
 from netdesign.files.solution import write_solution_document
-from netdesign.files.support_tables import GivenSupport
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solution import compute_end_forces
 from netdesign.panel.solve import solve_panel

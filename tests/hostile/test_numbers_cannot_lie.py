@@ -18,13 +18,13 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
-from netdesign.site.model import MEMBER_MODES
 from netdesign.solving import store as store_module
 from netdesign.solving import workers as workers_module
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
+from netdesign.structure.members import MEMBER_MODES
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site

@@ -7,8 +7,8 @@ import pytest
 from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
+from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name_check
 from tests.each import each

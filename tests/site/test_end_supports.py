@@ -2,8 +2,8 @@
 
 import pytest
 
-from netdesign.site.model import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.site.reader import read_site
+from netdesign.structure.members import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 
 BENDING = (
     ("foot_anchor", "bending"),

@@ -5,9 +5,8 @@ import math
 import pytest
 
 from netdesign.panel.inputs import CUTS
-from netdesign.site.model import END_MODES
 from netdesign.site.reader import read_site
-from netdesign.structure.members import NetPart
+from netdesign.structure.members import END_MODES, NetPart
 from netdesign.words.catalogue import LANGUAGES, render
 
 HEADINGS = {

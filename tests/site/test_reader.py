@@ -5,7 +5,6 @@ import pytest
 import xlsxwriter
 
 from netdesign.site import net_rows
-from netdesign.site.model import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import (
     LARGEST_GLIDE_FACTOR,
@@ -13,6 +12,7 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
 )
 from netdesign.structure.layout import DEFAULT_POST_TILT
+from netdesign.structure.members import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 
 HEADINGS = 0

@@ -4,7 +4,7 @@ from datetime import date, datetime
 
 import pytest
 
-from netdesign.site.model import MonitoringSeries
+from netdesign.site.further_sheets import MonitoringSeries
 from netdesign.snowpack.series import HeightSeries
 from netdesign.study.winter_row import (
     explain_unused,

@@ -12,14 +12,9 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solution import FailedPanel
-from netdesign.site.model import (
-    END_MODES,
-    Project,
-    Resistance,
-    RowEnd,
-)
+from netdesign.site.model import Project, Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
-from netdesign.structure.members import ROPE_OF
+from netdesign.structure.members import END_MODES, ROPE_OF
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site

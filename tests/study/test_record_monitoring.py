@@ -5,7 +5,8 @@ from datetime import date, datetime
 
 import pytest
 
-from netdesign.site.model import MonitoringSeries, StationWinter
+from netdesign.site.further_sheets import MonitoringSeries
+from netdesign.site.model import StationWinter
 from netdesign.snowpack.series import HeightSeries
 from netdesign.study.notes import list_site_notes
 from netdesign.study.record_monitoring import record_monitoring

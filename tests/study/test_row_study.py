@@ -9,8 +9,9 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
-from netdesign.site.model import MEMBER_MODES, Project, Resistance
+from netdesign.site.model import Project, Resistance
 from netdesign.snow.ground import GroundLaw
+from netdesign.structure.members import MEMBER_MODES
 from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site

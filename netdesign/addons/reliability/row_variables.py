@@ -20,7 +20,8 @@ from netdesign.addons.reliability.limit_state import (
 from netdesign.addons.reliability.response import Line
 from netdesign.envelope.ranges import PARAMETERS
 from netdesign.outcome import ModelError
-from netdesign.site.model import NetRow, Site, UncertainQuantity
+from netdesign.site.further_sheets import UncertainQuantity
+from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.records import CheckRecord

@@ -9,7 +9,7 @@ thicknesses d, forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -104,7 +104,7 @@ class OffMeshError(SolveError):
 
 def take_near(
     take: Take,
-    last: Floats | None,
+    taken: Sequence[RoundResult],
     wanted: Floats,
     state: FlowState | None,
     net: NetEquilibrium,
@@ -116,8 +116,8 @@ def take_near(
     ----------
     take : callable
         Takes the round.
-    last : ndarray, shape (2, n_net), or None
-        Curve of the last round on this mesh [thickness].
+    taken : sequence of RoundResult
+        Rounds on this mesh so far.
     wanted : ndarray, shape (2, n_net)
         Curve of this one [thickness].
     state, net : FlowState or None, NetEquilibrium
@@ -134,9 +134,9 @@ def take_near(
         try:
             return take(wanted, state, net, tolerance)
         except OffMeshError:
-            if last is None:
+            if not taken:
                 raise
-            wanted = (wanted + last) / 2
+            wanted = (wanted + taken[-1].curve) / 2
     return take(wanted, state, net, tolerance)
 
 

@@ -183,8 +183,7 @@ def couple(
         moved = _measure_movement(taken, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            last = taken[-1].curve if taken else None
-            now = take_near(take, last, curve, state, net, inner)
+            now = take_near(take, taken, curve, state, net, inner)
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -205,10 +204,21 @@ def couple(
             curve, carried = correction.target, None
         else:
             curve = mix_anderson([r.curve for r in taken], [r.image for r in taken])
+    raise _explain_end(problem, taken, guess, curve, tried)
+
+
+def _explain_end(
+    problem: SteadyProblem,
+    taken: Sequence[RoundResult],
+    guess: CoupledState | None,
+    curve: Floats,
+    tried: int,
+) -> SolveError:
+    """Rounds that have not settled; ``curve`` is the next one."""
     left = float(_measure_movement(taken, guess))
     what = say("steady.still_moves", moved=left, rounds=tried)
-    curve = taken[-1].curve if taken else curve
-    raise explain_failure(problem, Outcome.MAX_ITERATIONS, what, curve)
+    last = taken[-1].curve if taken else curve
+    return explain_failure(problem, Outcome.MAX_ITERATIONS, what, last)
 
 
 def _measure_movement(

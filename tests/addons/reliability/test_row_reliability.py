@@ -12,7 +12,7 @@ from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import record_reliability
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.site.model import UncertainQuantity
+from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.cases import search_site

@@ -10,7 +10,7 @@ from netdesign.site.columns.fields import (
     split_heading,
     to_si,
 )
-from netdesign.site.model import MEMBER_MODES, NAMED_BY
+from netdesign.structure.members import MEMBER_MODES, NAMED_BY
 from tests.each import each
 
 TABLES = {plan.name: plan.fields for plan in SHEETS} | {

@@ -1,0 +1,184 @@
+"""Sheets beside those of net rows and types: Monitoring and Uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from itertools import pairwise
+
+from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.numbers import read_moment
+from netdesign.site.headings import Table
+from netdesign.site.lines import refuse_unknown_ids
+from netdesign.site.readings import Row, choose_given, refuse
+from netdesign.site.tables import read_rows
+from netdesign.words.message import say
+
+_EPOCH = datetime(1970, 1, 1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MonitoringSeries:
+    """Measurements at one member of one net row.
+
+    Attributes
+    ----------
+    row_id, member : str
+        Net row; ``foot_anchor``, ``uphill_guy``, ``downhill_guy`` or ``post``.
+    times : tuple of float
+        Ascending, from 0 at the first reading [s].
+    tensions : tuple of float or None
+        Per anchor [N]; None where a line has none.
+    air_temperatures : tuple of float or None
+        [K]; None where a line has none.
+    source : str
+        First cell.
+    start : datetime or None
+        Of the first reading; None where times are given without a date.
+    """
+
+    row_id: str
+    member: str
+    times: tuple[float, ...]
+    tensions: tuple[float | None, ...]
+    air_temperatures: tuple[float | None, ...]
+    source: str
+    start: datetime | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UncertainQuantity:
+    """What is known of the scatter of one quantity, of one net row or of all.
+
+    Attributes
+    ----------
+    row_id : str
+        Empty for all net rows.
+    name : str
+        "snow_height", "model", "resistance", ...: a line of ``assumed.toml``.
+    distribution : str
+        "gumbel", "lognormal" or "normal"; empty for that which is usual.
+    mean_ratio : float or None
+        Mean over the value of the workbook [-].
+    variation : float
+        Coefficient of variation [-].
+    period : float or None
+        Return period of the snow height of the workbook [a].
+    source : str
+        Where it is from, as typed.
+    """
+
+    row_id: str
+    name: str
+    variation: float
+    source: str
+    distribution: str = ""
+    mean_ratio: float | None = None
+    period: float | None = None
+
+
+def read_monitoring(
+    table: Table | None, places: Mapping[str, str], findings: list[Finding]
+) -> tuple[MonitoringSeries, ...]:
+    """Series of the sheet, one for each net row and member; none without the sheet.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Monitoring, if there is one.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets.
+    findings : list of Finding
+        Appended to: unknown rows, lines without a time or a measurement, times that
+        do not ascend.
+    """
+    series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
+    lines = read_rows(table, findings)
+    if places:
+        refuse_unknown_ids((line["row"] for line in lines), places, findings)
+    for line in lines:
+        name, member = line["row"], line["member"]
+        time = _read_time(line, findings)
+        if time is None or not name.word or not member.word:
+            continue
+        if line["tension"].state == line["temperature"].state == "blank":
+            rule = say("measured.no_measurement")
+            refuse(name, rule, say("measured.accepted"), findings)
+        key = (name.word, member.word.replace(" ", "_"))
+        series.setdefault(key, []).append((time, line))
+    return tuple(_build(key, lines, findings) for key, lines in series.items())
+
+
+def _build(
+    key: tuple[str, str], lines: list[tuple[float, Row]], findings: list[Finding]
+) -> MonitoringSeries:
+    first, head = lines[0]
+    is_dated = head["date"].state == "given"
+    for (before, _), (after, line) in pairwise(lines):
+        place = line["time"] if line["time"].state == "given" else line["date"]
+        if (line["date"].state == "given") != is_dated:
+            rule = say("measured.mixed")
+            refuse(place, rule, say("measured.one_kind"), findings)
+        elif after <= before:
+            rule = say("measured.not_after")
+            refuse(place, rule, say("measured.ascending"), findings)
+    return MonitoringSeries(
+        row_id=key[0],
+        member=key[1],
+        times=tuple(time - first for time, _ in lines),
+        tensions=tuple(line["tension"].given_si for _, line in lines),
+        air_temperatures=tuple(line["temperature"].given_si for _, line in lines),
+        source=head["row"].place,
+        start=_EPOCH + timedelta(seconds=first) if is_dated else None,
+    )
+
+
+def _read_time(line: Row, findings: list[Finding]) -> float | None:
+    """Time of a line [s], from days or from a date; None with a finding."""
+    given = choose_given(line, ("time", "date"), findings)
+    if given is None or given.field.key == "time":
+        return given.si if given else None
+    moment = read_moment(given.word)
+    return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()
+
+
+def read_uncertain(
+    table: Table | None, places: Mapping[str, str], findings: list[Finding]
+) -> tuple[UncertainQuantity, ...]:
+    """Scatter of some quantities, each of one net row or of all.
+
+    It serves the notional reliability alone; no check hangs on it.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Uncertainty, if there is one.
+    places : mapping of str to str
+        Cells of the ids of sheet Nets.
+    findings : list of Finding
+        Appended to: unknown rows, a quantity that comes twice.
+    """
+    found: dict[tuple[str, str], UncertainQuantity] = {}
+    lines = read_rows(table, findings)
+    if places:
+        refuse_unknown_ids((one["row"] for one in lines), places, findings)
+    for line in lines:
+        if any(one.state == "faulty" for one in line.values()):
+            continue
+        word = line["variable"].word
+        quantity = UncertainQuantity(
+            row_id=line["row"].word,
+            name="model" if word == "model factor" else word.replace(" ", "_"),
+            distribution=line["distribution"].word.lower(),
+            mean_ratio=line["mean_ratio"].given_si,
+            variation=line["variation"].si,
+            period=line["period"].given_si,
+            source=line["source"].word,
+        )
+        key = (quantity.row_id, quantity.name)
+        if key in found:
+            rule = say("uncertainty.twice")
+            refuse(line["variable"], rule, say("uncertainty.once"), findings)
+        found[key] = quantity
+    return tuple(found.values())
