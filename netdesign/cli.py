@@ -171,7 +171,7 @@ def _run() -> NoReturn:
     except NetDesignError as error:
         tell(say("cli.error", reason=error.message), err=True)
         sys.exit(error.exit_code)
-    except Exception as error:  # the one place where a bug ends
+    except Exception as error:  # the one place where a bug ends  # noqa: BLE001
         if os.environ.get("NETDESIGN_TRACEBACK"):
             traceback.print_exc()  # raised, it would end like a check that fails
         # what given paths can cause, their readers have handled

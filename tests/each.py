@@ -27,7 +27,7 @@ def each(names, cases):
                 values = dict(zip(arguments, given, strict=True))
                 try:
                     function(**fixtures, **values)
-                except (Exception, pytest.fail.Exception) as error:
+                except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001
                     error.add_note(f"in the case {values}")
                     failed.append(error)
             if failed:

@@ -109,7 +109,7 @@ def _run_tests() -> list[Probe]:
 def _try(what: Message | str, test: Callable[[], Message | str]) -> Probe:
     try:
         return Probe(what=what, shows=test())
-    except Exception as error:  # whatever fails here is what the doctor is asked for
+    except Exception as error:  # whatever fails here is what the doctor is asked for  # noqa: BLE001
         shows = f"{type(error).__name__}: {error}"
         return Probe(what=what, shows=shows, is_sound=False)
 

@@ -138,7 +138,7 @@ def attempt_scene(
             warnings.simplefilter("error")  # an overflow is a failure, not a remark
             with Clock() as clock:
                 solution = solve_steady(scene, settings)
-    except Exception as error:  # a bug in one scene must not hide the others
+    except Exception as error:  # a bug in one scene must not hide the others  # noqa: BLE001
         return attempt(kind="failed", reason=f"{type(error).__name__}: {error}")
     kind, reason = _judge(solution)
     if isinstance(solution, FailedSolution):
