@@ -316,7 +316,7 @@ def test_the_page_of_the_architecture_names_what_exists():
     }
     values = set(re.findall(r"`([A-Z][a-z]\w+)`", page))
     files = set(re.findall(r"`(\w+(?:/\w+)+(?:\.py)?)`", page))
-    assert {"Case", "Extreme", "CheckRecord"} <= values <= classes
+    assert {"Case", "Extreme", "Check"} <= values <= classes
     rooms = [path for path in PACKAGE.iterdir() if path.is_dir()]
     roots = (PACKAGE.parent, PACKAGE, *rooms)
     assert "study/records.py" in files

@@ -1,11 +1,7 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
-from netdesign.checks.check import (
-    check_member,
-    declare,
-    find_resistance,
-    withhold,
-)
+from netdesign.checks.check import Check, Open, OpenKind
+from netdesign.checks.comparison import check_member, find_resistance
 from netdesign.checks.geometry import RowGeometry, check_geometry
 from netdesign.checks.loader import (
     Standard,
@@ -13,28 +9,22 @@ from netdesign.checks.loader import (
     list_standards,
     load_standard,
 )
-from netdesign.checks.result import (
-    Band,
-    CheckResult,
-    Declaration,
-    GivenResistance,
-    Proof,
-)
+from netdesign.checks.result import Band, Declaration, GivenResistance, Proof
 
 __all__ = [
     "Band",
-    "CheckResult",
+    "Check",
     "Declaration",
     "GivenResistance",
+    "Open",
+    "OpenKind",
     "Proof",
     "RowGeometry",
     "Standard",
     "StandardValue",
     "check_geometry",
     "check_member",
-    "declare",
     "find_resistance",
     "list_standards",
     "load_standard",
-    "withhold",
 ]

@@ -1,28 +1,89 @@
-"""Demand with its error band against a limit: pass, fail or not proven."""
+"""A check: its calculation, what is open of it, and the verdict that follows."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields, replace
+from enum import StrEnum
+from functools import cached_property
+from typing import ClassVar, Literal
 
-from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.checks.forces import rate
-from netdesign.checks.loader import Standard, StandardValue
-from netdesign.checks.result import CheckResult, Declaration, GivenResistance
-from netdesign.checks.schema import ACTION_FACTOR, list_action_factors
-from netdesign.checks.tested import find_tested_resistance
+from netdesign.calculation.steps import Step
+from netdesign.checks.result import Proof
+from netdesign.edge.json_text import Items
 from netdesign.outcome import Verdict
-from netdesign.units import kilonewton_from_newton
-from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_member, name_mode
-
-_NET = "net"
+from netdesign.words.message import Message, Text, say
+from netdesign.words.names import name
 
 
-def judge(
-    low: float, high: float, *, least: float, most: float, is_complete: bool = True
-) -> Verdict:
+class OpenKind(StrEnum):
+    """Kinds of open points, the gravest first."""
+
+    FAILS = "fails"  # nothing is left to resist, whatever the force
+    UNSOLVED = "unsolved"  # the force is not known, or not in every case
+    OUTSIDE_LAW = "outside_law"  # the creep law is not given for the governing snow
+    RESISTANCE_MISSING = "resistance_missing"
+    RESISTANCE_IN_DOUBT = "resistance_in_doubt"  # it may not last, or not hold there
+    VALUE_ASKED = "value_asked"  # a value that somebody has to confirm
+    PROVEN_ELSEWHERE = "proven_elsewhere"  # by a document
+
+    @property
+    def best(self) -> Verdict:
+        """Best verdict of a check with such a point."""
+        if self is OpenKind.FAILS:
+            return Verdict.FAIL
+        is_elsewhere = self is OpenKind.PROVEN_ELSEWHERE
+        return Verdict.DECLARED if is_elsewhere else Verdict.NOT_PROVEN
+
+
+@dataclass(frozen=True, kw_only=True)
+class Open:
+    """Point that keeps a check from being proven.
+
+    ``proof`` is the document of what is proven elsewhere.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
+
+    kind: OpenKind
+    message: Text
+    proof: Proof | None = None
+
+
+def merge_open(met: Verdict, points: Iterable[Open]) -> Verdict:
+    """Verdict of a comparison with its open points.
+
+    ================  =====================  =================  ==========
+    fails, or a       proven elsewhere       any other point,   verdict
+    point that fails                         or not met
+    ================  =====================  =================  ==========
+    yes               no or yes              no or yes          fail
+    no                yes                    no or yes          declared
+    no                no                     yes                not proven
+    no                no                     no                 pass
+    ================  =====================  =================  ==========
+
+    Parameters
+    ----------
+    met : Verdict
+        By the numbers alone.
+    points : iterable of Open
+        All that is open.
+    """
+    found = {met, *(one.kind.best for one in points)}
+    ranked = (Verdict.FAIL, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.PASS)
+    return next(one for one in ranked if one in found)
+
+
+def rate_utilisation(low: float | None, high: float | None) -> Verdict:
+    """Verdict on the band of a utilisation [-]; not proven where it is not known."""
+    if low is None or high is None:
+        return Verdict.NOT_PROVEN
+    return judge(low, high, least=0.0, most=1.0)
+
+
+def judge(low: float, high: float, *, least: float, most: float) -> Verdict:
     """Verdict on a quantity that lies in a band and must lie in a range.
 
     The only place where numbers become a verdict. Each answer but "not proven" has
@@ -35,9 +96,6 @@ def judge(
     least, most : float
         Range that is accepted, both ends included, in the unit of the band; ``most``
         may be infinite.
-    is_complete : bool
-        Every case is in the band. Without that nothing passes; what lies outside
-        the range all the same fails.
 
     Examples
     --------
@@ -51,231 +109,270 @@ def judge(
         return Verdict.NOT_PROVEN
     if low > most or high < least:
         return Verdict.FAIL
-    if is_complete and least <= low and high <= most:
-        return Verdict.PASS
-    return Verdict.NOT_PROVEN
+    return Verdict.PASS if least <= low and high <= most else Verdict.NOT_PROVEN
 
 
-def check_member(
-    action: Quantity,
-    resistance: GivenResistance,
-    standard: Standard,
-    *,
-    gap: Message | None,
-    doubt: Message | None = None,
-    strength: Quantity | None = None,
-) -> CheckResult:
-    """Check one member in one mode: design force against design resistance.
+@dataclass(frozen=True, kw_only=True)
+class CasePoint:
+    """One point of the ranges; what does not range beside the first three is None.
 
-    Parameters
-    ----------
-    action : Quantity
-        Largest characteristic force over the solved cases, per anchor [kN]; without a
-        value if no case was solved.
-    resistance : GivenResistance
-        Names member and mode; its value may be missing.
-    standard : Standard
-        Profile that gives the partial factors.
-    gap : Message or None
-        Why the action does not cover every case ("3 of 40 cases failed"); None if it
-        does. With a gap nothing passes.
-    doubt : Message, optional
-        Why the model itself may not hold for the action. With a doubt nothing passes.
-    strength : Quantity, optional
-        R_k [kN]; that of ``resistance`` unless told otherwise.
-
-    Returns
-    -------
-    CheckResult
-        Never a pass where anything needed is missing.
+    The document leaves that out.
     """
-    strength = strength or find_resistance(resistance, standard)
-    on_action = find_action_factor(standard, resistance.mode)
-    on_resistance, clause = _find_resistance_factor(resistance, standard, strength)
-    used = rate(action, on_action, strength, on_resistance)
-    open_points = tuple(one for one in (gap, doubt) if one)
-    gaps = tuple(dict.fromkeys((*open_points, *used.lacks)))
-    verdict = judge_utilisation(used.low, used.high, is_complete=not open_points)
-    return CheckResult(
-        id=f"{resistance.member}.{resistance.mode}",
-        clause=clause,
-        member=resistance.member,
-        mode=resistance.mode,
-        verdict=verdict,
-        reason=_explain(verdict, gaps, is_slack=action.high == 0.0),
-        used=used,
-    )
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
+
+    density_kg_m3: float
+    friction_deg: float
+    inclination_deg: float
+    thickness_m: float | None = None
+    height_vertical_m: float | None = None
+    upslope_length_m: float | None = None
+    slack: float | None = None
+    stiffness_kN_per_m: float | None = None
+    slip_length_m: float | None = None
+    glide_factor: float | None = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values by their keys."""
+        named = {one.name: getattr(self, one.name) for one in fields(self)}
+        return {key: value for key, value in named.items() if value is not None}
 
 
-def conclude(
-    mode: str,
-    verdict: Verdict,
-    reason: Message,
-    limit: StandardValue | None = None,
-    *,
-    member: str = _NET,
-) -> CheckResult:
-    """Check that compares no force with a resistance: of the geometry, or of a member.
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """One part of the interval of a utilisation."""
 
-    ``limit`` is the value of the profile whose clause stands beside it.
+    source: Text  # "numerical error", "between the cases"
+    low: float | None  # None where there is no number; ``note`` says why
+    high: float | None
+    note: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Change:
+    """The smallest change of one quantity that flips a check."""
+
+    quantity: Text  # "characteristic resistance", "post spacing", "type B", ...
+    unit: str
+    now: float | None
+    bound: float | None  # None where no value flips the check
+    sense: Literal["at least", "at most", "has"]
+    note: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SingleTest:
+    """One pull-out test."""
+
+    cell: str  # "Tests!C2"
+    load_kN: float  # largest that the anchor held
+    is_held: bool | None  # False: it was pulled out; None: not said
+    proof_load_kN: float | None  # that the test was to reach
+    displacement_mm: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TestSeries:
+    """Pull-out tests of a type."""
+
+    __test__: ClassVar = False  # for pytest
+
+    count: int
+    least_kN: float
+    mean_kN: float
+    singles: Items[SingleTest]  # empty where each is not given
+    proof_factor: float | None  # proof load over design force
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """One check: of a force against a resistance, or of what no force enters.
+
+    ``steps`` is the whole calculation of a utilisation, from what is given and solved;
+    a check that compares no force has ``met`` and ``finding`` in its place. What
+    follows from them is worked out here and nowhere else: demand, resistance,
+    utilisation, verdict and its reason.
     """
-    subject = "geometry" if member == _NET else member
-    return CheckResult(
-        id=f"{subject}.{mode}",
-        clause=limit.clause if limit else "-",
-        member=member,
-        mode=mode,
-        verdict=verdict,
-        reason=reason,
-    )
 
+    WRITTEN: ClassVar = (
+        *("demand_kN", "resistance_kN", "utilisation"),
+        *("verdict", "reason", "governs"),
+    )  # also in the document, where nobody reads them back
+    __pydantic_config__: ClassVar = {"extra": "ignore"}
 
-def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
-    """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
-    values = map(standard.find, list_action_factors(mode))
-    found = next((one for one in values if one), None)
-    lack = None if found else lack_factor(ACTION_FACTOR)
-    source = found.id if found else ACTION_FACTOR
-    return given(
-        *("γ_E", found.value_si if found else None, "-", source),
-        kind=Kind.PROFILE,
-        lack=lack,
-    )
+    id: str  # "foot_anchor.tendon", "foot_anchor.tendon.end", "geometry.inclination"
+    clause: str
+    member: str
+    mode: str
+    position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
+    steps: Items[Step] = field(default_factory=list)
+    met: Verdict | None = None  # by its own comparison, of a check without a force
+    finding: Text | None = None  # sentence of that comparison
+    open: Items[Open] = field(default_factory=list)
+    case: CasePoint | None = None
+    load_case: str = ""  # of the guideline: "load_case_1" or "load_case_2"
+    load_inclination_deg: float | None = None  # of the net, where that is largest
+    resistance_basis: str = ""  # "tested", "computed", "declared"
+    resistance_type: str = ""  # id of the anchor, rope or post type
+    resistance_cell: str = ""  # "Anchors!B4"
+    resistance_years: int | None = None  # for which its steel lasts; None: not known
+    resistance_derivation: Text | None = None  # how it follows from dimensions or tests
+    tests: TestSeries | None = None  # of a pull-out resistance that is from them
+    spreads: Items[Spread] = field(default_factory=list)
+    changes: Items[Change] = field(default_factory=list)
 
+    @cached_property
+    def known(self) -> dict[str, Step]:
+        """Steps by their symbols."""
+        return {step.symbol: step for step in self.steps}
 
-def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
-    """Value of a profile under its symbol, in the profile's unit."""
-    found = standard.find(key)
-    return given(
-        symbol,
-        found.value if found else None,
-        found.unit if found else "-",
-        key,
-        kind=Kind.PROFILE,
-        lack=None if found else lack_factor(key),
-    )
+    def read(self, symbol: str) -> float | None:
+        """Value of a step, in its unit; None where it is missing."""
+        step = self.known.get(symbol)
+        return step.value if step else None
 
+    def read_band(self, symbol: str) -> tuple[float | None, float | None]:
+        """Low and high end of a step."""
+        step = self.known.get(symbol)
+        return (step.ends[0], step.ends[2]) if step else (None, None)
 
-def find_missing_force(reason: Message) -> Quantity:
-    """Characteristic force that is not known."""
-    return given("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
+    @property
+    def demand_kN(self) -> float | None:
+        """Design force; None where it is not known, or no force enters."""
+        return self.read("E_d")
 
+    @property
+    def resistance_kN(self) -> float | None:
+        """Design resistance."""
+        return self.read("R_d")
 
-def _find_resistance_factor(
-    resistance: GivenResistance, standard: Standard, strength: Quantity
-) -> tuple[Quantity, str]:
-    """Factor of the mode on its basis, gamma_R, and its clause."""
-    found = standard.find_resistance_factor(resistance.mode, resistance.basis)
-    if found is not None:
-        factor = given("γ_R", found.value_si, "-", found.id, kind=Kind.PROFILE)
-        return factor, found.clause
-    source = f"resistance.{resistance.mode}"
-    ids = (value.id for value in standard.values)
-    bases = [
-        one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
-    ]
-    lack = _lack_resistance_factor(resistance, bases)
-    # without a resistance there is no basis yet, and no factor to miss
-    if bases and not resistance.basis and strength.lacks:
-        lack = strength.lacks[0]
-    return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
+    @property
+    def utilisation(self) -> float | None:
+        """Demand over resistance [-]; None where it is not known, or has no bound."""
+        return self.read("μ")
 
+    @property
+    def utilisation_band(self) -> tuple[float | None, float | None]:
+        """Utilisation at the low and at the high end of the demand [-]."""
+        return self.read_band("μ")
 
-def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult:
-    """Check with what somebody declares of it: never a pass, and no failure less.
+    @property
+    def is_unbounded(self) -> bool:
+        """Nothing is left to resist: the utilisation is beyond any number."""
+        return self.has_open(OpenKind.FAILS)
 
-    What is computed stays beside it: numbers, and what they say.
-    """
-    if declaration is None:
-        return result
-    told = {"reason": result.reason, "proof": declaration.proof.describe()}
-    if result.verdict is Verdict.FAIL:
-        reason = say("check.fails_though_declared", **told)
-        return replace(result, reason=reason, declared=declaration.proof)
-    return replace(
-        result,
-        verdict=Verdict.DECLARED,
-        reason=say("check.declared", **told),
-        declared=declaration.proof,
-    )
+    @property
+    def used(self) -> float | None:
+        """Utilisation to sort and to show by [-]: infinite where it has no bound."""
+        return math.inf if self.is_unbounded else self.utilisation
 
+    @property
+    def used_band(self) -> tuple[float | None, float | None]:
+        """Utilisation at both ends of the demand, as `used` [-]."""
+        return (math.inf, math.inf) if self.is_unbounded else self.utilisation_band
 
-def withhold(result: CheckResult, reason: Message) -> CheckResult:
-    """Check whose numbers are information only, and prove nothing either way."""
-    told = not_proven(reason)
-    return replace(result, verdict=Verdict.NOT_PROVEN, reason=told, is_unbounded=False)
+    @cached_property
+    def verdict(self) -> Verdict:
+        """By the whole interval and all that is open."""
+        met = self.met or rate_utilisation(*self.utilisation_band)
+        return merge_open(met, self.open)
 
+    def has_open(self, *kinds: OpenKind) -> bool:
+        """Some open point is of one of these kinds."""
+        return any(one.kind in kinds for one in self.open)
 
-def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity:
-    """Characteristic resistance, R_k [kN], as given or from tests.
+    @property
+    def declared(self) -> Proof | None:
+        """Document that is said to prove the check; None without one."""
+        return next((one.proof for one in self.open if one.proof), None)
 
-    Without a value, with the reason, where it cannot be known or used.
-    """
-    what, source = _name_place(resistance), resistance.source
-    value, tests = resistance.value, resistance.tests
-    if value is not None:
-        if not 0.0 < value < math.inf:
-            lack = say("check.resistance_not_usable", value=value, what=what)
-            return given("R_k", None, "kN", source, lack=lack)
-        return given("R_k", kilonewton_from_newton(value), "kN", source)
-    if tests is None:
-        lack = resistance.lack or say("check.no_resistance", what=what)
-        return given("R_k", None, "kN", source, lack=lack)
-    return find_tested_resistance(tests, standard, source, what)
+    @property
+    def gaps(self) -> tuple[Message, ...]:
+        """What is open beside a proof elsewhere, each once."""
+        elsewhere = OpenKind.PROVEN_ELSEWHERE
+        told = (one.message for one in self.open if one.kind is not elsewhere)
+        return tuple(dict.fromkeys(told))
 
+    def with_open(self, kind: OpenKind, *messages: Message) -> Check:
+        """Check with further open points of a kind."""
+        points = [Open(kind=kind, message=one) for one in messages]
+        return replace(self, open=[*self.open, *points])
 
-def _name_place(resistance: GivenResistance) -> Message:
-    """Type, or member and mode, with the cell of a resistance."""
-    if resistance.type_id:
-        kind = say("check.type", type=resistance.type_id)
-    else:
-        member, mode = name_member(resistance.member), name_mode(resistance.mode)
-        kind = say("check.member_in_mode", member=member, mode=mode)
-    return say("check.of_cell", what=kind, cell=resistance.source)
+    @property
+    def is_of_force(self) -> bool:
+        """It compares a force that is known with a resistance."""
+        return self._has_section or bool({"T_r", "T_b"} & self.known.keys())
 
+    @property
+    def _has_section(self) -> bool:
+        return f"{self._letter}_s" in self.known
 
-def judge_utilisation(
-    low: float | None, high: float | None, *, is_complete: bool
-) -> Verdict:
-    """Verdict on the band of a utilisation [-]; not proven where it is not known."""
-    if low is None or high is None:
-        return Verdict.NOT_PROVEN
-    return judge(low, high, least=0.0, most=1.0, is_complete=is_complete)
+    @property
+    def _letter(self) -> str:
+        """Letter of the force on the support: of a base that slides, V across it."""
+        return "V" if "V_k" in self.known else "E"
 
+    def name_force(self, load: str) -> str:
+        """Symbol of a force on the support: of a base that slides, that across it.
 
-def lack_factor(factor: str) -> Message:
-    """Lack of a profile's value, by its name and its id."""
-    return say("check.no_factor", factor=name("factor", factor), id=factor)
+        ``load`` is "c", "p" or "g": of section, panel, guideline. Without another load
+        that of the section is E_k itself.
+        """
+        symbol = f"{self._letter}_{load}"
+        is_alone = load == "c" and symbol not in self.known
+        return f"{self._letter}_k" if is_alone else symbol
 
+    def _find_high(self, load: str) -> float:
+        return self.read_band(self.name_force(load))[1] or 0.0
 
-def _lack_resistance_factor(
-    resistance: GivenResistance, known: Sequence[str]
-) -> Message:
-    """Lack of a factor of a mode; it may have one on other bases, which are known."""
-    mode = name_mode(resistance.mode)
-    if not known:
-        factor = say("factor.resistance", mode=mode)
-        of_mode = f"resistance.{resistance.mode}"
-        return say("check.no_factor", factor=factor, id=of_mode)
-    return say(
-        "check.no_factor_of_basis",
-        mode=mode,
-        basis=name("basis", resistance.basis),
-        known=tuple(name("basis", one) for one in known),
-    )
+    @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        return self._find_high("p") > self._find_high("c")
 
+    @property
+    def governs(self) -> str:
+        """Load of the largest force: "coupled", "panel", "guideline"; "" of no force.
 
-def _explain(verdict: Verdict, also: Sequence[Message], *, is_slack: bool) -> Message:
-    """One sentence without digits, so that rounding cannot contradict it."""
-    if verdict is Verdict.FAIL:
-        if also:
-            return say("check.fails_besides", gaps=tuple(also))
-        return say("check.fails")
-    if verdict is Verdict.NOT_PROVEN:
-        return not_proven(*also or (say("check.band_spans_resistance"),))
-    return say("check.slack") if is_slack else say("check.passes")
+        Solved forces count with their upper ends.
+        """
+        if not self.is_of_force:
+            return ""
+        least = self._find_high("g")
+        if least and least >= max(map(self._find_high, "cp")):
+            return "guideline"
+        return "panel" if self.is_by_panel or not self._has_section else "coupled"
 
+    @property
+    def reason(self) -> Message:
+        """Why it has its verdict, in one sentence."""
+        told = self.told
+        loads = [load for load in "cpg" if self.name_force(load) in self.known]
+        if self._has_section and len(loads) > 1 and any(map(self._find_high, loads)):
+            load = say(f"load.{self.governs}", case=name("load_case", self.load_case))
+            told = say("load.reason", reason=told, load=load)
+        if self.declared is None:
+            return told
+        is_failed = self.verdict is Verdict.FAIL
+        key = "check.fails_though_declared" if is_failed else "check.declared"
+        return say(key, reason=told, proof=self.declared.describe())
 
-def not_proven(*gaps: Message) -> Message:
-    """The sentence of a check that is not proven, with what is missing."""
-    return say("check.not_proven", gaps=gaps)
+    @property
+    def told(self) -> Message:
+        """The reason without the load that governs and without a proof elsewhere.
+
+        Without digits, so that rounding cannot contradict it.
+        """
+        if self.is_unbounded:
+            return next(x.message for x in self.open if x.kind is OpenKind.FAILS)
+        met, gaps = self.met or rate_utilisation(*self.utilisation_band), self.gaps
+        if self.finding is not None and (met is not Verdict.PASS or not gaps):
+            return self.finding
+        if met is Verdict.FAIL:
+            return say("check.fails_besides", gaps=gaps) if gaps else say("check.fails")
+        if gaps or met is Verdict.NOT_PROVEN:
+            spans = (say("check.band_spans_resistance"),)
+            return say("check.not_proven", gaps=gaps or spans)
+        is_slack = self.read_band("E_k")[1] == 0.0
+        return say("check.slack") if is_slack else say("check.passes")

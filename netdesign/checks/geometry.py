@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from netdesign.checks.check import conclude, judge, not_proven
+from netdesign.checks.check import Check, OpenKind, judge
+from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.loader import Standard, StandardValue
-from netdesign.checks.result import CheckResult
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,
@@ -68,7 +68,7 @@ class RowGeometry:
     gap: float
 
 
-def check_geometry(row: RowGeometry, standard: Standard) -> list[CheckResult]:
+def check_geometry(row: RowGeometry, standard: Standard) -> list[Check]:
     """Check a row against every limit of geometry that the profile has.
 
     Theory: checks/THEORY.md. The inclination and the slope are checked under every
@@ -84,7 +84,7 @@ def check_geometry(row: RowGeometry, standard: Standard) -> list[CheckResult]:
     return [check for check in checks if check is not None]
 
 
-def check_inclination(low: float, high: float, standard: Standard) -> CheckResult:
+def check_inclination(low: float, high: float, standard: Standard) -> Check:
     """Check a row's range of net inclination against the profile's range.
 
     Parameters
@@ -96,13 +96,13 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
 
     Returns
     -------
-    CheckResult
+    Check
         Pass if the range lies inside, fail if it lies outside, else not proven.
     """
     least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
     if least is None or most is None:
-        reason = not_proven(say("geometry.no_inclination_limits"))
-        return conclude("inclination", Verdict.NOT_PROVEN, reason)
+        lack = say("geometry.no_inclination_limits")
+        return leave_open("inclination", OpenKind.RESISTANCE_MISSING, lack)
     verdict = judge(low, high, least=least.value_si, most=most.value_si)
     reason = say(
         _INCLINATIONS[verdict],
@@ -111,10 +111,10 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
         least=least.value,
         most=most.value,
     )
-    return conclude("inclination", verdict, reason, least)
+    return compare("inclination", verdict, reason, least)
 
 
-def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
+def check_slope(slope_angle: float, standard: Standard) -> Check:
     """Check the slope angle [rad] against limits, and whether it can be one at all.
 
     Outside the profile's limits it fails. Outside the plausible range it is not proven:
@@ -128,8 +128,8 @@ def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
     most = standard.find(MOST_PLAUSIBLE_SLOPE)
     plausible = _judge_slope(slope_angle, least, most)
     if least is None or most is None or plausible is None:
-        reason = not_proven(say("geometry.no_plausible_slope"))
-        return conclude("slope", Verdict.NOT_PROVEN, reason)
+        lack = say("geometry.no_plausible_slope")
+        return leave_open("slope", OpenKind.RESISTANCE_MISSING, lack)
     if plausible.verdict is Verdict.PASS:
         return limits or plausible
     number = degree_from_radian(slope_angle)
@@ -140,15 +140,15 @@ def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
         least=least.value,
         most=most.value,
     )
-    reason = not_proven(gap)
     if slope_angle > most.value_si:
-        reason = say("geometry.percentage", reason=reason, slope=number, meant=meant)
-    return conclude("slope", Verdict.NOT_PROVEN, reason, least)
+        gap = say("geometry.percentage", reason=gap, slope=number, meant=meant)
+    found = compare("slope", Verdict.NOT_PROVEN, None, least)
+    return found.with_open(OpenKind.VALUE_ASKED, gap)
 
 
 def _judge_slope(
     slope_angle: float, least: StandardValue | None, most: StandardValue | None
-) -> CheckResult | None:
+) -> Check | None:
     if least is None or most is None:
         return None
     verdict = judge(slope_angle, slope_angle, least=least.value_si, most=most.value_si)
@@ -158,12 +158,12 @@ def _judge_slope(
         least=least.value,
         most=most.value,
     )
-    return conclude("slope", verdict, reason, least)
+    return compare("slope", verdict, reason, least)
 
 
 def check_height(
     net_height: float, snow_thickness: float, standard: Standard
-) -> CheckResult | None:
+) -> Check | None:
     """Check the net's height against the snow, both normal to the slope [m].
 
     A net below its snow fails under every profile; else None where the profile has no
@@ -176,7 +176,7 @@ def check_height(
     verdict = judge(net_height, net_height, least=needed, most=math.inf)
     key = _HEIGHTS[verdict is Verdict.PASS]
     reason = say(key, height=net_height, needed=needed)
-    return conclude("height", verdict, reason, ratio)
+    return compare("height", verdict, reason, ratio)
 
 
 def compute_largest_row_spacing(
@@ -223,7 +223,7 @@ def read_reach(standard: Standard) -> Callable[[float, float], float] | None:
     return find_reach
 
 
-def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | None:
+def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
     """Check the distance of the rows; None where the profile has no formula.
 
     Nothing is proven beyond the profile's cap on f_L, nor without one.
@@ -234,24 +234,24 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | Non
     most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
     proven = cap.value * row.net_height / math.cos(row.slope_angle) if cap else 0.0
     length = row.upslope_length
-    verdict = judge(
-        *(length, length), least=0.0, most=most, is_complete=length <= proven
-    )
-    reason = say(_SPACINGS[verdict is Verdict.PASS], length=length, most=most)
-    if verdict is Verdict.NOT_PROVEN:
-        capped = say("geometry.spacing_capped", length=length, most=proven)
-        reason = not_proven(capped if cap else say("geometry.no_cap"))
-    return conclude("spacing", verdict, reason, friction)
+    met = judge(length, length, least=0.0, most=most)
+    finding = say(_SPACINGS[met is Verdict.PASS], length=length, most=most)
+    found = compare("spacing", met, finding, friction)
+    if length <= proven:
+        return found
+    capped = say("geometry.spacing_capped", length=length, most=proven)
+    lack = capped if cap else say("geometry.no_cap")
+    return found.with_open(OpenKind.UNSOLVED, lack)
 
 
-def check_gap(gap: float, standard: Standard) -> CheckResult | None:
+def check_gap(gap: float, standard: Standard) -> Check | None:
     """Check the gap beside a row [m]; None where the profile has no limit of it."""
     most = standard.find(MAX_GAP)
     if most is None:
         return None
-    verdict = judge(gap, gap, least=0.0, most=most.value)
-    if verdict is Verdict.NOT_PROVEN:
-        reason = not_proven(say("geometry.no_gap"))
-    else:
-        reason = say(_GAPS[verdict is Verdict.PASS], gap=gap, most=most.value)
-    return conclude("gap", verdict, reason, most)
+    met = judge(gap, gap, least=0.0, most=most.value)
+    if met is Verdict.NOT_PROVEN:
+        found = compare("gap", met, None, most)
+        return found.with_open(OpenKind.VALUE_ASKED, say("geometry.no_gap"))
+    finding = say(_GAPS[met is Verdict.PASS], gap=gap, most=most.value)
+    return compare("gap", met, finding, most)

@@ -1,13 +1,11 @@
-"""Input and result of a check."""
+"""What a check is given: forces with their bands, resistances, proofs elsewhere."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from netdesign.calculation.quantity import Quantity
-from netdesign.calculation.steps import list_named
-from netdesign.outcome import ModelError, Verdict
+from netdesign.outcome import ModelError
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.words.message import Message, say
 
@@ -100,45 +98,3 @@ class Declaration:
     mode: str
     position: str = ""
     proof: Proof
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CheckResult:
-    """One check. A number that does not exist is None, and never leads to a pass.
-
-    Attributes
-    ----------
-    id, clause, member, mode : str
-        Name of the check, clause of its limit ("-" if none), and its subject.
-    verdict : Verdict
-        From ``check.judge`` alone.
-    reason : Message
-        Why, in one sentence.
-    used : Quantity or None
-        Utilisation with all that it follows from: of a check of a force.
-    declared : Proof or None
-        Where it is said to be proven, whatever the verdict.
-    is_unbounded : bool
-        Nothing is left to resist the demand: its utilisation is infinite, and no
-        number.
-    """
-
-    id: str
-    clause: str
-    member: str
-    mode: str
-    verdict: Verdict
-    reason: Message
-    used: Quantity | None = None
-    declared: Proof | None = None
-    is_unbounded: bool = False
-
-    def find(self, symbol: str) -> Quantity | None:
-        """Quantity of the calculation under a symbol; None if it has no value."""
-        named = [] if self.used is None else list_named(self.used)
-        return next((q for q in named if q.symbol == symbol and q.is_known), None)
-
-    def find_value(self, symbol: str) -> float | None:
-        """Value of a quantity of the calculation, in its unit."""
-        found = self.find(symbol)
-        return found.value if found else None

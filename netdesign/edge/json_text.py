@@ -104,6 +104,7 @@ def list_fields(value: Any) -> dict[str, Any]:
 
     Of a mapping that cannot be changed, its members. Of a class with
     ``LEAVES_OUT_NONE`` no field that is None: none at all, or none of those it names.
+    Of one with ``WRITTEN`` also these properties, which follow from its fields.
 
     Raises
     ------
@@ -115,7 +116,8 @@ def list_fields(value: Any) -> dict[str, Any]:
     if not is_dataclass(value):
         raise TypeError(f"{type(value).__name__} is not JSON serializable")
     kind: Any = type(value)
-    found = {name: getattr(value, name) for name in _name_fields(kind)}
+    names = (*_name_fields(kind), *getattr(kind, "WRITTEN", ()))
+    found = {name: getattr(value, name) for name in names}
     leaves_out = getattr(value, "LEAVES_OUT_NONE", ())
     if not leaves_out:
         return found

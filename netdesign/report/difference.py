@@ -9,13 +9,14 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, TypeVar
 
 from netdesign.calculation.steps import Step
+from netdesign.checks.check import Check
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.words import Words, find_choice
 from netdesign.site.model import InputEcho
 from netdesign.study.governing import find_governing
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.study.values import ROUNDING, compare_values
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
@@ -337,11 +338,11 @@ def _name_all(pairs: Iterable[tuple[Message, _Value]]) -> dict[Message, _Value]:
     return named
 
 
-def _name_checks(row: RowStudy) -> dict[Message, CheckRecord]:
+def _name_checks(row: RowStudy) -> dict[Message, Check]:
     return _name_all((_name_check(check), check) for check in row.checks)
 
 
-def _name_check(check: CheckRecord) -> Message:
+def _name_check(check: Check) -> Message:
     return name_check(check.member, check.mode, check.position)
 
 
@@ -374,7 +375,7 @@ def _list_checks(row: RowStudy) -> Named:
     }
 
 
-def _read_value(check: CheckRecord, key: str) -> Any:
+def _read_value(check: Check, key: str) -> Any:
     """Value of a check; the basis of its resistance has words, its proof a place.
 
     A utilisation without a bound is a word, too: JSON has no infinite number.
@@ -393,7 +394,7 @@ def _read_value(check: CheckRecord, key: str) -> Any:
     return value
 
 
-def _name_proof(check: CheckRecord) -> str | None:
+def _name_proof(check: Check) -> str | None:
     """Place of the proof of a declared check, as the workbook has it."""
     if check.declared is None:
         return None
@@ -487,7 +488,6 @@ def _keep_row_rest(row: RowStudy) -> object:
     """Parts of a net row that are told in sum only."""
     return replace(
         row,
-        verdict=Verdict.PASS,
         checks=[_keep_check_rest(check) for check in row.checks],
         extremes=[
             replace(one, max_kN=0.0, upper_bound_kN=None) for one in row.extremes
@@ -497,9 +497,9 @@ def _keep_row_rest(row: RowStudy) -> object:
     )
 
 
-def _keep_check_rest(check: CheckRecord) -> CheckRecord:
-    told = dict.fromkeys(_OF_CHECK) | {"verdict": Verdict.PASS, "clause": ""}
-    told |= {"resistance_basis": "", "resistance_type": "", "is_unbounded": False}
+def _keep_check_rest(check: Check) -> Check:
+    told = dict.fromkeys(("clause", "resistance_basis", "resistance_type"), "")
+    points = [one for one in check.open if one.proof is None]
     own = {"E_d": check.demand_kN, "R_d": check.resistance_kN, "μ": check.utilisation}
     steps = [
         _keep_step_rest(one, own.get(one.symbol, one.value))
@@ -507,7 +507,7 @@ def _keep_check_rest(check: CheckRecord) -> CheckRecord:
         else one
         for one in check.steps
     ]
-    return replace(check, steps=steps, **told)  # type: ignore[arg-type]
+    return replace(check, steps=steps, open=points, met=None, **told)  # type: ignore[arg-type]
 
 
 def _keep_step_rest(step: Step, told: float | None) -> Step:

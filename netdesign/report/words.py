@@ -29,9 +29,8 @@ from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 
 if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
+    from netdesign.checks.check import CasePoint, Check
     from netdesign.site.model import InputEcho
-    from netdesign.study.case_records import CasePoint
-    from netdesign.study.records import CheckRecord
 
 MISSING = "-"
 UNBOUNDED = "∞"  # a utilisation beyond any number
@@ -259,7 +258,7 @@ def show_member(words: Words, member: str) -> str:
     return words.show(name_member(member))
 
 
-def show_check(words: Words, check: CheckRecord) -> str:
+def show_check(words: Words, check: Check) -> str:
     """Member and mode of a check: ``Foot anchor, pull-out``."""
     return words.show(name_check(check.member, check.mode, check.position))
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, product
 
-from netdesign.checks import CheckResult
-from netdesign.checks.check import conclude, not_proven
+from netdesign.checks import Check, OpenKind
+from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import ANCHOR_DISTANCE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
@@ -32,7 +32,7 @@ _FLATTEST = 1e-3  # of an end guy along the row; it ends far from the others [ra
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
-def check_anchor_distance(known: RowForces, gap: Message | None) -> CheckResult | None:
+def check_anchor_distance(known: RowForces, gap: Message | None) -> Check | None:
     """Check how near the anchors of a row come to each other in the ground.
 
     Nearer than the profile says is not proven: a test of the group may show it. None
@@ -44,7 +44,7 @@ def check_anchor_distance(known: RowForces, gap: Message | None) -> CheckResult 
         return None
     if limit is None:
         lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
-        return conclude("anchors", Verdict.NOT_PROVEN, not_proven(lack))
+        return leave_open("anchors", OpenKind.RESISTANCE_MISSING, lack)
     gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
@@ -55,8 +55,9 @@ def check_anchor_distance(known: RowForces, gap: Message | None) -> CheckResult 
     key = "bores.apart" if is_apart else "bores.near"
     reason = say(key, least=least, limit=limit.value, anchors=anchors)
     if gap is None and is_apart:
-        return conclude("anchors", Verdict.PASS, reason, limit)
-    return conclude("anchors", Verdict.NOT_PROVEN, not_proven(gap or reason), limit)
+        return compare("anchors", Verdict.PASS, reason, limit)
+    found = compare("anchors", Verdict.NOT_PROVEN, None, limit)
+    return found.with_open(OpenKind.UNSOLVED, gap or reason)
 
 
 def _list_nearest(
@@ -120,7 +121,7 @@ def place_end_anchors(
         yield member, bore
 
 
-def check_cover(known: RowForces, gap: Message | None) -> CheckResult | None:
+def check_cover(known: RowForces, gap: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
     None where the profile leaves it to others, or without any pull.
@@ -139,10 +140,10 @@ def check_cover(known: RowForces, gap: Message | None) -> CheckResult | None:
         gap = gap or say("bending.no_axis")
     short = None if unsaid else next(_list_short(row, pulls), None)
     if short is not None:
-        return conclude("cover", Verdict.FAIL, short)
+        return compare("cover", Verdict.FAIL, short)
     if gap is not None:
-        return conclude("cover", Verdict.NOT_PROVEN, not_proven(gap))
-    return conclude("cover", Verdict.PASS, say("bores.covered"))
+        return leave_open("cover", OpenKind.UNSOLVED, gap)
+    return compare("cover", Verdict.PASS, say("bores.covered"))
 
 
 def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
 
-from netdesign.edge.json_text import Items, list_fields
+from netdesign.checks.check import CasePoint
+from netdesign.edge.json_text import Items
 from netdesign.outcome import Outcome
 from netdesign.words.message import Text
 
@@ -98,32 +98,6 @@ class EnvelopeRecord:
     skips_tested: int
     failed: int
     bounds: Items[BoundRecord]
-
-
-@dataclass(frozen=True, kw_only=True)
-class CasePoint:
-    """One point of the ranges; what does not range beside the first three is None.
-
-    The document leaves that out.
-    """
-
-    LEAVES_OUT_NONE: ClassVar[bool] = True
-
-    density_kg_m3: float
-    friction_deg: float
-    inclination_deg: float
-    thickness_m: float | None = None
-    height_vertical_m: float | None = None
-    upslope_length_m: float | None = None
-    slack: float | None = None
-    stiffness_kN_per_m: float | None = None
-    slip_length_m: float | None = None
-    glide_factor: float | None = None
-
-    @property
-    def values(self) -> dict[str, float]:
-        """Values by their keys."""
-        return list_fields(self)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,7 @@ from dataclasses import replace
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.quantity import given as quantity
 from netdesign.checks import Standard
-from netdesign.checks.check import (
+from netdesign.checks.comparison import (
     find_action_factor,
     find_resistance,
     lack_factor,

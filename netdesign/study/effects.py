@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 
-from netdesign.checks import CheckResult, Standard, load_standard
-from netdesign.checks.check import conclude, not_proven
+from netdesign.checks import Check, OpenKind, Standard, load_standard
+from netdesign.checks.comparison import leave_open
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.guideline.comparison import find_glide_factor
@@ -17,7 +17,6 @@ from netdesign.guideline.load_model import (
     read_load_model,
 )
 from netdesign.numerics.arrays import Number
-from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.row_position import (
@@ -146,8 +145,8 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
     )
 
 
-def check_ends(effects: RowEffects) -> CheckResult | None:
+def check_ends(effects: RowEffects) -> Check | None:
     """Not proven where the profile does not say how the ends of a row are loaded."""
     if not effects.missing:
         return None
-    return conclude("ends", Verdict.NOT_PROVEN, not_proven(*effects.missing))
+    return leave_open("ends", OpenKind.RESISTANCE_MISSING, *effects.missing)

@@ -4,37 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord
-from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.study.records import RowStudy
 from netdesign.study.remedies import CLOSE
 
 # Worst first.
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 
 
-def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+def find_governing(checks: Sequence[Check]) -> Check | None:
     """Check that decides the verdict: the worst verdict, then the largest ratio."""
     return min(checks, key=rank_check, default=None)
 
 
-def rank_check(check: CheckRecord) -> tuple[int, float]:
+def rank_check(check: Check) -> tuple[int, float]:
     """Sort key: worst verdict first, then the largest utilisation."""
     return SEVERITY.index(check.verdict), -_ratio(check)
 
 
-def _ratio(check: CheckRecord) -> float:
+def _ratio(check: Check) -> float:
     return -1.0 if check.used is None else check.used
 
 
-def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+def find_highest(checks: Sequence[Check]) -> Check | None:
     """Check with the largest utilisation, of those that have one."""
     known = [check for check in checks if check.used is not None]
     return max(known, key=_ratio, default=None)
 
 
-def find_shown(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+def find_shown(checks: Sequence[Check]) -> Check | None:
     """Check of which most is shown: the governing one, or the most used one."""
     governing = find_governing(checks)
     if governing and governing.used is not None:
@@ -42,7 +43,7 @@ def find_shown(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     return find_highest(checks)
 
 
-def find_shown_member(checks: Sequence[CheckRecord]) -> str:
+def find_shown_member(checks: Sequence[Check]) -> str:
     """Member whose envelope is shown; "" without any."""
     shown = find_shown(checks)
     if shown is None or shown.member in REPORTED_MEMBERS:
@@ -50,7 +51,7 @@ def find_shown_member(checks: Sequence[CheckRecord]) -> str:
     return BROUGHT_BY.get(shown.member, "")
 
 
-def is_far_from_limit(check: CheckRecord) -> bool:
+def is_far_from_limit(check: Check) -> bool:
     """True of a check that passes, and is told no change that would turn it."""
     _, used = check.utilisation_band
     return check.verdict is Verdict.PASS and (used is None or used < CLOSE)

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from netdesign import addon_table
 from netdesign.checks import Standard
+from netdesign.checks.check import Check
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
-from netdesign.outcome import merge_verdicts
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
@@ -27,7 +27,6 @@ from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_judged_notes,
-    list_reasons,
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
@@ -52,13 +51,10 @@ from netdesign.study.record_support import (
 )
 from netdesign.study.records import (
     SCHEMA,
-    CheckRecord,
     ModelFormRecord,
     ReliabilityRecord,
     RowStudy,
     Study,
-    list_verdicts,
-    merge_rows,
 )
 from netdesign.study.row_checks import (
     RowChecks,
@@ -114,7 +110,6 @@ def gather_study(
     """Study of a site whose rows are judged, in their order."""
     return Study(
         schema=SCHEMA,
-        verdict=merge_rows(rows, site.left_out),
         project=site.project,
         profile=record_profile(standard),
         rows=list(rows),
@@ -154,7 +149,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     floor = find_row_floor(row, task.site.ranges, task.standard)
     known = know_row(task, floor)
     found, model_form = _check_row(task, known)
-    checks = found.records
+    checks = found.checks
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
@@ -165,14 +160,12 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     notes = list_judged_notes(known, checks, cases, panel)
     return RowStudy(
         id=row.id,
-        verdict=merge_verdicts(list_verdicts(checks, independent)),
         checks=checks,
         extremes=_record_extremes(extremes),
         cases=cases,
         inputs=list(row.inputs),
         parts=list_parts(row, task.site.ranges["inclination"]),
         drawing=drawing,
-        reasons=list_reasons(checks, independent),
         unsaid=list(row.unsaid),
         questions=list(row.questions),
         monitoring=record_monitoring(task.site, row),
@@ -199,14 +192,14 @@ def _find_reliability(
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
-    worst = find_worst(found.records)
+    worst = find_worst(found.checks)
     judged = found.judged.get(worst.id) if worst else None
     by_case = None
     if judged is not None:
         by_case = find_check_by_case(task, known, judged, found.judged.values())
     solver = CaseSolver(run.settings, run.creep_law)
     record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
-    made: ReliabilityRecord = record(task.site, found.records, worst, by_case, solver)
+    made: ReliabilityRecord = record(task.site, found.checks, worst, by_case, solver)
     return made
 
 
@@ -218,12 +211,12 @@ def _check_row(
     Where the program fails in one of those, it is not trusted in the checks either.
     """
     found = detail_shown(task, check_row(task, known))
-    worst = find_worst(found.records)
+    worst = find_worst(found.checks)
     before = task.count_faults()
     form = _find_model_form(task, worst)
     if task.count_faults() > before:
-        doubted = [distrust(check) for check in found.records]
-        found = replace(found, records=doubted)
+        doubted = [distrust(check) for check in found.checks]
+        found = replace(found, checks=doubted)
     return found, form
 
 
@@ -236,7 +229,7 @@ def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:
 
 
 def _record_search(
-    solved: RowGrid | RowEnvelope, checks: Sequence[CheckRecord]
+    solved: RowGrid | RowEnvelope, checks: Sequence[Check]
 ) -> EnvelopeRecord | None:
     """The search, drawn for one member; None for a grid of cases."""
     if not isinstance(solved, RowEnvelope):
@@ -244,7 +237,7 @@ def _record_search(
     return record_envelope(solved, REPORTED_MEMBERS, _choose_drawn(solved, checks))
 
 
-def _choose_drawn(solved: RowEnvelope, checks: Sequence[CheckRecord]) -> str:
+def _choose_drawn(solved: RowEnvelope, checks: Sequence[Check]) -> str:
     """Member of the check that is shown; one with a force where that has none."""
     extremes = solved.extremes
     loaded = [
@@ -256,21 +249,21 @@ def _choose_drawn(solved: RowEnvelope, checks: Sequence[CheckRecord]) -> str:
     return shown if shown in loaded or not loaded else loaded[0]
 
 
-def _name_largest(check: CheckRecord) -> str:
+def _name_largest(check: Check) -> str:
     """Force that a check follows: of section, panel, or a rope at the row's end."""
     if check.member in ROPE_OF:
         return ROPE_OF[check.member]
     return name_in_panel(check.member) if check.is_by_panel else check.member
 
 
-def find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+def find_worst(checks: Sequence[Check]) -> Check | None:
     """Check of the largest utilisation by a solved case; None without any."""
     rated = [check for check in checks if check.used is not None and check.case]
     return max(rated, key=lambda check: check.used or 0.0, default=None)
 
 
 def _governing_result(
-    worst: CheckRecord | None, extremes: Mapping[str, Extreme]
+    worst: Check | None, extremes: Mapping[str, Extreme]
 ) -> CaseResult | None:
     """Case of the worst check; without any, of the largest foot force."""
     if worst is not None:
@@ -279,9 +272,7 @@ def _governing_result(
     return foot.governing if foot else None
 
 
-def _find_model_form(
-    task: RowToCheck, worst: CheckRecord | None
-) -> ModelFormRecord | None:
+def _find_model_form(task: RowToCheck, worst: Check | None) -> ModelFormRecord | None:
     if task.solver is None or worst is None:
         return None
     member = _name_largest(worst)

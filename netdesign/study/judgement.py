@@ -1,34 +1,29 @@
-"""Checks of a row's members, from what its study states of forces and inputs.
-
-The same functions judge after a solve and judge a stored study again: nothing here
-knows a solved case.
-"""
+"""Checks of a row's members, from its forces and inputs alone."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import CheckResult, withhold
+from netdesign.checks import Check, Open, OpenKind, Standard, check_member
+from netdesign.checks.check import SingleTest, TestSeries
+from netdesign.checks.comparison import find_missing_force
+from netdesign.checks.tested import find_proof_factor
 from netdesign.outcome import Verdict
+from netdesign.resistance.pull_out import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import CONNECTED, ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.case_records import ForceRecord
-from netdesign.study.check_to_record import (
-    doubt_ground,
-    doubt_sharing,
-    judge_force,
-    record_geometry,
-    record_result,
-)
 from netdesign.study.dependent import (
     connect,
     corrode,
     find_resistance_for_force,
     find_short_post,
+    resist,
 )
+from netdesign.study.geometry_checks import check_row_geometry
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
@@ -36,34 +31,38 @@ from netdesign.study.member_force import (
     find_lack,
     find_other_panel,
     lifts,
-    name_governing,
     name_unsaid,
 )
-from netdesign.study.pulls import check_directions, doubt_mortar, find_pull
-from netdesign.study.records import CheckRecord
+from netdesign.study.pulls import (
+    check_directions,
+    doubt_mortar,
+    find_pull,
+    lack_sharing,
+)
 from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import PullRecord
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
+
+FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
+# A post of which the snow's moment leaves nothing for its force; ground that slides
+# without any; a foot without hold.
+UNBOUNDED = ("post_bending.too_much", "wedge.slides", LOOSE_LIFTS.key)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MemberCheck:
-    """One member of one support in one mode, judged.
+    """Check of one member of one support in one mode, with what it was judged from.
 
-    ``force`` is None where it is not known at all; ``gap`` says why it is not known as
-    a whole, ``doubt`` why the creep law may not hold for the governing snow, ``unsure``
-    why the resistance may not hold; None if all is well.
+    ``force`` is None where it is not known at all.
     """
 
     given: Resistance
     width: LoadedWidth
-    result: CheckResult
+    check: Check
     force: MemberForce | None = None
-    gap: Message | None = None
-    doubt: Message | None = None
-    unsure: Message | None = None
     pull: PullRecord | None = None  # on an anchor, where one is known
 
     @property
@@ -77,18 +76,12 @@ class MemberCheck:
         return self.given.member in ROPE_OF
 
     @property
-    def id(self) -> str:
-        """Name of its check, with its support."""
-        end = ".end" if self.width.position == "edge" else ""
-        return f"{self.result.id}{end}"
-
-    @property
     def use(self) -> float | None:
         """Utilisation for each kN on a member inside the row [1/kN].
 
         None without a resistance.
         """
-        factor, design = map(self.result.find_value, ("γ_E", "R_d"))
+        factor, design = map(self.check.read, ("γ_E", "R_d"))
         if self.force is None or not (factor and design):
             return None
         return self.force.on_support * factor / design
@@ -96,8 +89,8 @@ class MemberCheck:
     @property
     def ratio(self) -> float:
         """Upper end of the utilisation [-]; below 0 without one."""
-        used = self.result.used
-        return -1.0 if used is None or used.high is None else used.high
+        high = self.check.utilisation_band[1]
+        return -1.0 if high is None else high
 
 
 def is_worst(one: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
@@ -146,36 +139,106 @@ def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resi
 def _judge_member(
     known: RowForces, given: Resistance, width: LoadedWidth
 ) -> MemberCheck:
-    row, standard = known.row, known.standard
     unsaid = _find_unsaid(known, given, width)
     if unsaid:  # whatever else is missing
-        result = judge_force(given, None, standard, gap=unsaid, doubt=None)
-        result = withhold(result, unsaid)
-        return MemberCheck(given=given, width=width, gap=unsaid, result=result)
+        points = [Open(kind=OpenKind.UNSOLVED, message=unsaid)]
+        check = replace(judge_force(known, given, None, width, points), open=points)
+        return MemberCheck(given=given, width=width, check=check)
     force = find_force(known, given, width)
     pull = find_pull(known.pulls, given.member, width.position)
     given, unsure = find_lasting(known, given, pull)
-    doubt = None
     if force is not None:
         given = find_resistance_for_force(given, known, pull)
-        doubt = _find_doubt(known, force)
-    gap = known.gap or (None if given.member in ROPE_OF else known.floor_gap)
-    gap = gap or _find_unseen(force.solved if force else ())
-    gap = gap or find_other_panel(row, given, width.position)
-    result = judge_force(given, force, standard, gap=gap, doubt=doubt or unsure)
+    points = list(_list_open(known, given, width, force))
+    if unsure:
+        points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
+    check = judge_force(known, given, force, width, points)
     short = find_short_post(given, known)
-    if short and result.verdict is Verdict.PASS:  # a longer post fails all the more
+    if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
-        result = judge_force(given, force, standard, gap=gap, doubt=doubt)
-    return MemberCheck(
-        given=given,
-        width=width,
-        force=force,
-        gap=gap,
-        doubt=doubt,
-        result=result,
-        unsure=unsure,
-        pull=pull,
+        check = judge_force(known, given, force, width, points)
+    return MemberCheck(given=given, width=width, force=force, check=check, pull=pull)
+
+
+def _list_open(
+    known: RowForces, given: Resistance, width: LoadedWidth, force: MemberForce | None
+) -> Iterator[Open]:
+    """What is open of a member's force: of its cases, its snow, what pulls it."""
+    gaps = (
+        known.gap,
+        None if given.member in ROPE_OF else known.floor_gap,
+        _find_unseen(force.solved if force else ()),
+        find_other_panel(known.row, given, width.position),
+    )
+    for gap in filter(None, gaps):
+        yield Open(kind=OpenKind.UNSOLVED, message=gap)
+    doubt = _find_doubt(known, force) if force else None
+    if doubt is not None:
+        yield Open(kind=OpenKind.OUTSIDE_LAW, message=doubt)
+
+
+def judge_force(
+    known: RowForces,
+    given: Resistance,
+    force: MemberForce | None,
+    width: LoadedWidth,
+    points: Sequence[Open] = (),
+) -> Check:
+    """Check of a force; it fails where a moment alone is too much for a post.
+
+    Nothing of the post is left for its force then: the utilisation has no bound. So it
+    is with a loose foot that its post surely lifts.
+    """
+    standard, is_at_end = known.standard, width.position == "edge"
+    gap = points[0].message if points else say("check.no_case_solved")
+    check = check_member(
+        force.action if force else find_missing_force(gap),
+        given,
+        standard,
+        points,
+        strength=resist(given, standard, force) if force else None,
+    )
+    least = known.find_least(given.member) if force else None
+    doubted = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
+    check = replace(
+        check,
+        id=f"{check.id}.end" if is_at_end else check.id,
+        position=width.position,
+        case=force.largest.case if force else None,
+        load_case=least.load_case if least else "",
+        load_inclination_deg=least.inclination_deg if least else None,
+        resistance_derivation=given.derivation,
+        resistance_years=known.row.design_life if given.wear and not doubted else None,
+        tests=_record_tests(given, standard),
+    )
+    lack = given.lack
+    if lack == FOOT_LOOSE and force and force.action.low:
+        lack = LOOSE_LIFTS
+    is_unbounded = lack is not None and lack.key in UNBOUNDED
+    return check.with_open(OpenKind.FAILS, lack) if lack and is_unbounded else check
+
+
+def _record_tests(given: Resistance, standard: Standard) -> TestSeries | None:
+    tests = given.tests
+    if tests is None or given.value is not None:
+        return None
+    return TestSeries(
+        count=tests.count,
+        least_kN=kilonewton_from_newton(tests.least),
+        mean_kN=kilonewton_from_newton(tests.mean),
+        singles=[_record_single(one) for one in tests.singles],
+        proof_factor=find_proof_factor(standard),
+    )
+
+
+def _record_single(test: PullOutTest) -> SingleTest:
+    proof, moved = test.proof_load, test.displacement
+    return SingleTest(
+        cell=test.source,
+        load_kN=kilonewton_from_newton(test.load),
+        is_held=test.is_held,
+        proof_load_kN=None if proof is None else kilonewton_from_newton(proof),
+        displacement_mm=None if moved is None else 1e3 * moved,
     )
 
 
@@ -224,6 +287,18 @@ def _find_unseen(forces: Sequence[ForceRecord]) -> Message | None:
     return say("check.unseen_between", axes=tuple(name("axis", one) for one in unknown))
 
 
+def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
+    """Doubt that a pull-out resistance holds where nobody says in which ground."""
+    names = row.list_unsaid_grounds(given)
+    return say("check.no_ground", names=names) if names else None
+
+
+def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
+    """Doubt about an anchor of which nobody says whether it holds two guys."""
+    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    return lack_sharing(row.guys) if given.member in of_guys else None
+
+
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     """Gap of the forces, else a doubt about any of them; None if all is well.
 
@@ -232,46 +307,45 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     if row.unsaid:
         return name_unsaid(row)
     members = [one for one in judged if not one.is_of_end]
-    found = (find_lack(row, one.given) or row.panel_lack for one in members)
-    of_end = [one for one in found if one is not None]
-    points = ((None if one.gap in of_end else one.gap) or one.doubt for one in members)
-    return next((one for one in points if one is not None), None)
-
-
-def record_member(known: RowForces, one: MemberCheck) -> CheckRecord:
-    """Check of a force as the study has it, without what a solve adds to it."""
-    position = one.width.position
-    check = record_result(known, one.result, position, one.given, one.force)
-    if one.unsure is None:
-        check = replace(
-            check,
-            resistance_years=known.row.design_life if one.given.wear else None,
-        )
-    if one.force is None:
-        return check
-    check = replace(check, case=one.force.largest.case)
-    if one.is_of_end:
-        return replace(check, governs="panel")
-    least = known.find_least(one.given.member)
-    load_case = least.load_case if least else ""
-    return replace(
-        check,
-        load_case=load_case,
-        load_inclination_deg=least.inclination_deg if least else None,
-        reason=name_governing(check.reason, one.force, load_case),
+    of_end = [find_lack(row, one.given) or row.panel_lack for one in members]
+    points = (
+        point.message
+        for one in members
+        for point in one.check.open
+        if point.kind in (OpenKind.UNSOLVED, OpenKind.OUTSIDE_LAW)
+        and point.message not in of_end
     )
+    return next(points, None)
 
 
-def record_others(
-    known: RowForces, judged: Sequence[MemberCheck]
-) -> Iterator[CheckRecord]:
+def check_others(known: RowForces, judged: Sequence[MemberCheck]) -> Iterator[Check]:
     """Checks that compare no force: load along the row, directions, geometry."""
     gap = find_open(known.row, judged)
-    lateral = check_sideways(known.row, known.held, known.standard, gap)
-    yield record_result(known, lateral)
+    yield check_sideways(known.row, known.held, known.standard, gap)
     for place, one in check_directions(known.pulls, known.standard, gap):
-        yield record_result(known, one, place)
+        is_at_end = place == "edge"
+        yield replace(one, id=f"{one.id}.end" if is_at_end else one.id, position=place)
     for found in (check_anchor_distance(known, gap), check_cover(known, gap)):
         if found is not None:
-            yield record_result(known, found)
-    yield from record_geometry(known)
+            yield found
+    yield from check_row_geometry(known)
+
+
+def apply_declaration(basis: Basis, check: Check) -> Check:
+    """Check with what the workbook says of it: a document that proves it elsewhere.
+
+    Forces of a net below its snow are those of snow up to its head: they may fail, and
+    prove nothing.
+    """
+    row, member = basis.row, check.member
+    if row.is_overtopped and member != Member.NET:
+        check = check.with_open(OpenKind.UNSOLVED, say("check.overtopped"))
+    found = basis.site.find_declaration(row, member, check.mode, check.position)
+    if found is None:
+        return check
+    elsewhere = Open(
+        kind=OpenKind.PROVEN_ELSEWHERE,
+        message=found.proof.describe(),
+        proof=found.proof,
+    )
+    return replace(check, open=[*check.open, elsewhere])

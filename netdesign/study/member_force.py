@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.checks.check import find_profile_value
+from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
     SupportForce,
@@ -39,9 +38,7 @@ from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import HeldSidewaysRecord, PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
-Governing = Literal["coupled", "panel", "guideline"]
 PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
 _MOST_NAMES = 3  # of inputs that a row lacks, in the reason of a check
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
@@ -135,15 +132,6 @@ class MemberForce:
     def is_by_panel(self) -> bool:
         """The force by the panel between posts is larger than that of the section."""
         return _high(self.on.by_panel) > _high(self.on.coupled)
-
-    @property
-    def governs(self) -> Governing:
-        """Largest one of the three; solved forces count with their upper ends."""
-        solved = max(_high(self.on.coupled), _high(self.on.by_panel))
-        least = _high(self.on.guideline)
-        if least and least >= solved:
-            return "guideline"
-        return "panel" if self.is_by_panel else "coupled"
 
     @property
     def on_support(self) -> float:
@@ -364,16 +352,6 @@ def is_shared(row: NetRow, member: str) -> bool:
     """An anchor holds a guy of each of two neighbouring posts, or may do so."""
     of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
     return may_share(row.guys) and member in of_guys
-
-
-def name_governing(reason: Message, force: MemberForce, load_case: str) -> Message:
-    """A verdict's reason with the load that governs; of no demand at all, none does."""
-    loads = (force.on.coupled, force.on.by_panel, force.on.guideline)
-    is_alone = loads[1] is None and loads[2] is None
-    if is_alone or not any(map(_high, loads)):
-        return reason
-    load = say(f"load.{force.governs}", case=name("load_case", load_case))
-    return say("load.reason", reason=reason, load=load)
 
 
 def name_unsaid(row: NetRow) -> Message:

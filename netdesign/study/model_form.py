@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from netdesign.checks.check import Check
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
@@ -17,7 +18,7 @@ from netdesign.snow.ground import (
 )
 from netdesign.structure.members import Member
 from netdesign.study.record_envelope import record_point
-from netdesign.study.records import CheckRecord, ModelFormRecord, VariantRecord
+from netdesign.study.records import ModelFormRecord, VariantRecord
 from netdesign.study.row_to_check import CaseSolver, is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message
@@ -33,7 +34,7 @@ class _Variant:
 
 
 def record_model_form(
-    solver: CaseSolver, row: NetRow, result: CaseResult, member: str, check: CheckRecord
+    solver: CaseSolver, row: NetRow, result: CaseResult, member: str, check: Check
 ) -> ModelFormRecord | None:
     """Solve the governing case of a row by the other creep laws; record the spread.
 
@@ -47,7 +48,7 @@ def record_model_form(
         Governing case, solved.
     member : str
         Key of the governing force.
-    check : CheckRecord
+    check : Check
         Governing check, with its interval.
 
     Returns

@@ -9,11 +9,12 @@ import math
 from collections.abc import Iterator, Sequence
 
 from netdesign.checks import Standard
-from netdesign.checks.check import find_action_factor
+from netdesign.checks.check import Check
+from netdesign.checks.comparison import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.outcome import ModelError, Verdict
+from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snowpack.model_code import find_model_code_density
@@ -24,12 +25,11 @@ from netdesign.study.dependent import find_snow_pressure
 from netdesign.study.effects import list_assumed
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import may_share
-from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_check, name_member
+from netdesign.words.names import name, name_member
 
 # A supplier's manual asks for at least this below the horizontal (Geobrugg GBE-3000A).
 _LEAST_DIP_DEG = 15.0
@@ -122,7 +122,7 @@ def _layer_notes(site: Site) -> list[Message]:
 
 def list_judged_notes(
     known: RowForces,
-    checks: Sequence[CheckRecord],
+    checks: Sequence[Check],
     cases: Sequence[CaseRecord],
     panel: PanelRecord | None,
 ) -> list[Message]:
@@ -194,7 +194,7 @@ def describe_model_code(row: NetRow, density: Interval) -> Message:
     return say("row.model_code_above", told=told) if by_code > density.high else told
 
 
-def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[Message]:
+def list_test_notes(checks: Sequence[Check], standard: Standard) -> list[Message]:
     """Proof loads of acceptance tests, where the profile asks for them."""
     factor = standard.find(ACCEPTANCE_TEST)
     if factor is None:
@@ -211,7 +211,7 @@ def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[M
     ]
 
 
-def list_one_anchor_notes(checks: Sequence[CheckRecord]) -> list[Message]:
+def list_one_anchor_notes(checks: Sequence[Check]) -> list[Message]:
     """Force on one anchor in the place of an end's foot anchor and lateral anchor.
 
     The two act across each other: the section's force, and a rope's along the row.
@@ -250,39 +250,8 @@ def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
     return [say("row.in_cases", count=released, all=len(cases), what=RELEASED)]
 
 
-def list_reasons(
-    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
-) -> list[Message]:
-    """Reasons of a row that does not pass: of its checks, and of laws not met.
-
-    Checks with the same reason stand before it together.
-    """
-    titles: dict[str, list[Message]] = {}
-    reasons: dict[str, Message] = {}
-    for check in checks:
-        if check.verdict is not Verdict.PASS:
-            title = name_check(check.member, check.mode, check.position)
-            told = str(check.reason)  # numbers that are not shown may differ
-            titles.setdefault(told, []).append(title)
-            reasons.setdefault(told, check.reason)
-    unproven = [
-        say(
-            "row.check_reason",
-            check=tuple(named) if len(named) > 1 else named[0],
-            reason=reasons[told],
-        )
-        for told, named in titles.items()
-    ]
-    unmet = [
-        say("row.law_not_met", law=name("law", one.name))
-        for one in independent
-        if not one.is_met
-    ]
-    return [*unproven, *unmet]
-
-
 def list_guy_notes(
-    row: NetRow, ranges: Ranges, checks: Sequence[CheckRecord], standard: Standard
+    row: NetRow, ranges: Ranges, checks: Sequence[Check], standard: Standard
 ) -> Iterator[Message]:
     """Note on the width of snow that working guys bear beside their design forces.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from netdesign.checks import CheckResult, Standard
-from netdesign.checks.check import conclude, judge, not_proven
+from netdesign.checks import Check, OpenKind, Standard
+from netdesign.checks.check import judge
+from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
@@ -158,7 +159,7 @@ def doubt_mortar(given: Resistance, pull: PullRecord | None) -> Message | None:
 
 def check_directions(
     pulls: Sequence[PullRecord], standard: Standard, gap: Message | None
-) -> list[tuple[Position, CheckResult]]:
+) -> list[tuple[Position, Check]]:
     """Check the angles of rope anchors, and of anchors whose kind is not given.
 
     Each with the support that it belongs to.
@@ -172,21 +173,16 @@ def check_directions(
 
 def _check_direction(
     pull: PullRecord, standard: Standard, gap: Message | None
-) -> CheckResult:
+) -> Check:
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
         lack = say("check.no_limit", limit=ROPE_ANGLE)
-        return conclude(
-            "direction", Verdict.NOT_PROVEN, not_proven(lack), member=pull.anchor
-        )
+        kind = OpenKind.RESISTANCE_MISSING
+        return leave_open("direction", kind, lack, member=pull.anchor)
     gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
     most, angle = limit.value_si, pull.angle
-    is_complete = gap is None
-    verdict = judge(angle, angle, least=0.0, most=most, is_complete=is_complete)
-    key = (
-        "direction.rope_beyond" if verdict is Verdict.FAIL else "direction.rope_within"
-    )
-    told = say(key, angle=pull.angle_deg, most=limit.value)
-    if verdict is Verdict.NOT_PROVEN and gap is not None:
-        told = not_proven(gap)
-    return conclude("direction", verdict, told, member=pull.anchor)
+    met = judge(angle, angle, least=0.0, most=most)
+    key = "direction.rope_beyond" if met is Verdict.FAIL else "direction.rope_within"
+    finding = say(key, angle=pull.angle_deg, most=limit.value)
+    found = compare("direction", met, finding, member=pull.anchor)
+    return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.checks.check import CasePoint
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import PARAMETERS, Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
@@ -25,7 +26,6 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
     AxisRecord,
     BoundRecord,
-    CasePoint,
     CaseRecord,
     ConfirmationRecord,
     DriverRecord,

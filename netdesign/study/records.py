@@ -6,15 +6,12 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from netdesign.calculation.steps import Step
+from netdesign.checks.check import CasePoint, Check
 from netdesign.checks.loader import StandardValue
-from netdesign.checks.result import Proof
 from netdesign.edge.json_text import (
     Items,
     JsonPart,
@@ -26,7 +23,6 @@ from netdesign.edge.json_text import (
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import (
-    CasePoint,
     CaseRecord,
     EnvelopeRecord,
     ExtremeRecord,
@@ -44,6 +40,7 @@ from netdesign.study.support_records import (
     PullRecord,
 )
 from netdesign.words.message import Message, Text, say
+from netdesign.words.names import name, name_check
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -82,144 +79,6 @@ class ModelFormRecord:
 
 
 SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpreadRecord:
-    """One part of the interval of a utilisation."""
-
-    source: Text  # "numerical error", "between the cases"
-    low: float | None  # None where there is no number; ``note`` says why
-    high: float | None
-    note: Text | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class ChangeRecord:
-    """The smallest change of one quantity that flips a check."""
-
-    quantity: Text  # "characteristic resistance", "post spacing", "type B", ...
-    unit: str
-    now: float | None
-    bound: float | None  # None where no value flips the check
-    sense: Literal["at least", "at most", "has"]
-    note: Text | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class SingleTestRecord:
-    """One pull-out test."""
-
-    cell: str  # "Tests!C2"
-    load_kN: float  # largest that the anchor held
-    is_held: bool | None  # False: it was pulled out; None: not said
-    proof_load_kN: float | None  # that the test was to reach
-    displacement_mm: float | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class TestsRecord:
-    """Pull-out tests of a type."""
-
-    __test__: ClassVar = False  # for pytest
-
-    count: int
-    least_kN: float
-    mean_kN: float
-    singles: Items[SingleTestRecord]  # empty where each is not given
-    proof_factor: float | None  # proof load over design force
-
-
-@dataclass(frozen=True, kw_only=True)
-class CheckRecord:
-    """One check. Demand and resistance are design values.
-
-    The three numbers are None where they do not exist: a geometry check has no force; a
-    missing resistance gives no utilisation (and never a pass). ``steps`` is the whole
-    calculation, from what is given and solved to the utilisation.
-    Where nothing is left to resist the demand, ``is_unbounded`` says so: JSON has no
-    infinite number, so ``utilisation`` is None there, too.
-    """
-
-    id: str  # e.g. "foot_anchor.tendon", "geometry.inclination"
-    clause: str
-    member: str
-    mode: str
-    demand_kN: float | None
-    resistance_kN: float | None
-    utilisation: float | None
-    verdict: Verdict
-    case: CasePoint | None
-    reason: Text  # one sentence, always there
-    governs: str = ""  # "coupled", "panel", "guideline"; "" of a check without a force
-    load_case: str = ""  # of the guideline: "load_case_1" or "load_case_2"
-    load_inclination_deg: float | None = None  # at which it is largest
-    resistance_basis: str = ""  # "tested", "computed", "declared"
-    resistance_type: str = ""  # id of the anchor, rope or post type
-    resistance_cell: str = ""  # "Anchors!B4"
-    resistance_years: int | None = None  # for which its steel lasts; None: not known
-    resistance_derivation: Text | None = None  # how it follows from dimensions or tests
-    tests: TestsRecord | None = None  # of a pull-out resistance that is from them
-    steps: Items[Step] = field(default_factory=list)
-    declared: Proof | None = None  # whatever the verdict
-    spreads: Items[SpreadRecord] = field(default_factory=list)
-    changes: Items[ChangeRecord] = field(default_factory=list)
-    position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
-    is_unbounded: bool = False  # utilisation beyond any number; the check fails
-
-    @cached_property
-    def known(self) -> dict[str, Step]:
-        """Steps by their symbols."""
-        return {step.symbol: step for step in self.steps}
-
-    def read(self, symbol: str) -> float | None:
-        """Value of a step, in its unit; None where it is missing."""
-        step = self.known.get(symbol)
-        return step.value if step else None
-
-    def read_band(self, symbol: str) -> tuple[float | None, float | None]:
-        """Low and high end of a step."""
-        step = self.known.get(symbol)
-        return (step.ends[0], step.ends[2]) if step else (None, None)
-
-    @property
-    def is_of_force(self) -> bool:
-        """It compares a force that is known with a resistance."""
-        return bool(self.governs)
-
-    @property
-    def is_by_panel(self) -> bool:
-        """The force by the panel between posts is larger than that of the section."""
-        by_panel = self.read_band(self.name_force("p"))[1] or 0.0
-        return by_panel > (self.read_band(self.name_force("c"))[1] or 0.0)
-
-    def name_force(self, load: str) -> str:
-        """Symbol of a force on the support: of a base that slides, that across it.
-
-        ``load`` is "c", "p" or "g": of section, panel, guideline. Without another load
-        that of the section is E_k itself.
-        """
-        letter = "V" if "V_k" in self.known else "E"
-        name = f"{letter}_{load}"
-        is_alone = load == "c" and name not in self.known
-        return f"{letter}_k" if is_alone else name
-
-    @property
-    def used(self) -> float | None:
-        """Utilisation to sort and to show by [-]: infinite where it has no bound."""
-        return math.inf if self.is_unbounded else self.utilisation
-
-    @property
-    def used_band(self) -> tuple[float | None, float | None]:
-        """Utilisation at both ends of the demand, as `used` [-]."""
-        if self.is_unbounded:
-            return math.inf, math.inf
-        return self.utilisation_band
-
-    @property
-    def utilisation_band(self) -> tuple[float | None, float | None]:
-        """Utilisation at the low and at the high end of the demand [-]."""
-        return self.read_band("μ")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -290,34 +149,20 @@ class ReliabilityRecord:
     solves: int = 0
 
 
-def merge_rows(rows: Iterable[RowStudy], left_out: Sequence[str]) -> Verdict:
-    """Verdict of a study: of all its net rows, those that were left out not proven."""
-    missing = [Verdict.NOT_PROVEN] if left_out else []
-    return merge_verdicts([*(row.verdict for row in rows), *missing])
-
-
-def list_verdicts(
-    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
-) -> list[Verdict]:
-    """Verdicts that make up that of a row; a law that is not met leaves it unproven."""
-    unmet = [Verdict.NOT_PROVEN for law in independent if not law.is_met]
-    return [*(check.verdict for check in checks), *unmet]
-
-
 @dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
+    WRITTEN: ClassVar = ("verdict",)
+    __pydantic_config__: ClassVar = {"extra": "ignore"}
 
     id: str
-    verdict: Verdict
-    checks: Items[CheckRecord]
+    checks: Items[Check]
     extremes: Items[ExtremeRecord]
     cases: Items[CaseRecord]
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    reasons: Items[Text]  # why the row is not proven, or what failed; may be empty
     unsaid: Items[Message] = field(default_factory=list)  # empty columns that decide
     questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
     monitoring: Items[MonitoringRecord] = field(default_factory=list)
@@ -336,6 +181,41 @@ class RowStudy:
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: Items[PartRecord] = field(default_factory=list)  # that it is built of
     reliability: ReliabilityRecord | None = None  # None where nobody asks for it
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Of all its checks; a law that is not met leaves it unproven."""
+        unmet = [Verdict.NOT_PROVEN for law in self.independent if not law.is_met]
+        return merge_verdicts([*(check.verdict for check in self.checks), *unmet])
+
+    @cached_property
+    def reasons(self) -> list[Message]:
+        """Why it does not pass: of its checks, and of laws not met; may be empty.
+
+        Checks with the same reason stand before it together.
+        """
+        titles: dict[str, list[Message]] = {}
+        told: dict[str, Message] = {}
+        for check in self.checks:
+            if check.verdict is not Verdict.PASS:
+                text = str(check.reason)  # numbers that are not shown may differ
+                title = name_check(check.member, check.mode, check.position)
+                titles.setdefault(text, []).append(title)
+                told.setdefault(text, check.reason)
+        unproven = [
+            say(
+                "row.check_reason",
+                check=tuple(named) if len(named) > 1 else named[0],
+                reason=told[text],
+            )
+            for text, named in titles.items()
+        ]
+        unmet = [
+            say("row.law_not_met", law=name("law", one.name))
+            for one in self.independent
+            if not one.is_met
+        ]
+        return [*unproven, *unmet]
 
     @cached_property
     def written(self) -> JsonPart:
@@ -381,13 +261,14 @@ class Study:
 
     # Read by pydantic, for this class and all values in it.
     __pydantic_config__: ClassVar = {
-        "extra": "forbid",
+        "extra": "ignore",
         "strict": True,
         "allow_inf_nan": False,
     }
 
+    WRITTEN: ClassVar = ("verdict",)
+
     schema: Literal["netdesign.study/3"]
-    verdict: Verdict
     what_if: Items[ReplacedCell] = field(default_factory=list)  # of no site as built
     left_out: Items[str] = field(default_factory=list)  # net rows that were not checked
     project: Project
@@ -397,6 +278,12 @@ class Study:
     notes: Items[Text]
     provenance: Provenance
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Of all its net rows; those that were left out are not proven."""
+        missing = [Verdict.NOT_PROVEN] if self.left_out else []
+        return merge_verdicts([*(row.verdict for row in self.rows), *missing])
 
     @cached_property
     def written(self) -> JsonPart:

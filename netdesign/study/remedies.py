@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from netdesign.outcome import Verdict
+from netdesign.checks import OpenKind
+from netdesign.checks.check import Change
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.judgement import MemberCheck
-from netdesign.study.records import ChangeRecord
 from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
 from netdesign.words.message import Message, say
@@ -19,30 +19,31 @@ from netdesign.words.message import Message, say
 CLOSE = 0.9  # utilisation from which a passing check gets its limits
 
 
-def list_remedies(basis: Basis, one: MemberCheck) -> list[ChangeRecord]:
+def list_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
     """Changes that flip a failing, unproven or close check."""
     is_of_ground = one.given.mode in ("sliding", "wedge") and one.given.dimensions
     if is_of_ground or not _is_worth_telling(basis, one):
         return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(basis, one)
-    used = one.result.find("μ")
-    if used is None or used.high is None:
+    _, used = one.check.utilisation_band
+    if used is None:
         return _annotate(one, changes)
     if not basis.row.panels:  # its forces are in no proportion to the spacing
         spacing = basis.row.layout.post_spacing
-        changes.append(find_spacing_remedy(spacing, one.width, used.high))
+        changes.append(find_spacing_remedy(spacing, one.width, used))
     return _annotate(one, changes)
 
 
-def _annotate(one: MemberCheck, changes: list[ChangeRecord]) -> list[ChangeRecord]:
+def _annotate(one: MemberCheck, changes: list[Change]) -> list[Change]:
     """Changes with a note where they alone do not do.
 
     Another type has the condition of its own resistance.
     """
-    if one.gap or one.doubt:
-        key = "change.as_far_as_solved" if one.gap else "change.if_law_accepted"
+    is_unsolved = one.check.has_open(OpenKind.UNSOLVED)
+    if is_unsolved or one.check.has_open(OpenKind.OUTSIDE_LAW):
+        key = "change.as_far_as_solved" if is_unsolved else "change.if_law_accepted"
         return [replace(change, note=say(key)) for change in changes]
-    if one.unsure:
+    if one.check.has_open(OpenKind.RESISTANCE_IN_DOUBT):
         note = say("change.if_rest_proven")
         return [x if x.sense == "has" else replace(x, note=note) for x in changes]
     return changes
@@ -50,46 +51,44 @@ def _annotate(one: MemberCheck, changes: list[ChangeRecord]) -> list[ChangeRecor
 
 def _is_worth_telling(basis: Basis, one: MemberCheck) -> bool:
     """It has a force, and does not pass with much to spare."""
-    demand, used = one.result.find("E_d"), one.result.find("μ")
-    if demand is None or demand.high == 0.0 or basis.row.is_overtopped:
+    demand, used = (one.check.read_band(symbol)[1] for symbol in ("E_d", "μ"))
+    if not demand or basis.row.is_overtopped:
         return False
-    if used is None:
-        return one.result.verdict is not Verdict.PASS
-    return (used.high or 0.0) >= CLOSE
+    return used is None or used >= CLOSE
 
 
-def _list_resistance_remedies(basis: Basis, one: MemberCheck) -> list[ChangeRecord]:
+def _list_resistance_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
     """Characteristic resistance that is needed, and the type that has it."""
-    standard, result = basis.standard, one.result
-    demand, factor = result.find("E_d"), result.find_value("γ_R")
+    standard, check = basis.standard, one.check
+    demand, factor = check.read_band("E_d")[1], check.read("γ_R")
     note: Message | None = None
     if factor is None:  # nothing is given, and so no basis: suppose a test
         found = standard.find_resistance_factor(one.given.mode, "tested")
         factor = found.value_si if found else None
         note = say("change.on_basis_of_tests")
-    if factor is None or demand is None or demand.high is None:
+    if factor is None or demand is None:
         return []
-    change = ChangeRecord(
+    change = Change(
         quantity=say("change.characteristic_resistance"),
         unit="kN",
-        now=result.find_value("R_k"),
-        bound=math.ceil(demand.high * factor * 10.0 - 1e-9) / 10.0,
+        now=check.read("R_k"),
+        bound=math.ceil(demand * factor * 10.0 - 1e-9) / 10.0,
         sense="at least",
         note=note,
     )
-    kind = find_type_change(basis, one.given, demand.high, one.pull)
+    kind = find_type_change(basis, one.given, demand, one.pull)
     return [change, kind] if kind else [change]
 
 
 def find_spacing_remedy(
     post_spacing: float, width: LoadedWidth, utilisation: float
-) -> ChangeRecord:
+) -> Change:
     """Largest post spacing at which a check passes: every force is in proportion."""
     allowed = width.width / utilisation
     ends = width.end_factor * width.end_length
     widest = 2.0 * (allowed - ends) if width.position == "edge" else allowed
     bound = math.floor(100.0 * widest + 1e-9) / 100.0
-    return ChangeRecord(
+    return Change(
         quantity=say("change.post_spacing"),
         unit="m",
         now=post_spacing,

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 
+from netdesign.checks import Check, OpenKind
+from netdesign.checks.check import Spread
 from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
@@ -17,17 +19,16 @@ from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_shown
 from netdesign.study.judgement import (
     MemberCheck,
+    apply_declaration,
+    check_others,
     is_worst,
     judge_members,
-    record_member,
-    record_others,
 )
 from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
 )
-from netdesign.study.records import CheckRecord, SpreadRecord
 from netdesign.study.remedies import list_remedies
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import find_tilt
@@ -35,15 +36,12 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
-# A program that fails beside the cases of a check is not trusted in them.
-_FAULT_BESIDE = say("check.fault_beside")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowChecks:
-    """Every check of a row; by their ids how they were judged."""
+    """Every check of a row; by their ids how those of forces were judged."""
 
-    records: list[CheckRecord]
+    checks: list[Check]
     judged: Mapping[str, MemberCheck]
 
 
@@ -56,34 +54,31 @@ def check_row(task: RowToCheck, known: RowForces) -> RowChecks:
     checks = []
     for one in judged:
         changes = list_remedies(task, one) if one.force else []
-        checks.append(replace(record_member(known, one), changes=changes))
+        checks.append(replace(one.check, changes=changes))
         task.on_check()
+    checks += check_others(known, judged)
     return RowChecks(
-        records=[*checks, *record_others(known, judged)],
-        judged={one.id: one for one in judged},
+        checks=[apply_declaration(known, one) for one in checks],
+        judged={one.check.id: one for one in judged},
     )
 
 
 def detail_shown(task: RowToCheck, found: RowChecks) -> RowChecks:
     """The check that is shown with the parts of its interval."""
-    shown = find_shown(found.records)
+    shown = find_shown(found.checks)
     judged = found.judged.get(shown.id) if shown else None
     if shown is None or judged is None or judged.force is None:
         return found
     detailed = replace(shown, spreads=list_spreads(task, judged))
-    records = [detailed if one is shown else one for one in found.records]
-    return replace(found, records=records)
+    checks = [detailed if one is shown else one for one in found.checks]
+    return replace(found, checks=checks)
 
 
-def distrust(check: CheckRecord) -> CheckRecord:
+def distrust(check: Check) -> Check:
     """Check that passes by its forces, beside which the program failed: not proven."""
     if not check.is_of_force or check.verdict is not Verdict.PASS:
         return check
-    reason = say("check.not_proven", gaps=(_FAULT_BESIDE,))
-    told = check.reason
-    if told.key == "load.reason":
-        reason = say(told.key, **{**told.arguments, "reason": reason})
-    return replace(check, verdict=Verdict.NOT_PROVEN, reason=reason)
+    return check.with_open(OpenKind.UNSOLVED, say("check.fault_beside"))
 
 
 def find_check_by_case(
@@ -110,7 +105,7 @@ def _follows_cases(one: MemberCheck) -> bool:
         return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
-    if one.is_of_end and (one.gap is not None or one.doubt is not None):
+    if one.is_of_end and one.check.has_open(OpenKind.UNSOLVED, OpenKind.OUTSIDE_LAW):
         return False
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
@@ -182,14 +177,14 @@ def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
     return force.high_kN / at_cases if at_cases else 1.0
 
 
-def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
+def list_spreads(task: RowToCheck, one: MemberCheck) -> list[Spread]:
     """Parts of the interval of a utilisation.
 
     A floor cuts off what lies below it. What the ropes load has none, and is not
     compared: it is in proportion to the rope's force.
     """
     force, use = one.force, one.use
-    if force is None or use is None or not one.result.find_value("μ"):
+    if force is None or use is None or not one.check.utilisation:
         return []
 
     def rate(solved: float) -> float:
@@ -197,7 +192,7 @@ def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
 
     extreme = task.extremes[force.largest.quantity]
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
-    is_floor = force.governs == "guideline"
+    is_floor = one.check.governs == "guideline"
     return _split(
         one,
         rate(extreme.force.high),
@@ -206,29 +201,27 @@ def list_spreads(task: RowToCheck, one: MemberCheck) -> list[SpreadRecord]:
     )
 
 
-def _split(
-    one: MemberCheck, at_cases: float, *notes: Message | None
-) -> list[SpreadRecord]:
+def _split(one: MemberCheck, at_cases: float, *notes: Message | None) -> list[Spread]:
     """Interval of a utilisation: numerical error, and what may hide between the cases.
 
     ``at_cases`` is its upper end at the solved cases.
     """
-    used = one.result.find("μ")
-    if used is None or used.value is None or used.low is None or used.high is None:
+    value, (low, high) = one.check.utilisation, one.check.utilisation_band
+    if value is None or low is None or high is None:
         return []
-    numerical = max(used.value, at_cases)
+    numerical = max(value, at_cases)
     of_numbers, between = notes
     return [
-        SpreadRecord(
+        Spread(
             source=say("spread.numerical_error"),
-            low=used.low,
+            low=low,
             high=numerical,
             note=of_numbers,
         ),
-        SpreadRecord(
+        Spread(
             source=say("spread.between_cases"),
-            low=used.value,
-            high=used.value + used.high - numerical,
+            low=value,
+            high=value + high - numerical,
             note=between,
         ),
     ]

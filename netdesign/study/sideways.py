@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Band, CheckResult, Standard
-from netdesign.checks.check import conclude, not_proven
+from netdesign.checks import Band, Check, OpenKind, Standard
+from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
@@ -132,21 +132,21 @@ def check_sideways(
     held: HeldSidewaysRecord | Message,
     standard: Standard,
     gap: Message | None,
-) -> CheckResult:
+) -> Check:
     """Check of the load along the row; ``gap`` is that of the cases, or what is unsaid.
 
     What is unsaid comes first: guys that nobody gives are not a single one.
     """
     lack = held if isinstance(held, Message) and not row.unsaid else gap
     share = standard.find(LATERAL_SHARE)
-    told = say(
+    if lack:
+        return leave_open("lateral", OpenKind.UNSOLVED, lack, member=Member.POST)
+    finding = say(
         "sideways.held",
         share=100.0 * (share.value if share else 0.0),
         splay=degree_from_radian(row.guys.splay or 0.0),
     )
-    verdict = Verdict.NOT_PROVEN if lack else Verdict.PASS
-    reason = not_proven(lack) if lack else told
-    return conclude("lateral", verdict, reason, member=Member.POST)
+    return compare("lateral", Verdict.PASS, finding, member=Member.POST)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

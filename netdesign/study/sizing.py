@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
+from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import (
@@ -25,7 +26,7 @@ from netdesign.study.cases import have_same_forces
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.study.stronger_types import find_ground, holds_in_ground
 from netdesign.words.message import say
 
@@ -157,7 +158,7 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[SizedCell]
     A row is open where a check with a force does not pass: where nothing is known of
     the forces no type is at fault.
     """
-    checks: dict[tuple[Column, str, str], list[CheckRecord]] = {}
+    checks: dict[tuple[Column, str, str], list[Check]] = {}
     for check in row.checks:
         column = _find_column(check.member)
         if column is not None:
@@ -251,8 +252,8 @@ def _try_types(
 def _rate(
     column: Column,
     ids: Sequence[str],
-    built: Iterable[CheckRecord],
-    tried: Sequence[CheckRecord],
+    built: Iterable[Check],
+    tried: Sequence[Check],
 ) -> float | None:
     """Largest utilisation of a cell's checks, at most 1; None if any does not pass.
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from netdesign.checks import find_resistance
+from netdesign.checks.check import Change
 from netdesign.resistance.catalogue import (
     find_imperfection,
     find_rope_factor,
@@ -24,7 +25,6 @@ from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.study.dependent import corrode, find_short_post
 from netdesign.study.judgement import find_lasting
-from netdesign.study.records import ChangeRecord
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -62,7 +62,7 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
 
 def find_type_change(
     basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
-) -> ChangeRecord | None:
+) -> Change | None:
     """Type whose design resistance reaches the design ``demand`` [kN].
 
     First the weakest type of the workbook, whether a net row uses it or not, those
@@ -147,8 +147,8 @@ def _list_enough(
 
 def _record(
     quantity: Message, value: float, given: Resistance, note: Message | None
-) -> ChangeRecord:
-    return ChangeRecord(
+) -> Change:
+    return Change(
         quantity=quantity,
         unit="kN",
         now=kilonewton_if_known(given.value),

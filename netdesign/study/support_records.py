@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from netdesign.checks.check import CasePoint
 from netdesign.edge.json_text import Items
 from netdesign.structure.anchors import PullRange
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
-from netdesign.study.case_records import CasePoint, ExtremeRecord
+from netdesign.study.case_records import ExtremeRecord
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message
 

@@ -3,11 +3,12 @@
 from typing import Any
 
 from netdesign.calculation.quantity import Kind, Quantity, given
-from netdesign.checks import StandardValue
-from netdesign.checks.check import find_missing_force
+from netdesign.checks import Open, OpenKind, StandardValue
+from netdesign.checks.comparison import find_missing_force
 from netdesign.site.model import Resistance
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import say
+from netdesign.words.names import as_given
 
 
 def a_value(value_id: str, value: float, unit: str = "-") -> StandardValue:
@@ -46,3 +47,10 @@ def a_force(value: float, low: float | None = None, high: float | None = None):
 
 def no_force() -> Quantity:
     return find_missing_force(say("check.no_case_solved"))
+
+
+def unsolved(gap: str | None) -> list[Open]:
+    """Open point of forces that do not cover every case; none of no gap."""
+    if not gap:
+        return []
+    return [Open(kind=OpenKind.UNSOLVED, message=as_given(gap))]

@@ -5,19 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import (
-    CheckResult,
-    Declaration,
-    Proof,
-    check_member,
-    declare,
-    load_standard,
-    withhold,
-)
+from netdesign.checks import Check, Open, OpenKind, Proof, check_member, load_standard
 from netdesign.checks.check import judge
 from netdesign.checks.geometry import check_height
 from netdesign.outcome import Verdict
-from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value
 from tests.each import each
 
@@ -25,25 +16,18 @@ PROFILE = load_standard("nf-p-95-304-style")
 BARE = replace(
     PROFILE, values=(a_value("action.snow", 1.0), a_value("resistance.tendon", 1.0))
 )
-DECLARATION = Declaration(
-    row_id="R3",
-    member="foot_anchor",
-    mode="tendon",
-    proof=Proof(
-        document="Report G-17",
-        author="B. Rüegg",
-        date="2026-03-09",
-        cell="Declared!B2",
-    ),
+PROOF = Proof(
+    document="Report G-17", author="B. Rüegg", date="2026-03-09", cell="Declared!B2"
 )
 
 
 def check(
-    low: float, high: float, strength: float | None = 1.0, **open_points
-) -> CheckResult:
+    low: float, high: float, strength: float | None = 1.0, proof: Proof | None = None
+) -> Check:
     action = a_force(low, low, high)
-    gaps = {"gap": None} | open_points
-    return check_member(action, a_resistance(strength), BARE, **gaps)
+    told = proof.describe() if proof else None
+    points = [Open(kind=OpenKind.PROVEN_ELSEWHERE, message=told, proof=proof)]
+    return check_member(action, a_resistance(strength), BARE, points if proof else [])
 
 
 @pytest.mark.parametrize(
@@ -51,10 +35,10 @@ def check(
 )
 def test_what_does_not_fail_becomes_declared_and_keeps_its_numbers(low, high, strength):
     computed = check(low, high, strength)
-    found = declare(computed, DECLARATION)
+    found = check(low, high, strength, PROOF)
     assert found.verdict is Verdict.DECLARED
-    assert found.used is computed.used
-    assert found.declared is DECLARATION.proof
+    assert found.steps == computed.steps
+    assert found.declared is PROOF
     told = str(found.reason)
     for part in ("Report G-17", "B. Rüegg", "2026-03-09", "Declared!B2"):
         assert part in told
@@ -62,50 +46,15 @@ def test_what_does_not_fail_becomes_declared_and_keeps_its_numbers(low, high, st
 
 
 def test_what_is_computed_and_fails_stays_a_failure():
-    computed = check(1.1, 1.7)
-    found = declare(computed, DECLARATION)
-    assert computed.verdict is found.verdict is Verdict.FAIL
+    found = check(1.1, 1.7, proof=PROOF)
+    assert check(1.1, 1.7).verdict is found.verdict is Verdict.FAIL
     assert "Report G-17" in str(found.reason)
     assert "cannot change that" in str(found.reason)
 
 
-def test_without_a_declaration_nothing_changes():
-    computed = check(0.2, 0.9)
-    assert declare(computed, None) is computed
-
-
 def test_a_declaration_without_a_date_says_so():
-    told = str(
-        declare(
-            check(0.2, 0.9),
-            replace(DECLARATION, proof=replace(DECLARATION.proof, date="")),
-        ).reason
-    )
-    assert "without a date" in told
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [(0.1, 0.3, Verdict.NOT_PROVEN), (1.2, 1.9, Verdict.FAIL)],
-)
-def test_with_a_doubt_about_the_model_nothing_passes(low, high, verdict):
-    found = check(low, high, doubt=as_given("snow of another kind"))
-    assert found.verdict is verdict
-    assert "snow of another kind" in str(found.reason)
-
-
-def test_gap_and_doubt_are_both_told():
-    told = str(check(0.1, 0.3, gap=as_given("3 failed"), doubt=as_given("odd")).reason)
-    assert told == "Not proven: 3 failed; odd."
-
-
-@pytest.mark.parametrize(("low", "high"), [(0.1, 0.3), (1.2, 1.9)])
-def test_information_proves_nothing_either_way(low, high):
-    computed = check(low, high)
-    found = withhold(computed, as_given("snow overtops the net"))
-    assert found.verdict is Verdict.NOT_PROVEN
-    assert found.used is computed.used
-    assert str(found.reason) == "Not proven: snow overtops the net."
+    found = check(0.2, 0.9, proof=replace(PROOF, date=""))
+    assert "without a date" in str(found.reason)
 
 
 @each("ratio", [None, 0.83, 1.0])

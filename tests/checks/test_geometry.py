@@ -135,7 +135,7 @@ def test_a_percentage_is_guessed_where_degrees_are_too_many(degrees):
     """The row of the verdict page: 65, meant in percent."""
     check = check_slope(math.radians(degrees), load_standard("eurocode"))
     meant = math.degrees(math.atan(degrees / 100))
-    assert f"% are {meant:.4g} degrees." in str(check.reason)
+    assert f"% are {meant:.4g} degrees)." in str(check.reason)
 
 
 def test_too_flat_a_slope_is_no_percentage():

@@ -10,6 +10,7 @@ from itertools import pairwise, product
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
+from netdesign.checks.check import CasePoint, Change, Check, Spread
 from netdesign.checks.forces import (
     MemberLoad,
     bring_floor_to_support,
@@ -21,7 +22,6 @@ from netdesign.checks.forces import (
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (
-    CasePoint,
     CaseRecord,
     ExtremeRecord,
     FloorForceRecord,
@@ -31,15 +31,12 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.records import (
     SCHEMA,
-    ChangeRecord,
-    CheckRecord,
     IndependentRecord,
     ModelFormRecord,
     ProfileRecord,
     Provenance,
     ReliabilityRecord,
     RowStudy,
-    SpreadRecord,
     Study,
     VariableRecord,
     VariantRecord,
@@ -487,7 +484,7 @@ def build_extreme(member: str, cases: list[CaseRecord]) -> ExtremeRecord:
 
 def build_check(
     member: str, mode: str, extreme: ExtremeRecord, characteristic: float | None
-) -> CheckRecord:
+) -> Check:
     """Force check; without ``characteristic`` resistance it is not proven."""
     used = rate_force(extreme, characteristic)
     if not used.is_known:
@@ -498,7 +495,7 @@ def build_check(
         verdict, reason = Verdict.FAIL, "The demand exceeds the resistance."
     else:
         verdict, reason = Verdict.NOT_PROVEN, "The band crosses the resistance."
-    return CheckRecord(
+    return Check(
         id=f"{member}.{mode}",
         clause="6.3 (2)",
         member=member,
@@ -520,12 +517,12 @@ def build_check(
         load_inclination_deg=35.0,
         steps=list_steps(used),
         spreads=[
-            SpreadRecord(
+            Spread(
                 source=say("spread.numerical_error"),
                 low=0.9,
                 high=0.95,
             ),
-            SpreadRecord(
+            Spread(
                 source=say("spread.between_cases"),
                 low=None,
                 high=None,
@@ -533,14 +530,14 @@ def build_check(
             ),
         ],
         changes=[
-            ChangeRecord(
+            Change(
                 quantity=say("change.type_of_workbook", type=FORMULA),
                 unit="kN",
                 now=characteristic,
                 bound=900.0,
                 sense="has",
             ),
-            ChangeRecord(
+            Change(
                 quantity=say("change.post_spacing"),
                 unit="m",
                 now=4.0,
@@ -581,9 +578,9 @@ def rate_force(extreme: ExtremeRecord, characteristic: float | None) -> Quantity
     )
 
 
-def build_geometry_check() -> CheckRecord:
+def build_geometry_check() -> Check:
     """Check without forces."""
-    return CheckRecord(
+    return Check(
         id="geometry.inclination",
         clause="4.4",
         member="net",
@@ -597,9 +594,9 @@ def build_geometry_check() -> CheckRecord:
     )
 
 
-def build_slack_check(case: CasePoint) -> CheckRecord:
+def build_slack_check(case: CasePoint) -> Check:
     """Check of a member that never carries."""
-    return CheckRecord(
+    return Check(
         id="downhill_guy.rope",
         clause="6.1",
         member="downhill_guy",

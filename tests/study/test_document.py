@@ -7,29 +7,24 @@ from dataclasses import fields, replace
 import pytest
 
 from netdesign.checks import StandardValue
+from netdesign.checks.check import CasePoint, Check
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Outcome, StudyError, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
+from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.document import (
     compute_digest,
     hash_results,
     read_document,
     write_document,
 )
-from netdesign.study.records import (
-    CheckRecord,
-    ProfileRecord,
-    Provenance,
-    RowStudy,
-    Study,
-)
+from netdesign.study.records import ProfileRecord, Provenance, RowStudy, Study
 from netdesign.study.support_records import Arrow, Drawing
 from netdesign.words.message import say
 from tests.each import each
 
 POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)
-CHECK = CheckRecord(
+CHECK = Check(
     id="foot_anchor.tendon",
     clause="6.1",
     member="foot_anchor",
@@ -41,7 +36,7 @@ CHECK = CheckRecord(
     case=POINT,
     reason=say("text.as_given", text="The demand stays within the resistance."),
 )
-GEOMETRY = CheckRecord(
+GEOMETRY = Check(
     id="geometry.inclination",
     clause="-",
     member="net",

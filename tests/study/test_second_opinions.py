@@ -4,18 +4,18 @@ import pytest
 
 from netdesign.calculation.quantity import Kind
 from netdesign.calculation.steps import Step
+from netdesign.checks.check import Check
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.model_form import record_model_form
-from netdesign.study.records import CheckRecord
 from netdesign.study.row_to_check import CaseSolver
 from tests.small_site import build_row
 
 CASE = Case(density=393.0, friction_angle=0.41, inclination=0.52)
-CHECK = CheckRecord(
+CHECK = Check(
     id="foot_anchor.tendon",
     clause="",
     member="foot_anchor",

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.checks.check import find_action_factor
+from netdesign.checks.comparison import find_action_factor
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.site.reader import read_site

@@ -35,6 +35,7 @@ from netdesign.addons.reliability.row_variables import (
     list_lines,
     list_variables,
 )
+from netdesign.checks.check import Check
 from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
@@ -42,7 +43,7 @@ from netdesign.site.model import Site
 from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.record_envelope import record_point
-from netdesign.study.records import CheckRecord, ReliabilityRecord, VariableRecord
+from netdesign.study.records import ReliabilityRecord, VariableRecord
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
@@ -56,8 +57,8 @@ _HEIGHTS = ("thickness", "snow_height")
 
 def record_reliability(
     site: Site,
-    checks: Sequence[CheckRecord],
-    check: CheckRecord | None,
+    checks: Sequence[Check],
+    check: Check | None,
     by_case: CheckByCase | None,
     solver: CaseSolver,
 ) -> ReliabilityRecord:
@@ -69,9 +70,9 @@ def record_reliability(
     ----------
     site : Site
         What is known of the variables.
-    checks : sequence of CheckRecord
+    checks : sequence of Check
         All of the row.
-    check : CheckRecord or None
+    check : Check or None
         The governing check.
     by_case : CheckByCase or None
         The same as a function of a solved case, where it follows from one.
@@ -92,7 +93,7 @@ def record_reliability(
     return replace(found, solves=solver.count)
 
 
-def _find_open(checks: Sequence[CheckRecord]) -> Message | None:
+def _find_open(checks: Sequence[Check]) -> Message | None:
     """First check that is not proven by its numbers, nor fails by them."""
     for one in checks:
         is_met = one.verdict is Verdict.PASS
@@ -102,9 +103,7 @@ def _find_open(checks: Sequence[CheckRecord]) -> Message | None:
     return None
 
 
-def _find_lack(
-    check: CheckRecord | None, by_case: CheckByCase | None
-) -> Message | None:
+def _find_lack(check: Check | None, by_case: CheckByCase | None) -> Message | None:
     """Reason why a check has no limit state of its solved force."""
     if check is None:
         return say("reliability.no_check")
@@ -119,7 +118,7 @@ def _find_lack(
 
 
 def _analyse(
-    site: Site, check: CheckRecord, by_case: CheckByCase, solver: CaseSolver
+    site: Site, check: Check, by_case: CheckByCase, solver: CaseSolver
 ) -> ReliabilityRecord:
     known = list_variables(site, by_case, check)
     used = check.utilisation or math.nan
@@ -262,7 +261,7 @@ def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
 
 
 def _record(
-    check: CheckRecord,
+    check: Check,
     state: _State,
     found: Reliability,
     miss: _Miss,

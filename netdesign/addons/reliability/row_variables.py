@@ -18,13 +18,13 @@ from netdesign.addons.reliability.limit_state import (
     read_kind,
 )
 from netdesign.addons.reliability.response import Line
+from netdesign.checks.check import Check
 from netdesign.envelope.ranges import PARAMETERS
 from netdesign.outcome import ModelError
 from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.check_by_case import CheckByCase
-from netdesign.study.records import CheckRecord
 from netdesign.words.message import Message, say
 
 HEIGHT, MODEL, RESISTANCE = "snow_height", "model", "resistance"
@@ -64,7 +64,7 @@ _Find = Callable[[str], UncertainQuantity | None]
 
 
 def list_variables(
-    site: Site, check: CheckByCase, record: CheckRecord
+    site: Site, check: CheckByCase, record: Check
 ) -> tuple[KnownVariable, ...]:
     """Random variables of a check; those of its case are in SI units.
 
@@ -162,7 +162,7 @@ def _find_ranged(find: _Find, name: str, low: float, high: float) -> KnownVariab
     return _tell(variable, typed, say("source.range"))
 
 
-def _find_resistance(find: _Find, check: CheckRecord) -> KnownVariable:
+def _find_resistance(find: _Find, check: Check) -> KnownVariable:
     """Resistance over its characteristic value."""
     typed = find(RESISTANCE)
     assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from netdesign.checks import Standard
+from netdesign.checks.check import Check
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.files.rows_map import Feature, MeasuredPlace
 from netdesign.outcome import StudyError, merge_verdicts
@@ -20,7 +21,7 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Bore
 from netdesign.study.bores import place_anchors, place_end_anchors
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.study.sideways import place_row
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
@@ -124,7 +125,7 @@ def _map_posts(
             )
 
 
-def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[CheckRecord]:
+def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[Check]:
     """Checks of the members at a post: of the end ones those of the row's end."""
     is_end = post in (1, len(place.posts))
     at_end = [one for one in row.checks if one.position == "edge"]
@@ -183,7 +184,7 @@ def _map_anchor(
     language: Language,
     number: int,
     anchor: tuple[str, Bore],
-    checks: Sequence[CheckRecord],
+    checks: Sequence[Check],
 ) -> Feature:
     part, bore = anchor
     forces = [one.read_band("E_d")[1] for one in checks if one.mode == "pull_out"]

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
@@ -24,7 +25,7 @@ from netdesign.report.drawing.plain_svg import (
 )
 from netdesign.report.words import Words, show_member, show_verdict
 from netdesign.study.case_records import GuidelineRecord
-from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.study.records import RowStudy
 from netdesign.words.names import name_mode
 
 # Members from the net into the ground.
@@ -81,7 +82,7 @@ def draw_chains(row: RowStudy, words: Words) -> str:
 def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
     """Links of a chain: of a member one for each mode."""
     for name in names:
-        by_mode: dict[str, list[CheckRecord]] = {}
+        by_mode: dict[str, list[Check]] = {}
         for check in row.checks:
             if check.member == name and check.is_of_force:
                 by_mode.setdefault(check.mode, []).append(check)
@@ -95,7 +96,7 @@ def _list(row: RowStudy, names: Sequence[str], words: Words) -> Iterator[_Link]:
             yield _Link(text=text, used=_use(worst))
 
 
-def _use(check: CheckRecord) -> float:
+def _use(check: Check) -> float:
     """Utilisation of a check, to rank it: a failure before what proves nothing."""
     if check.verdict is Verdict.FAIL:
         return _FAILED + (
@@ -105,7 +106,7 @@ def _use(check: CheckRecord) -> float:
     return _OPEN if is_open else check.utilisation or 0.0
 
 
-def _show_use(check: CheckRecord, words: Words) -> str:
+def _show_use(check: Check, words: Words) -> str:
     """Utilisation; behind the sign of its verdict, where that is no answer."""
     symbol = show_verdict(check.verdict, words).symbol
     used = math.inf if check.is_unbounded else check.utilisation

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
+from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
@@ -30,7 +31,6 @@ from netdesign.report.words import (
 )
 from netdesign.study.case_records import (
     BoundRecord,
-    CasePoint,
     ExtremeRecord,
     LineRecord,
     MapRecord,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from netdesign.checks.check import Check
 from netdesign.report.blocks import (
     Cell,
     Items,
@@ -30,7 +31,7 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.governing import find_governing
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 _REST = ""  # checks that follow from no force: geometry, directions
@@ -148,16 +149,16 @@ def _name_member(member: str, words: Words) -> str:
     return show_member(words, member) if member else words("heading.rest")
 
 
-def _group(checks: Iterable[CheckRecord]) -> dict[str, list[CheckRecord]]:
+def _group(checks: Iterable[Check]) -> dict[str, list[Check]]:
     """Checks by member; those without a force under one name."""
-    groups: dict[str, list[CheckRecord]] = {}
+    groups: dict[str, list[Check]] = {}
     for check in checks:
         is_force = check.is_of_force and check.member in _ORDER
         groups.setdefault(check.member if is_force else _REST, []).append(check)
     return groups
 
 
-def _show_checks(checks: Sequence[CheckRecord], words: Words) -> Cell:
+def _show_checks(checks: Sequence[Check], words: Words) -> Cell:
     """Governing check of a member: verdict, utilisation, name, clause."""
     governing = find_governing(checks)
     if governing is None:
@@ -186,7 +187,7 @@ def _report_differences(studies: Sequence[Study], words: Words) -> str:
     return words("compare.differs", members=tuple(found))
 
 
-def _find_verdict(checks: Sequence[CheckRecord]) -> str | None:
+def _find_verdict(checks: Sequence[Check]) -> str | None:
     governing = find_governing(checks)
     return governing.verdict if governing else None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Column,
@@ -35,7 +36,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.document import compute_digest, hash_results
 from netdesign.study.notes import describe_evidence
-from netdesign.study.records import CheckRecord, Study
+from netdesign.study.records import Study
 from netdesign.words.names import name
 
 _MODEL = (
@@ -310,7 +311,7 @@ def _describe_snow(study: Study, words: Words) -> str:
 _OF_SNOW = ("E_s", "E_p0", "V_s", "V_p0", "T_r", "T_b")  # forces of solved snow
 
 
-def _is_by_snow(check: CheckRecord) -> bool:
+def _is_by_snow(check: Check) -> bool:
     """Solved snow governs, by a force that is not that of the load along the row."""
     solved = (check.read_band(symbol)[1] for symbol in _OF_SNOW)
     return check.governs != "guideline" and any(solved)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from netdesign.checks.check import Change, Check
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
     Badge,
@@ -30,7 +31,7 @@ from netdesign.study.governing import (
     is_far_from_limit,
     rank_check,
 )
-from netdesign.study.records import ChangeRecord, CheckRecord, RowStudy
+from netdesign.study.records import RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_mode
 
@@ -48,7 +49,7 @@ def badge_cell(verdict: Verdict, words: Words) -> Cell:
     return Cell(content=(Badge(show_verdict(verdict, words)),))
 
 
-def describe_resistance(check: CheckRecord, words: Words) -> str:
+def describe_resistance(check: Check, words: Words) -> str:
     """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
     basis = check.resistance_basis
     parts = (
@@ -59,7 +60,7 @@ def describe_resistance(check: CheckRecord, words: Words) -> str:
     return show_text(", ".join(part for part in parts if part))
 
 
-def name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
+def name_case(check: Check, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
     if check.governs != "guideline":
         show = words.name_case_short if is_short else words.name_case
@@ -69,9 +70,7 @@ def name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> st
     return f"{named}, θ {inclination}"
 
 
-def show_used(
-    check: CheckRecord, words: Words, *, with_interval: bool = True
-) -> Content:
+def show_used(check: Check, words: Words, *, with_interval: bool = True) -> Content:
     """Utilisation with its interval where both ends differ in print, and its bar."""
     low, high = check.used_band
     used = Piece(words.show_number("utilisation", check.used), "ratio")
@@ -104,7 +103,7 @@ def _measure_bar(ratio: float) -> float:
     return _BAR_UNIT + _BAR_BEYOND * (1.0 - 1.0 / ratio)
 
 
-def describe_loads(check: CheckRecord, words: Words) -> str:
+def describe_loads(check: Check, words: Words) -> str:
     """Characteristic force by each load, the one that governs first; "" of one alone.
 
     Solved ones at most: with their error and what may hide between cases.
@@ -156,7 +155,7 @@ def _leave_out_cell(told: Message) -> Message:
     return say(told.key, **inner)
 
 
-def describe_cause(check: CheckRecord, words: Words) -> str:
+def describe_cause(check: Check, words: Words) -> str:
     """Cause that keeps a check from passing, without what its numbers say already."""
     gaps = find_gaps(check.reason)
     has_numbers = check.is_of_force and not check.is_unbounded
@@ -200,11 +199,11 @@ def _strip_load(reason: object) -> Message | None:
 class CheckLine:
     """One resistance with its check inside the row and at its end; one may lack."""
 
-    inside: CheckRecord | None
-    end: CheckRecord | None
+    inside: Check | None
+    end: Check | None
 
     @property
-    def checks(self) -> list[CheckRecord]:
+    def checks(self) -> list[Check]:
         """Checks of the line, inside first."""
         return [one for one in (self.inside, self.end) if one is not None]
 
@@ -253,9 +252,9 @@ class CheckLine:
         ]
 
 
-def list_lines(checks: Sequence[CheckRecord]) -> Iterator[CheckLine]:
+def list_lines(checks: Sequence[Check]) -> Iterator[CheckLine]:
     """Checks of forces, in their order; those of one resistance share a line."""
-    places: dict[tuple[object, ...], list[CheckRecord]] = {}
+    places: dict[tuple[object, ...], list[Check]] = {}
     for check in checks:
         if check.is_of_force:
             places.setdefault(_name_resistance(check), []).append(check)
@@ -294,7 +293,7 @@ def _rank_line(line: CheckLine) -> tuple[int, float]:
     return min(rank_check(one) for one in line.checks)
 
 
-def _name_resistance(check: CheckRecord) -> tuple[object, ...]:
+def _name_resistance(check: Check) -> tuple[object, ...]:
     return (
         check.member,
         check.mode,
@@ -312,7 +311,7 @@ def _find_key(reason: object) -> str:
     return told.key if told else ""
 
 
-def _tell_beside(check: CheckRecord, words: Words) -> str:
+def _tell_beside(check: Check, words: Words) -> str:
     """Sentence of a reason, without what the numbers of a failure say."""
     told = _strip_load(check.reason)
     if told is None or told.key != "check.fails_besides":
@@ -320,14 +319,14 @@ def _tell_beside(check: CheckRecord, words: Words) -> str:
     return words.join(words.show(one) for one in find_gaps(told))
 
 
-def name_checks(checks: Sequence[CheckRecord], words: Words) -> str:
+def name_checks(checks: Sequence[Check], words: Words) -> str:
     """Names of checks, one after the other."""
     return (
         words.join(dict.fromkeys(show_check(words, one) for one in checks)) or MISSING
     )
 
 
-def name_few(checks: Sequence[CheckRecord], words: Words) -> str:
+def name_few(checks: Sequence[Check], words: Words) -> str:
     """Names of checks that share something; of many the first, and how many more."""
     few, rest = name_checks(checks[:_FEW], words), len(checks) - _FEW
     return words("todo.and_more", names=few, count=rest) if rest > 0 else few
@@ -364,7 +363,7 @@ def _list_row_changes(row: RowStudy, words: Words) -> Iterator[str]:
         yield words("show.label", label=words.join(names), text=text)
 
 
-def list_flips(check: CheckRecord, words: Words) -> tuple[str, ...]:
+def list_flips(check: Check, words: Words) -> tuple[str, ...]:
     """Changes that turn one check, in short; none where no change alone does.
 
     ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
@@ -373,7 +372,7 @@ def list_flips(check: CheckRecord, words: Words) -> tuple[str, ...]:
     return tuple(_add_note(_compare_now(one, words), one, words) for one in useful)
 
 
-def is_useful(change: ChangeRecord) -> bool:
+def is_useful(change: Change) -> bool:
     """Somebody may build it: a resistance or type, or a number near today's.
 
     A post spacing of 0.3 m in the place of 3.5 m is none.
@@ -385,7 +384,7 @@ def is_useful(change: ChangeRecord) -> bool:
     return 1.0 / _FAR <= change.bound / change.now <= _FAR
 
 
-def _compare_now(change: ChangeRecord, words: Words) -> str:
+def _compare_now(change: Change, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
@@ -394,13 +393,13 @@ def _compare_now(change: ChangeRecord, words: Words) -> str:
     return words("show.change_now", change=text, now=shown)
 
 
-def _add_note(text: str, change: ChangeRecord, words: Words) -> str:
+def _add_note(text: str, change: Change, words: Words) -> str:
     if change.note is None:
         return text
     return words("show.with_note", text=text, note=words.show(change.note))
 
 
-def describe_change(change: ChangeRecord, words: Words) -> str:
+def describe_change(change: Change, words: Words) -> str:
     """One change in words: ``snow density at most 219 kg/m3``."""
     quantity = words.show(change.quantity)
     if change.bound is None:
@@ -411,7 +410,7 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 
-def _explain_change(change: ChangeRecord, words: Words) -> str:
+def _explain_change(change: Change, words: Words) -> str:
     """One change with the condition that it has."""
     text = _compare_now(change, words)
     if change.bound is not None:
@@ -419,7 +418,7 @@ def _explain_change(change: ChangeRecord, words: Words) -> str:
     return _add_note(text, change, words)
 
 
-def list_changes(rows: Sequence[tuple[str, CheckRecord]], words: Words) -> list[str]:
+def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
     """Lines of what turns each check, by net row; else why there is nothing."""
     found = [
         show_text(

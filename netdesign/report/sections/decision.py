@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
     HIDDEN,
@@ -62,7 +63,7 @@ from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
 from netdesign.study.governing import SEVERITY, find_governing
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
@@ -180,11 +181,11 @@ def build_matrix(study: Study, words: Words) -> Table:
     )
 
 
-def _list_of(row: RowStudy, member: str) -> list[CheckRecord]:
+def _list_of(row: RowStudy, member: str) -> list[Check]:
     return [one for one in row.checks if one.member == member and one.is_of_force]
 
 
-def _sum_up(checks: list[CheckRecord], words: Words) -> Cell:
+def _sum_up(checks: list[Check], words: Words) -> Cell:
     """Symbol of the worst verdict, and the largest utilisation that is known."""
     if not checks:
         return text_cell(MISSING)
@@ -250,7 +251,7 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
     """Checks of one verdict; checks with one cause, and rows alike, share a point."""
     points: dict[tuple[str, str], list[str]] = {}
     for row in study.rows:
-        causes: dict[str, list[CheckRecord]] = {}
+        causes: dict[str, list[Check]] = {}
         for check in row.checks:
             if check.verdict is verdict and not _is_told_of_row(check):
                 is_by_force = check.is_of_force and verdict is Verdict.FAIL
@@ -266,13 +267,13 @@ def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[
         yield words("show.label", label=place, text=told)
 
 
-def _add_change(checks: list[CheckRecord], cause: str, words: Words) -> str:
+def _add_change(checks: list[Check], cause: str, words: Words) -> str:
     """Cause of a point; of a single check with what makes it pass."""
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
     return words("todo.with_change", what=cause, change=flips[0]) if flips else cause
 
 
-def _is_told_of_row(check: CheckRecord) -> bool:
+def _is_told_of_row(check: Check) -> bool:
     """All that the check lacks is told of its row, as a point of its own."""
     gaps = find_gaps(check.reason)
     return bool(gaps) and all(one.key == MANY_UNSAID for one in gaps)
@@ -310,7 +311,7 @@ def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
 
 def _list_declared(study: Study, words: Words) -> Iterator[str]:
     """Documents that are said to prove checks, each with the checks."""
-    found: dict[tuple[str, str], list[CheckRecord]] = {}
+    found: dict[tuple[str, str], list[Check]] = {}
     for row in study.rows:
         for check in row.checks:
             if check.declared and check.verdict is Verdict.DECLARED:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from netdesign.checks.check import CasePoint, Check
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
@@ -33,19 +34,9 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import (
-    BoundRecord,
-    CasePoint,
-    CaseRecord,
-    DriverRecord,
-)
+from netdesign.study.case_records import BoundRecord, CaseRecord, DriverRecord
 from netdesign.study.governing import find_shown, find_shown_member, list_failed
-from netdesign.study.records import (
-    CheckRecord,
-    ModelFormRecord,
-    RowStudy,
-    Study,
-)
+from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.message import Message
 from netdesign.words.names import name
 
@@ -343,7 +334,7 @@ def _build_spreads(study: Study, words: Words) -> Table:
     )
 
 
-def _list_spreads(check: CheckRecord, words: Words) -> Cell:
+def _list_spreads(check: Check, words: Words) -> Cell:
     told = []
     for one in check.spreads:
         band = words.show_band("utilisation", one.low, one.high)

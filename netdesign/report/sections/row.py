@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from netdesign.checks.check import Check, SingleTest, TestSeries
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
     Badge,
@@ -57,15 +58,10 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.study.governing import find_shown, is_far_from_limit
-from netdesign.study.records import (
-    CheckRecord,
-    RowStudy,
-    SingleTestRecord,
-    TestsRecord,
-)
+from netdesign.study.records import RowStudy
 from netdesign.words.message import Message
 
-_Tested = list[tuple[CheckRecord, TestsRecord, float | None]]
+_Tested = list[tuple[Check, TestSeries, float | None]]
 
 
 def show_tests(row: RowStudy, words: Words) -> Iterator[Table]:
@@ -79,9 +75,9 @@ def show_tests(row: RowStudy, words: Words) -> Iterator[Table]:
 
 def _list_types(
     row: RowStudy,
-) -> Iterator[tuple[CheckRecord, TestsRecord, float | None]]:
+) -> Iterator[tuple[Check, TestSeries, float | None]]:
     """First check of each tested type, its tests, and the largest design force [kN]."""
-    checks: dict[str, list[CheckRecord]] = {}
+    checks: dict[str, list[Check]] = {}
     for check in row.checks:
         if check.tests is not None:
             checks.setdefault(check.resistance_type, []).append(check)
@@ -129,8 +125,8 @@ def _tabulate_singles(tested: _Tested, words: Words) -> Table:
 
 
 def _show_single(
-    check: CheckRecord,
-    one: SingleTestRecord,
+    check: Check,
+    one: SingleTest,
     factor: float | None,
     force: float | None,
     words: Words,
@@ -150,7 +146,7 @@ def _show_single(
     )
 
 
-def _judge(one: SingleTestRecord, wanted: float | None) -> str:
+def _judge(one: SingleTest, wanted: float | None) -> str:
     """Acceptance of an anchor by its test: yes, no, or open."""
     if one.is_held is False:
         return "no"
@@ -317,7 +313,7 @@ class RowSections:
             yield Column(heading="E_d\n[kN]", is_number=True)
             yield Column(heading=f"{t('heading.utilisation')}\n{name}")
 
-    def _show_place(self, check: CheckRecord | None) -> tuple[Cell, Cell]:
+    def _show_place(self, check: Check | None) -> tuple[Cell, Cell]:
         """Design force and utilisation of a check; of none that there is none."""
         if check is None:
             return text_cell(MISSING), text_cell(MISSING)
@@ -325,14 +321,14 @@ class RowSections:
         is_near = not is_far_from_limit(check)
         return demand, Cell(content=show_used(check, self.words, with_interval=is_near))
 
-    def _show_requirements(self, checks: Sequence[CheckRecord]) -> Iterator[Block]:
+    def _show_requirements(self, checks: Sequence[Check]) -> Iterator[Block]:
         """Checks without a force: those that are met by name, the others at length."""
         t = self.words
         met = [show_check(t, x) for x in checks if x.verdict is Verdict.PASS]
         if met:
             text = t("show.requirements_met", names=t.join(met))
             yield Paragraph(text=text, look="small")
-        others: dict[tuple[Verdict, str], list[CheckRecord]] = {}
+        others: dict[tuple[Verdict, str], list[Check]] = {}
         for one in checks:
             if one.verdict is not Verdict.PASS:
                 others.setdefault((one.verdict, t.show(one.reason)), []).append(one)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from netdesign.checks.check import Check
 from netdesign.report.blocks import (
     Cell,
     Column,
@@ -27,7 +28,7 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.study.parts import PartRecord
-from netdesign.study.records import CheckRecord, RowStudy, Study, find_input, find_word
+from netdesign.study.records import RowStudy, Study, find_input, find_word
 from netdesign.words.message import say
 from netdesign.words.names import name_mode
 
@@ -68,7 +69,7 @@ def build_schedule(study: Study, words: Words) -> Table:
 
 def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Line of each part of a row that a force loads."""
-    lines: dict[tuple[str, str, str], list[CheckRecord]] = {}
+    lines: dict[tuple[str, str, str], list[Check]] = {}
     for check in row.checks:
         if check.is_of_force:
             place = (check.member, check.resistance_type, _name_force(check))
@@ -120,7 +121,7 @@ def _name_foot(row: RowStudy) -> str:
     return "schedule.with_mid" if row.panel.has_mid_anchors else _PER_POST
 
 
-def _name_force(check: CheckRecord) -> str:
+def _name_force(check: Check) -> str:
     if check.mode == "sliding":
         return "across"
     return "push" if check.member in _PUSHED else "pull"
@@ -152,13 +153,13 @@ def _show_span(angles: Sequence[float], words: Words) -> str:
     )
 
 
-def _show_forces(checks: Sequence[CheckRecord], words: Words) -> Iterator[Cell]:
+def _show_forces(checks: Sequence[Check], words: Words) -> Iterator[Cell]:
     """Largest characteristic and design force of checks at one place [kN]."""
     for symbol in ("E_k", "E_d"):
         yield number_cell(words, "demand_kN", find_largest(checks, symbol))
 
 
-def find_largest(checks: Sequence[CheckRecord], symbol: str) -> float | None:
+def find_largest(checks: Sequence[Check], symbol: str) -> float | None:
     """Largest upper end of a force of some checks [kN]; None unless all are known."""
     return _find_most(one.read_band(symbol)[1] for one in checks)
 
@@ -170,7 +171,7 @@ def _find_most(values: Iterable[float | None]) -> float | None:
     return max(known) if known and len(known) == len(every) else None
 
 
-def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
+def describe_needed(checks: Sequence[Check], words: Words) -> str:
     """Least characteristic resistance that carries the design forces, by modes [kN].
 
     One number where all modes need the same.
@@ -185,7 +186,7 @@ def describe_needed(checks: Sequence[CheckRecord], words: Words) -> str:
     return words.join(f"{mode} {number}" for mode, number in shown.items())
 
 
-def _find_needed(check: CheckRecord) -> float | None:
+def _find_needed(check: Check) -> float | None:
     """R_k at which the utilisation is 1 at its upper end [kN]."""
     _, demand = check.read_band("E_d")
     factor = check.read("γ_R")
@@ -219,7 +220,7 @@ class _Line:
 
     parts: list[PartRecord] = field(default_factory=list)
     rows: dict[str, None] = field(default_factory=dict)
-    checks: list[CheckRecord] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
 
 
 def show_schedule(study: Study, words: Words) -> Part:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from netdesign.calculation.steps import PRINTED, Step, translate
+from netdesign.checks.check import Check
 from netdesign.report.blocks import (
     Cell,
     Items,
@@ -35,16 +36,16 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.study.governing import rank_check
-from netdesign.study.records import CheckRecord, Study
+from netdesign.study.records import Study
 from netdesign.words.names import name_mode
 
 _LAST = "E_d"  # of the steps that checks of one member share
 # Formulas of every check, which stand once above all of them.
 _BY_HEADING = ("E_d", "R_d", "μ")
-_OfRow = tuple[str, CheckRecord]  # id of the net row, and a check of it
+_OfRow = tuple[str, Check]  # id of the net row, and a check of it
 
 
-def work_out(check: CheckRecord, words: Words) -> Table:
+def work_out(check: Check, words: Words) -> Table:
     """The calculation of a check: formula, numbers, result, a line each."""
     title = {"check": show_check(words, check), "case": name_case(check, words)}
     return Table(
@@ -55,7 +56,7 @@ def work_out(check: CheckRecord, words: Words) -> Table:
     )
 
 
-def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
+def _list_steps(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Every quantity that is worked out, from the solved force to the utilisation."""
     known = {one.symbol: _show(one, words) for one in check.steps}
     for one in check.steps:
@@ -77,9 +78,7 @@ def _list_steps(check: CheckRecord, words: Words) -> Iterator[tuple[Cell, ...]]:
             )
 
 
-def _describe_given(
-    one: Step, check: CheckRecord, words: Words
-) -> tuple[str, str] | None:
+def _describe_given(one: Step, check: Check, words: Words) -> tuple[str, str] | None:
     """Text in the place of numbers and result of a quantity without a formula."""
     if check.is_unbounded and one.symbol in ("R_d", "μ"):  # nothing is left to resist
         if one.symbol == "R_d":
@@ -99,7 +98,7 @@ def _print(step: Step, words: Words) -> str:
     return words.write_formula(translate(step.formula, PRINTED))
 
 
-def _show_used(check: CheckRecord, used: float | None, words: Words) -> str:
+def _show_used(check: Check, used: float | None, words: Words) -> str:
     """Utilisation with its interval, where that is known."""
     shown = words.show_number("utilisation", used)
     band = words.show_band("utilisation", *check.used_band)
@@ -140,7 +139,7 @@ def _choose(study: Study, *, is_of_force: bool) -> list[_OfRow]:
     ]
 
 
-def _name_kind(check: CheckRecord) -> tuple[str, ...]:
+def _name_kind(check: Check) -> tuple[str, ...]:
     """Member, mode and place, and the way in which the resistance was found."""
     told = check.resistance_derivation
     return (check.member, check.mode, check.position, told.key if told else "")
@@ -151,7 +150,7 @@ def _list_further(checks: Sequence[_OfRow], words: Words) -> tuple[str, ...]:
 
     Each line has verdict, names, clause and reason.
     """
-    alike: dict[tuple[str, str, str, str], list[CheckRecord]] = {}
+    alike: dict[tuple[str, str, str, str], list[Check]] = {}
     for row, check in checks:
         sign = show_verdict(check.verdict, words).symbol
         clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
@@ -181,7 +180,7 @@ def _identify(step: Step) -> tuple[object, ...]:
     return step.symbol, step.formula, step.ends
 
 
-def _take_action(check: CheckRecord) -> Iterator[Step]:
+def _take_action(check: Check) -> Iterator[Step]:
     for step in check.steps:
         yield step
         if step.symbol == _LAST:
@@ -221,7 +220,7 @@ def _list_groups(
         yield (Cell(content=tuple(parts)),)
 
 
-def _name_group(group: Sequence[CheckRecord], words: Words) -> str:
+def _name_group(group: Sequence[Check], words: Words) -> str:
     """Members that a design force acts on, and their place."""
     members = dict.fromkeys(show_member(words, one.member) for one in group)
     named = words.join(members)
@@ -256,7 +255,7 @@ def _show_digits(value: float | None, words: Words) -> str:
 
 
 def _describe_check(
-    check: CheckRecord,
+    check: Check,
     steps: Sequence[Step],
     words: Words,
     *,

@@ -17,6 +17,7 @@ from netdesign.calculation.steps import (
     list_operands,
     translate,
 )
+from netdesign.checks.check import Check
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Column
 from netdesign.report.sections.checks import describe_resistance, name_case
@@ -29,7 +30,7 @@ from netdesign.report.words import (
     show_unit,
 )
 from netdesign.report.workbook.writer import Book, count_lines
-from netdesign.study.records import CheckRecord, Study
+from netdesign.study.records import Study
 
 FIRST_LINE = 4  # of the first check, zero-based; the headings are one above
 _WIDTHS = {
@@ -85,14 +86,12 @@ def add_check_sheet(book: Book, study: Study) -> None:
     sheet.repeat_rows(FIRST_LINE - 1)
 
 
-def count_block(check: CheckRecord) -> int:
+def count_block(check: Check) -> int:
     """Lines of a check: its own and those of its steps."""
     return 1 + len(check.steps)
 
 
-def _write_check(
-    book: Book, sheet: Any, line: int, row: str, check: CheckRecord
-) -> None:
+def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> None:
     """Texts of a check: verdict, clause, case, reason and resistance."""
     words = book.words
     told = (check.clause, name_case(check, words), words.show(check.reason))
@@ -116,9 +115,7 @@ def _write_check(
     book.set_height(sheet, line, lines, collapsed=bool(check.steps))
 
 
-def _write_used(
-    book: Book, sheet: Any, line: int, check: CheckRecord, cells: Cells
-) -> None:
+def _write_used(book: Book, sheet: Any, line: int, check: Check, cells: Cells) -> None:
     """Utilisation of a check, which its steps work out."""
     form = book.format(
         align="right",
@@ -136,7 +133,7 @@ def _write_used(
             sheet.write(*place, shown, form)
 
 
-def _write_steps(book: Book, sheet: Any, first: int, check: CheckRecord) -> Cells:
+def _write_steps(book: Book, sheet: Any, first: int, check: Check) -> Cells:
     """Lines of the steps; what is worked out is a formula of the lines above it."""
     cells: Cells = {}
     for line, step in enumerate(check.steps, first):
@@ -176,7 +173,7 @@ def _has_end(step: Step, end: int, cells: Cells) -> bool:
     return any(of_end and (symbol, of_end) in cells for symbol, of_end in operands)
 
 
-def _is_refused(step: Step, check: CheckRecord) -> bool:
+def _is_refused(step: Step, check: Check) -> bool:
     """Its formula has no result, although all that it is made of is known."""
     if step.value is not None:
         return False

@@ -7,6 +7,7 @@ from datetime import date, timedelta
 
 import numpy as np
 
+from netdesign.checks.check import CasePoint
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.charts import draw_monitoring
@@ -21,7 +22,6 @@ from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.study.case_records import (
     AxisRecord,
     BoundRecord,
-    CasePoint,
     DriverRecord,
     EnvelopeRecord,
     LineRecord,

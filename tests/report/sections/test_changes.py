@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from netdesign.checks.check import Change
 from netdesign.outcome import Verdict
 from netdesign.report.sections.checks import (
     describe_change,
@@ -9,7 +10,6 @@ from netdesign.report.sections.checks import (
     show_changes,
 )
 from netdesign.report.words import Words, show_check
-from netdesign.study.records import ChangeRecord
 from netdesign.study.remedies import CLOSE
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
@@ -20,7 +20,7 @@ ROW = build_study().rows[0]
 
 
 def test_change_in_words():
-    change = ChangeRecord(
+    change = Change(
         quantity="post spacing",
         unit="m",
         now=2.5,

@@ -1,0 +1,203 @@
+"""Demand with its error band against a resistance, or a number against a limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.steps import list_steps
+from netdesign.checks.check import Check, Open, OpenKind
+from netdesign.checks.forces import rate
+from netdesign.checks.loader import Standard, StandardValue
+from netdesign.checks.result import GivenResistance
+from netdesign.checks.schema import ACTION_FACTOR, list_action_factors
+from netdesign.checks.tested import find_tested_resistance
+from netdesign.outcome import Verdict
+from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import name, name_member, name_mode
+
+_NET = "net"
+
+
+def check_member(
+    action: Quantity,
+    resistance: GivenResistance,
+    standard: Standard,
+    points: Sequence[Open] = (),
+    *,
+    strength: Quantity | None = None,
+) -> Check:
+    """Check one member in one mode: design force against design resistance.
+
+    Parameters
+    ----------
+    action : Quantity
+        Largest characteristic force over the solved cases, per anchor [kN]; without a
+        value if no case was solved.
+    resistance : GivenResistance
+        Names member and mode; its value may be missing.
+    standard : Standard
+        Profile that gives the partial factors.
+    points : sequence of Open
+        What is open of force and resistance, as "3 of 40 cases failed". With any of
+        them nothing passes.
+    strength : Quantity, optional
+        R_k [kN]; that of ``resistance`` unless told otherwise.
+
+    Returns
+    -------
+    Check
+        Never a pass where anything needed is missing: that is an open point, too.
+    """
+    strength = strength or find_resistance(resistance, standard)
+    on_action = find_action_factor(standard, resistance.mode)
+    on_resistance, clause = _find_resistance_factor(resistance, standard, strength)
+    used = rate(action, on_action, strength, on_resistance)
+    check = Check(
+        id=f"{resistance.member}.{resistance.mode}",
+        clause=clause,
+        member=resistance.member,
+        mode=resistance.mode,
+        resistance_basis=resistance.basis,
+        resistance_type=resistance.type_id,
+        resistance_cell=resistance.source,
+        steps=list_steps(used),
+        open=list(points),
+    )
+    known = {one.message for one in points}
+    lacks = (one for one in used.lacks if one not in known)
+    return check.with_open(OpenKind.RESISTANCE_MISSING, *lacks)
+
+
+def compare(
+    mode: str,
+    met: Verdict,
+    finding: Message | None,
+    limit: StandardValue | None = None,
+    *,
+    member: str = _NET,
+) -> Check:
+    """Check that compares no force with a resistance: of the geometry, or of a member.
+
+    ``met`` is its verdict by the numbers alone, ``finding`` the sentence of that;
+    ``limit`` is the value of the profile whose clause stands beside it.
+    """
+    subject = "geometry" if member == _NET else member
+    return Check(
+        id=f"{subject}.{mode}",
+        clause=limit.clause if limit else "-",
+        member=member,
+        mode=mode,
+        met=met,
+        finding=finding,
+    )
+
+
+def leave_open(mode: str, kind: OpenKind, *lacks: Message, member: str = _NET) -> Check:
+    """Check of which something is missing, so that nothing is compared."""
+    return compare(mode, Verdict.NOT_PROVEN, None, member=member).with_open(
+        kind, *lacks
+    )
+
+
+def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
+    """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
+    values = map(standard.find, list_action_factors(mode))
+    found = next((one for one in values if one), None)
+    lack = None if found else lack_factor(ACTION_FACTOR)
+    source = found.id if found else ACTION_FACTOR
+    return given(
+        *("γ_E", found.value_si if found else None, "-", source),
+        kind=Kind.PROFILE,
+        lack=lack,
+    )
+
+
+def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
+    """Value of a profile under its symbol, in the profile's unit."""
+    found = standard.find(key)
+    return given(
+        symbol,
+        found.value if found else None,
+        found.unit if found else "-",
+        key,
+        kind=Kind.PROFILE,
+        lack=None if found else lack_factor(key),
+    )
+
+
+def find_missing_force(reason: Message) -> Quantity:
+    """Characteristic force that is not known."""
+    return given("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
+
+
+def _find_resistance_factor(
+    resistance: GivenResistance, standard: Standard, strength: Quantity
+) -> tuple[Quantity, str]:
+    """Factor of the mode on its basis, gamma_R, and its clause."""
+    found = standard.find_resistance_factor(resistance.mode, resistance.basis)
+    if found is not None:
+        factor = given("γ_R", found.value_si, "-", found.id, kind=Kind.PROFILE)
+        return factor, found.clause
+    source = f"resistance.{resistance.mode}"
+    ids = (value.id for value in standard.values)
+    bases = [
+        one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
+    ]
+    lack = _lack_resistance_factor(resistance, bases)
+    # without a resistance there is no basis yet, and no factor to miss
+    if bases and not resistance.basis and strength.lacks:
+        lack = strength.lacks[0]
+    return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
+
+
+def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity:
+    """Characteristic resistance, R_k [kN], as given or from tests.
+
+    Without a value, with the reason, where it cannot be known or used.
+    """
+    what, source = _name_place(resistance), resistance.source
+    value, tests = resistance.value, resistance.tests
+    if value is not None:
+        if not 0.0 < value < math.inf:
+            lack = say("check.resistance_not_usable", value=value, what=what)
+            return given("R_k", None, "kN", source, lack=lack)
+        return given("R_k", kilonewton_from_newton(value), "kN", source)
+    if tests is None:
+        lack = resistance.lack or say("check.no_resistance", what=what)
+        return given("R_k", None, "kN", source, lack=lack)
+    return find_tested_resistance(tests, standard, source, what)
+
+
+def _name_place(resistance: GivenResistance) -> Message:
+    """Type, or member and mode, with the cell of a resistance."""
+    if resistance.type_id:
+        kind = say("check.type", type=resistance.type_id)
+    else:
+        member, mode = name_member(resistance.member), name_mode(resistance.mode)
+        kind = say("check.member_in_mode", member=member, mode=mode)
+    return say("check.of_cell", what=kind, cell=resistance.source)
+
+
+def lack_factor(factor: str) -> Message:
+    """Lack of a profile's value, by its name and its id."""
+    return say("check.no_factor", factor=name("factor", factor), id=factor)
+
+
+def _lack_resistance_factor(
+    resistance: GivenResistance, known: Sequence[str]
+) -> Message:
+    """Lack of a factor of a mode; it may have one on other bases, which are known."""
+    mode = name_mode(resistance.mode)
+    if not known:
+        factor = say("factor.resistance", mode=mode)
+        of_mode = f"resistance.{resistance.mode}"
+        return say("check.no_factor", factor=factor, id=of_mode)
+    return say(
+        "check.no_factor_of_basis",
+        mode=mode,
+        basis=name("basis", resistance.basis),
+        known=tuple(name("basis", one) for one in known),
+    )
