@@ -348,15 +348,16 @@ class Check:
     def reason(self) -> Message:
         """Why it has its verdict, in one sentence."""
         told = self.told
+        if self.declared is not None:
+            is_failed = self.verdict is Verdict.FAIL
+            key = "check.fails_though_declared" if is_failed else "check.declared"
+            told = say(key, reason=told, proof=self.declared.describe())
         loads = [load for load in "cpg" if self.name_force(load) in self.known]
-        if self._has_section and len(loads) > 1 and any(map(self._find_high, loads)):
-            load = say(f"load.{self.governs}", case=name("load_case", self.load_case))
-            told = say("load.reason", reason=told, load=load)
-        if self.declared is None:
+        is_alone = len(loads) < 2 or not self._has_section
+        if is_alone or not any(map(self._find_high, loads)):
             return told
-        is_failed = self.verdict is Verdict.FAIL
-        key = "check.fails_though_declared" if is_failed else "check.declared"
-        return say(key, reason=told, proof=self.declared.describe())
+        load = say(f"load.{self.governs}", case=name("load_case", self.load_case))
+        return say("load.reason", reason=told, load=load)
 
     @property
     def told(self) -> Message:
