@@ -199,7 +199,6 @@ class Check:
         *("demand_kN", "resistance_kN", "utilisation"),
         *("verdict", "reason", "governs"),
     )  # also in the document, where nobody reads them back
-    __pydantic_config__: ClassVar = {"extra": "ignore"}
 
     id: str  # "foot_anchor.tendon", "foot_anchor.tendon.end", "geometry.inclination"
     clause: str
@@ -275,8 +274,7 @@ class Check:
     @cached_property
     def verdict(self) -> Verdict:
         """By the whole interval and all that is open."""
-        met = self.met or rate_utilisation(*self.utilisation_band)
-        return merge_open(met, self.open)
+        return merge_open(self._met, self.open)
 
     def has_open(self, *kinds: OpenKind) -> bool:
         """Some open point is of one of these kinds."""
@@ -289,10 +287,33 @@ class Check:
 
     @property
     def gaps(self) -> tuple[Message, ...]:
-        """What is open beside a proof elsewhere, each once."""
+        """What its numbers leave open, each once; its reason says them.
+
+        None where nothing is left to resist, or its comparison has a sentence of its
+        own.
+        """
+        if self.is_unbounded or self._is_found:
+            return ()
+        told = dict.fromkeys(self._open_messages)
+        if not told and self._met is Verdict.NOT_PROVEN:
+            return (say("check.band_spans_resistance"),)
+        return tuple(told)
+
+    @property
+    def _open_messages(self) -> list[Message]:
         elsewhere = OpenKind.PROVEN_ELSEWHERE
-        told = (one.message for one in self.open if one.kind is not elsewhere)
-        return tuple(dict.fromkeys(told))
+        return [one.message for one in self.open if one.kind is not elsewhere]
+
+    @property
+    def _met(self) -> Verdict:
+        """Verdict by the numbers alone."""
+        return self.met or rate_utilisation(*self.utilisation_band)
+
+    @property
+    def _is_found(self) -> bool:
+        """The sentence of its own comparison is its reason."""
+        is_open = self._met is not Verdict.PASS or not self._open_messages
+        return self.finding is not None and is_open
 
     def with_open(self, kind: OpenKind, *messages: Message) -> Check:
         """Check with further open points of a kind."""
@@ -346,34 +367,37 @@ class Check:
 
     @property
     def reason(self) -> Message:
-        """Why it has its verdict, in one sentence."""
-        told = self.told
-        if self.declared is not None:
-            is_failed = self.verdict is Verdict.FAIL
-            key = "check.fails_though_declared" if is_failed else "check.declared"
-            told = say(key, reason=told, proof=self.declared.describe())
+        """Why it has its verdict, in one sentence, with the load that governs."""
         loads = [load for load in "cpg" if self.name_force(load) in self.known]
         is_alone = len(loads) < 2 or not self._has_section
         if is_alone or not any(map(self._find_high, loads)):
-            return told
+            return self.told
         load = say(f"load.{self.governs}", case=name("load_case", self.load_case))
-        return say("load.reason", reason=told, load=load)
+        return say("load.reason", reason=self.told, load=load)
 
     @property
     def told(self) -> Message:
-        """The reason without the load that governs and without a proof elsewhere.
+        """The reason without the load that governs."""
+        found = self._tell_found()
+        if self.declared is None:
+            return found
+        is_failed = self.verdict is Verdict.FAIL
+        key = "check.fails_though_declared" if is_failed else "check.declared"
+        return say(key, reason=found, proof=self.declared.describe())
+
+    def _tell_found(self) -> Message:
+        """What numbers and open points say, without a proof elsewhere.
 
         Without digits, so that rounding cannot contradict it.
         """
         if self.is_unbounded:
             return next(x.message for x in self.open if x.kind is OpenKind.FAILS)
-        met, gaps = self.met or rate_utilisation(*self.utilisation_band), self.gaps
-        if self.finding is not None and (met is not Verdict.PASS or not gaps):
+        if self.finding is not None and self._is_found:
             return self.finding
-        if met is Verdict.FAIL:
+        gaps = self.gaps
+        if self._met is Verdict.FAIL:
             return say("check.fails_besides", gaps=gaps) if gaps else say("check.fails")
-        if gaps or met is Verdict.NOT_PROVEN:
-            spans = (say("check.band_spans_resistance"),)
-            return say("check.not_proven", gaps=gaps or spans)
+        if gaps:
+            return say("check.not_proven", gaps=gaps)
         is_slack = self.read_band("E_k")[1] == 0.0
         return say("check.slack") if is_slack else say("check.passes")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
@@ -147,8 +147,10 @@ Item = TypeVar("Item")
 Items = Annotated[list[Item], _FirstFault()]  # a list of a document
 
 
-def read_json(shape: type, text: str) -> Any:
+def read_json(shape: type, text: str, drop: Callable[[Any], None] | None = None) -> Any:
     """Value of a dataclass from its JSON text.
+
+    ``drop`` takes out of the document what is written beside the fields.
 
     Raises
     ------
@@ -161,8 +163,7 @@ def read_json(shape: type, text: str) -> Any:
         raise ContentError(
             say("file.holds_more", values=MAX_VALUES, objects=MAX_OBJECTS)
         )
-    _inspect(text)
-    return restore_json(shape, text)
+    return restore_json(shape, _inspect(text, drop))
 
 
 def restore_json(shape: type, text: str) -> Any:
@@ -176,22 +177,27 @@ def restore_json(shape: type, text: str) -> Any:
     return _build_validator(shape).validate_json(text)
 
 
-def _inspect(text: str) -> None:
-    """Refuse a text that has two readings."""
+def _inspect(text: str, drop: Callable[[Any], None] | None) -> str:
+    """Text without what is dropped of it; one that has two readings is refused."""
 
-    def note_keys(pairs: list[tuple[str, object]]) -> None:
+    def note_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
         if len(pairs) > _MOST_KEYS:
             raise ContentError(say("file.many_keys", most=_MOST_KEYS))
         keys = {key for key, _ in pairs}
         if len(keys) < len(pairs):
             raise ContentError(say("file.key_twice", keys=f"{sorted(keys)!r:.100}"))
+        return dict(pairs) if drop else {}
 
     try:
-        json.loads(text, object_pairs_hook=note_keys)
+        document = json.loads(text, object_pairs_hook=note_keys)
+        if drop is None:
+            return text
+        drop(document)
+        return json.dumps(document, check_circular=False)
     except RecursionError:
         raise ContentError(say("file.nested")) from None
     except json.JSONDecodeError:
-        return  # the validator says where
+        return text  # the validator says where
 
 
 @lru_cache(maxsize=8)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections import Counter
+from collections.abc import Iterable
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from netdesign.calculation.steps import require_calculation
+from netdesign.checks.check import Check
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import (
     decode_utf8,
@@ -18,13 +22,14 @@ from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
     join_members,
     read_json,
+    restore_json,
     write_part,
 )
 from netdesign.outcome import ContentError, StudyError
-from netdesign.study.records import SCHEMA, Study
+from netdesign.study.records import SCHEMA, RowStudy, Study
 from netdesign.words.message import say
 
-_OLD_SCHEMAS = ("netdesign.study/1", "netdesign.study/2")
+_OLD_SCHEMAS = ("netdesign.study/1", "netdesign.study/2", "netdesign.study/3")
 # As a study without its digest has that line.
 _OPEN_LINE = '\n"digest": ""'
 _HOW_FAR = 200  # signs from the start, among which a document names its schema
@@ -38,6 +43,14 @@ def compute_digest(study: Study) -> str:
     can compute it again: only a new solve shows that the numbers are true.
     """
     return hashlib.sha256(study.written.values.encode()).hexdigest()
+
+
+def hash_text(text: str) -> str:
+    """SHA-256 of a document as it is stored, without its own digest."""
+    document = json.loads(text, parse_int=float)
+    document["digest"] = ""
+    values = json.dumps(document, check_circular=False)
+    return hashlib.sha256(values.encode()).hexdigest()
 
 
 def hash_results(study: Study) -> str:
@@ -75,7 +88,7 @@ def read_document(text: str) -> Study:
         if f'"{old}"' in text[:_HOW_FAR]:
             raise StudyError(say("study_file.old_schema", old=old, new=SCHEMA))
     try:
-        study: Study = read_json(Study, text)
+        study: Study = read_json(Study, text, _drop_of_study)
         _require_sense(study)
     except ValidationError as error:
         faults = [
@@ -94,6 +107,55 @@ def read_document(text: str) -> Study:
             say("study.fault", schema=SCHEMA, fault=explain(error))
         ) from None
     return study
+
+
+def restore_row(text: str) -> RowStudy:
+    """Net row from the text that this program wrote of one.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    row = json.loads(text)
+    _drop_of_row(row)
+    restored: RowStudy = restore_json(RowStudy, json.dumps(row, check_circular=False))
+    return restored
+
+
+def _drop_of_study(document: Any) -> None:
+    """Take out what is written beside the fields; any other key is refused then."""
+    for row in _drop(document, Study.WRITTEN, "rows"):
+        _drop_of_row(row)
+
+
+def _drop_of_row(row: Any) -> None:
+    for check in _drop(row, RowStudy.WRITTEN, "checks"):
+        _drop(check, Check.WRITTEN)
+
+
+def _drop(part: Any, names: Iterable[str], members: str = "") -> list[Any]:
+    """Members of an object without some of its keys; none of what is no object."""
+    if not isinstance(part, dict):
+        return []
+    for name in names:
+        part.pop(name, None)
+    found = part.get(members)
+    return found if isinstance(found, list) else []
+
+
+def require_unaltered(study: Study, text: str) -> None:
+    """Refuse a study that its text's digest is not of, or that says what is not so.
+
+    The text holds what follows from the study's fields, too, and the digest is of both.
+
+    Raises
+    ------
+    StudyError
+        If one of them is another than was written.
+    """
+    if not study.digest == hash_text(text) == compute_digest(study):
+        raise StudyError(say("stored.altered"))
 
 
 def _require_sense(study: Study) -> None:
@@ -128,8 +190,7 @@ def load_study(path: Path) -> Study:
         ) from None
     try:
         study = read_document(text)
-        if study.digest != compute_digest(study):
-            raise StudyError(say("stored.altered"))
+        require_unaltered(study, text)
         return study
     except StudyError as error:
         named = say("text.at_place", place=str(path), text=error.message)

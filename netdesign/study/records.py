@@ -78,7 +78,7 @@ class ModelFormRecord:
     variants: Items[VariantRecord]
 
 
-SCHEMA: Literal["netdesign.study/3"] = "netdesign.study/3"
+SCHEMA: Literal["netdesign.study/4"] = "netdesign.study/4"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,7 +155,6 @@ class RowStudy:
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
     WRITTEN: ClassVar = ("verdict",)
-    __pydantic_config__: ClassVar = {"extra": "ignore"}
 
     id: str
     checks: Items[Check]
@@ -185,8 +184,17 @@ class RowStudy:
     @cached_property
     def verdict(self) -> Verdict:
         """Of all its checks; a law that is not met leaves it unproven."""
-        unmet = [Verdict.NOT_PROVEN for law in self.independent if not law.is_met]
+        unmet = [Verdict.NOT_PROVEN for _ in self.unmet]
         return merge_verdicts([*(check.verdict for check in self.checks), *unmet])
+
+    @property
+    def unmet(self) -> list[Message]:
+        """Laws that its drawn case does not obey."""
+        return [
+            say("row.law_not_met", law=name("law", one.name))
+            for one in self.independent
+            if not one.is_met
+        ]
 
     @cached_property
     def reasons(self) -> list[Message]:
@@ -210,12 +218,7 @@ class RowStudy:
             )
             for text, named in titles.items()
         ]
-        unmet = [
-            say("row.law_not_met", law=name("law", one.name))
-            for one in self.independent
-            if not one.is_met
-        ]
-        return [*unproven, *unmet]
+        return [*unproven, *self.unmet]
 
     @cached_property
     def written(self) -> JsonPart:
@@ -261,14 +264,14 @@ class Study:
 
     # Read by pydantic, for this class and all values in it.
     __pydantic_config__: ClassVar = {
-        "extra": "ignore",
+        "extra": "forbid",
         "strict": True,
         "allow_inf_nan": False,
     }
 
     WRITTEN: ClassVar = ("verdict",)
 
-    schema: Literal["netdesign.study/3"]
+    schema: Literal["netdesign.study/4"]
     what_if: Items[ReplacedCell] = field(default_factory=list)  # of no site as built
     left_out: Items[str] = field(default_factory=list)  # net rows that were not checked
     project: Project

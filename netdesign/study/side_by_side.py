@@ -15,7 +15,7 @@ from itertools import chain
 from pathlib import Path
 
 from netdesign.checks import Standard
-from netdesign.edge.json_text import JsonPart, restore_json
+from netdesign.edge.json_text import JsonPart
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.outcome import Fault, catch_fault
 from netdesign.site.model import NetRow, Project, Site
@@ -24,6 +24,7 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore, StoreError, write_parts
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
+from netdesign.study.document import restore_row
 from netdesign.study.judge import judge_row
 from netdesign.study.records import RowStudy
 from netdesign.study.row_to_check import CaseSolver
@@ -138,7 +139,7 @@ def _restore(text: str, values: str) -> RowStudy:
     ValueError
         If it is none.
     """
-    row: RowStudy = restore_json(RowStudy, text)
+    row = restore_row(text)
     vars(row)["written"] = JsonPart(text, values)
     return row
 

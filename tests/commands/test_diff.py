@@ -4,7 +4,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign import cli
-from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.study.document import write_document
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
@@ -12,7 +11,6 @@ from tests.tiny_site import write_site
 
 STUDY = Study(
     schema=SCHEMA,
-    verdict=Verdict.NOT_PROVEN,
     project=Project(name="Combe", revision="A"),
     profile=ProfileRecord(id="p", title="", edition="1", sha256="", values=[]),
     rows=[],

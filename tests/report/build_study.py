@@ -5,12 +5,13 @@ can state what it expects. Some texts attack the outputs.
 """
 
 import math
+from dataclasses import replace
 from itertools import pairwise, product
 
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
-from netdesign.checks.check import CasePoint, Change, Check, Spread
+from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind, Spread
 from netdesign.checks.forces import (
     MemberLoad,
     bring_floor_to_support,
@@ -69,12 +70,8 @@ def build_study(*, samples: int = 3, rows: int = 3) -> Study:
         build_row(FORMULA, samples, scale=0.72, failed_case=True),
         build_row(f"Ridge {SCRIPT}", samples, scale=0.62, missing_resistance=True),
     ][:rows]
-    verdicts = {row.verdict for row in built}
-    overall = next(v for v in (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)
-                   if v in verdicts)  # fmt: skip
     return Study(
         schema=SCHEMA,
-        verdict=overall,
         project=Project(
             name=f"Combe du Lac & cirque, lot 3 {MENTION}",
             number="2026-114",
@@ -165,17 +162,10 @@ def build_row(
         ),
         build_check("post", "compression", extremes[3], 420.0),
         build_geometry_check(),
-        build_slack_check(extremes[2].case),
+        build_slack_check(extremes[2]),
     ]
-    verdicts = [check.verdict for check in checks]
-    verdict = next(v for v in (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)
-                   if v in verdicts)  # fmt: skip
-    reasons = ["1 of the cases has no result."] if failed_case else []
-    if missing_resistance:
-        reasons.append("Downhill anchor, pull-out: no resistance is given.")
     return RowStudy(
         id=name,
-        verdict=verdict,
         checks=checks,
         extremes=extremes,
         cases=cases,
@@ -187,7 +177,6 @@ def build_row(
             _echo(say("column.Nets.slack"), "%", "", 2.0, "default"),
         ],
         drawing=build_drawing(extremes[0]),
-        reasons=[as_given(reason) for reason in reasons],
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
@@ -487,32 +476,21 @@ def build_check(
 ) -> Check:
     """Force check; without ``characteristic`` resistance it is not proven."""
     used = rate_force(extreme, characteristic)
-    if not used.is_known:
-        verdict, reason = Verdict.NOT_PROVEN, "No resistance is given in Anchors!E7."
-    elif used.high <= 1:
-        verdict, reason = Verdict.PASS, "The demand stays within the resistance."
-    elif used.low > 1:
-        verdict, reason = Verdict.FAIL, "The demand exceeds the resistance."
-    else:
-        verdict, reason = Verdict.NOT_PROVEN, "The band crosses the resistance."
+    lack = as_given("No resistance is given in Anchors!E7.")
+    missing = Open(kind=OpenKind.RESISTANCE_MISSING, message=lack)
     return Check(
         id=f"{member}.{mode}",
         clause="6.3 (2)",
         member=member,
         mode=mode,
-        demand_kN=ACTION_FACTOR * extreme.max_kN,
-        resistance_kN=characteristic and characteristic / RESISTANCE_FACTOR,
-        utilisation=used.value,
-        verdict=verdict,
         case=extreme.case,
-        reason=as_given(reason),
+        open=[missing] if characteristic is None else [],
         resistance_basis="" if characteristic is None else "tested",
         resistance_type="GEWI 28" if member != "post" else "HEA 160",
         resistance_cell="Anchors!E7",
         resistance_derivation=as_given(f"π · 90 mm {SCRIPT}")
         if mode == "pull_out"
         else None,
-        governs="coupled",
         load_case="load_case_1",
         load_inclination_deg=35.0,
         steps=list_steps(used),
@@ -585,41 +563,21 @@ def build_geometry_check() -> Check:
         clause="4.4",
         member="net",
         mode="inclination",
-        demand_kN=None,
-        resistance_kN=None,
-        utilisation=None,
-        verdict=Verdict.PASS,
-        case=None,
-        reason=as_given("25° to 35° lies within 25° to 35°."),
+        met=Verdict.PASS,
+        finding=as_given("25° to 35° lies within 25° to 35°."),
     )
 
 
-def build_slack_check(case: CasePoint) -> Check:
+def build_slack_check(extreme: ExtremeRecord) -> Check:
     """Check of a member that never carries."""
+    slack = replace(extreme, max_kN=0.0, low_kN=0.0, high_kN=0.0)
     return Check(
         id="downhill_guy.rope",
         clause="6.1",
         member="downhill_guy",
         mode="rope",
-        demand_kN=0.0,
-        resistance_kN=180.0 / RESISTANCE_FACTOR,
-        utilisation=0.0,
-        verdict=Verdict.PASS,
-        case=case,
-        reason=as_given("The member is slack in every case; its resistance is given."),
-        governs="coupled",
-        steps=list_steps(
-            rate(
-                take_largest(
-                    "E_k",
-                    given("E_c", 0.0, "kN", "downhill_guy", kind=Kind.SOLVED),
-                    given("E_g", 0.0, "kN", "floor.downhill_guy", kind=Kind.SOLVED),
-                ),
-                given("γ_E", ACTION_FACTOR, "-", "action.snow", kind=Kind.PROFILE),
-                given("R_k", 180.0, "kN", "Ropes!E7"),
-                given("γ_R", RESISTANCE_FACTOR, "-", "resistance", kind=Kind.PROFILE),
-            )
-        ),
+        case=extreme.case,
+        steps=list_steps(rate_force(slack, 180.0)),
     )
 
 

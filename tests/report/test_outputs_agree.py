@@ -8,7 +8,6 @@ import re
 import pytest
 from rich.console import Console
 
-from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.checks import (
     describe_resistance,
@@ -105,10 +104,9 @@ def test_checks_agree(page, book):
             assert resistance == show("resistance_kN", read_step(book, line, "R_d"))
             assert demand == show("demand_kN", read_step(book, line, "E_d"))
             assert used == show("utilisation", line.used[1])
-            reason = ENGLISH.show(check.reason)
-            assert reason in line.told
-            if check.verdict is not Verdict.PASS:
-                assert reason in told(page)
+            assert ENGLISH.show(check.reason) in line.told
+            if check.open or check.gaps:  # more than its numbers say
+                assert ENGLISH.show(check.told) in told(page)
 
 
 def read_last_table(sheet):

@@ -26,7 +26,7 @@ def test_one_line_for_each_net_row_then_the_verdict_and_what_is_open():
     assert lines[4].startswith("Verdict: FAIL - ")
     assert lines[5].startswith("Checks: 2 FAIL, 1 NOT PROVEN, ")
     assert lines[5].endswith("Cases: 80 solved, 1 without a result.")
-    assert lines[6].startswith("Open before signing: 6 points, ")
+    assert lines[6].startswith("Open before signing: 4 points, ")
     assert len(lines) == 7
 
 

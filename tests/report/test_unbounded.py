@@ -29,6 +29,7 @@ from tests.report.reading import (
     recalculate,
 )
 from tests.study.test_support_checks import ROW, SWISS
+from tests.turn import turn
 
 BENT = "post.compression_bending"
 WEAK_POST = POST | {"section modulus [cm3]": 6, "post width [mm]": 300}
@@ -55,18 +56,19 @@ def draw_checks(dice):
     checks = []
     for number in range(dice.randint(1, 9)):
         verdict = dice.choice(list(Verdict))
-        used = dice.choice([None, dice.uniform(0.1, 12.0)])
-        unbounded = verdict is Verdict.FAIL and dice.random() < 0.3
-        checks.append(
-            replace(
-                plain,
-                id=f"check {number}",
-                verdict=verdict,
-                utilisation=None if unbounded else used,
-                is_unbounded=unbounded,
-            )
-        )
+        is_unbounded = verdict is Verdict.FAIL and dice.random() < 0.3
+        used = math.inf if is_unbounded else _draw_used(dice, verdict)
+        reason = "nothing is left" if is_unbounded else None
+        turned = turn(plain, verdict, utilisation=used, reason=reason)
+        checks.append(replace(turned, id=f"check {number}"))
     return checks
+
+
+def _draw_used(dice, verdict):
+    if verdict is Verdict.FAIL:
+        return dice.uniform(1.01, 12.0)
+    known = dice.uniform(0.1, 0.99)
+    return known if verdict is Verdict.PASS else dice.choice([None, known])
 
 
 def test_governing_check_of_a_failing_row_is_used_as_much_as_any_that_fails():

@@ -6,6 +6,8 @@ from dataclasses import fields, replace
 
 import pytest
 
+from netdesign.calculation.quantity import Kind
+from netdesign.calculation.steps import Step
 from netdesign.checks import StandardValue
 from netdesign.checks.check import CasePoint, Check
 from netdesign.edge.json_text import write_json
@@ -15,10 +17,13 @@ from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.document import (
     compute_digest,
     hash_results,
+    hash_text,
+    load_study,
     read_document,
+    restore_row,
     write_document,
 )
-from netdesign.study.records import ProfileRecord, Provenance, RowStudy, Study
+from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, RowStudy, Study
 from netdesign.study.support_records import Arrow, Drawing
 from netdesign.words.message import say
 from tests.each import each
@@ -29,24 +34,20 @@ CHECK = Check(
     clause="6.1",
     member="foot_anchor",
     mode="tendon",
-    demand_kN=100.0 / 3.0,
-    resistance_kN=50.0,
-    utilisation=2.0 / 3.0,
-    verdict=Verdict.PASS,
+    steps=[
+        Step(symbol="E_d", unit="kN", value=100.0 / 3.0, kind=Kind.SOLVED),
+        Step(symbol="R_d", unit="kN", value=50.0, kind=Kind.GIVEN),
+        Step(symbol="μ", unit="-", value=2.0 / 3.0, kind=Kind.WORKED),
+    ],
     case=POINT,
-    reason=say("text.as_given", text="The demand stays within the resistance."),
 )
 GEOMETRY = Check(
     id="geometry.inclination",
     clause="-",
     member="net",
     mode="inclination",
-    demand_kN=None,
-    resistance_kN=None,
-    utilisation=None,
-    verdict=Verdict.NOT_PROVEN,
-    case=None,
-    reason=say("text.as_given", text="Not all inside."),
+    met=Verdict.NOT_PROVEN,
+    finding=say("text.as_given", text="Not all inside."),
 )
 DRAWING = Drawing(
     case=POINT,
@@ -63,7 +64,6 @@ DRAWING = Drawing(
 )
 ROW = RowStudy(
     id="Couloir n° 1 – “Ost”",
-    verdict=Verdict.NOT_PROVEN,
     checks=[CHECK, GEOMETRY],
     extremes=[
         ExtremeRecord(
@@ -105,11 +105,9 @@ ROW = RowStudy(
         ),
     ],
     drawing=DRAWING,
-    reasons=[say("text.as_given", text="Not all inside.")],
 )
 STUDY = Study(
-    schema="netdesign.study/3",
-    verdict=Verdict.NOT_PROVEN,
+    schema=SCHEMA,
     project=Project(name="Combe"),
     profile=ProfileRecord(
         id="p",
@@ -150,7 +148,7 @@ def document():
 def refuse(document):
     """Message with which the document is refused."""
     text = document if isinstance(document, str) else json.dumps(document)
-    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/3") as e:
+    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/4") as e:
         read_document(text)
     return str(e.value)
 
@@ -188,7 +186,7 @@ def test_equal_results_have_one_hash_whenever_they_were_made():
     read = read_document(write_document(replace(STUDY, provenance=later)))
     assert hash_results(read) == hash_results(STUDY)
     assert hash_results(replace(STUDY, rows=[])) != hash_results(STUDY)
-    assert hash_results(replace(STUDY, verdict=Verdict.FAIL)) != hash_results(STUDY)
+    assert hash_results(replace(STUDY, left_out=["R3"], rows=[])) != hash_results(STUDY)
 
 
 def test_a_document_of_before_has_no_digest(document):
@@ -212,11 +210,11 @@ def test_numbers_are_written_in_full(document):
 
 
 def test_keys_stand_in_the_order_of_the_fields(document):
-    assert list(document) == [field.name for field in fields(Study)]
+    assert list(document) == [*(one.name for one in fields(Study)), "verdict"]
     of_row = [field.name for field in fields(RowStudy)]
     assert of_row.pop() == "reliability"  # not there unless somebody asks for it
-    assert list(document["rows"][0]) == of_row
-    assert document["schema"] == "netdesign.study/3"
+    assert list(document["rows"][0]) == [*of_row, "verdict"]
+    assert document["schema"] == "netdesign.study/4"
     assert document["verdict"] == "not_proven"
 
 
@@ -226,7 +224,7 @@ def test_text_stays_readable():
 
 @pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
 def test_what_is_no_number_is_never_written(number):
-    check = replace(CHECK, utilisation=number)
+    check = replace(CHECK, steps=[replace(CHECK.steps[0], value=number)])
     study = replace(STUDY, rows=[replace(ROW, checks=[check])])
     with pytest.raises(ValueError, match="not JSON compliant"):
         write_document(study)
@@ -234,39 +232,70 @@ def test_what_is_no_number_is_never_written(number):
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
 def test_what_is_no_number_is_never_read(document, number):
-    document["rows"][0]["checks"][0]["utilisation"] = float(number)
+    document["rows"][0]["checks"][0]["steps"][2]["value"] = float(number)
     text = json.dumps(document)
     assert number in text
-    assert "rows.0.checks.0.utilisation: " in refuse(text)
+    assert "rows.0.checks.0.steps.2.value: " in refuse(text)
 
 
 def test_every_fault_up_to_the_first_of_a_list_is_named(document):
     document["remark"] = "x"
+    document["rows"][0]["colour"] = "red"
     document["rows"][0]["checks"][0]["colour"] = "red"
+    document["rows"][0]["checks"][0]["steps"][0]["colour"] = "red"
     document["rows"][0]["drawing"] = {"case": None}
     del document["notes"]
     document["rows"][0]["cases"][0]["outcome"] = "fine"
-    document["rows"][0]["checks"][0]["demand_kN"] = "33.3"
+    document["rows"][0]["checks"][0]["load_inclination_deg"] = "33.3"
     message = refuse(document)
     for place in (
         "remark",
+        "rows.0.colour",
         "rows.0.checks.0.colour",
+        "rows.0.checks.0.steps.0.colour",
         "rows.0.drawing",
         "notes",
         "rows.0.cases.0.outcome",
-        "rows.0.checks.0.demand_kN",
+        "rows.0.checks.0.load_inclination_deg",
     ):
         assert f"\n{place}" in message
 
 
-def test_a_study_of_an_earlier_schema_is_refused_with_what_to_do(document):
-    document["schema"] = "netdesign.study/1"
+@each("part", ["study", "row", "check"])
+@each("key", Check.WRITTEN)
+def test_what_is_written_beside_the_fields_and_altered_is_found(
+    document, tmp_path, part, key
+):
+    """Also under a digest that was made anew, as by who alters it on purpose."""
+    row = document["rows"][0]
+    place = {"study": document, "row": row, "check": row["checks"][0]}[part]
+    if key not in place:
+        return
+    place[key] = {"verdict": "fail", "reason": place.get("reason")}.get(key, 0.25)
+    if key == "reason":
+        place[key] = {"key": "check.fails", "arguments": {}}
+    for digest in (document["digest"], hash_text(json.dumps(document))):
+        document["digest"] = digest
+        assert replace(read_document(json.dumps(document)), digest="") == STUDY
+        path = tmp_path / "study.json"
+        path.write_text(json.dumps(document), encoding="utf-8")
+        with pytest.raises(StudyError, match="altered"):
+            load_study(path)
+
+
+def test_a_row_is_read_without_what_is_written_beside_its_fields():
+    assert restore_row(ROW.written.text) == ROW
+
+
+@each("old", [1, 2, 3])
+def test_a_study_of_an_earlier_schema_is_refused_with_what_to_do(document, old):
+    document["schema"] = f"netdesign.study/{old}"
     with pytest.raises(StudyError, match="run 'netdesign check' on its site again"):
         read_document(json.dumps(document))
 
 
 def test_a_message_without_its_text_or_arguments_is_refused(document):
-    reason = document["rows"][0]["checks"][0]["reason"]
+    reason = document["rows"][0]["checks"][1]["finding"]
     for key, arguments in (
         ("no.such_text", {}),
         ("text.as_given", {}),
@@ -274,10 +303,10 @@ def test_a_message_without_its_text_or_arguments_is_refused(document):
         ("geometry.gap_within", {"gap": "wide", "most": 2.0}),
     ):
         reason.update(key=key, arguments=arguments)
-        assert "rows.0.checks.0.reason" in refuse(document)
+        assert "rows.0.checks.1.finding" in refuse(document)
 
 
-@pytest.mark.parametrize("word", ["netdesign.study/4", "netdesign.solution/1", ""])
+@pytest.mark.parametrize("word", ["netdesign.study/5", "netdesign.solution/1", ""])
 def test_another_schema_is_refused(document, word):
     document["schema"] = word
     assert "schema: " in refuse(document)

@@ -74,7 +74,7 @@ def check_of(study, check_id):
 
 def test_study_is_complete(results, standard):
     study = judge_site(SITE, gather(results), standard, RUN)
-    assert study.schema == "netdesign.study/3"
+    assert study.schema == "netdesign.study/4"
     assert study.project.name == "Combe"
     assert [row.id for row in study.rows] == ["R1", "R2"]
     anchors = ("foot_anchor", "uphill_anchor", "downhill_anchor")

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import load_standard
+from netdesign.calculation.steps import list_steps
+from netdesign.checks import Check, load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
@@ -21,13 +22,11 @@ from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
     RowForces,
     find_force,
-    name_governing,
 )
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import find_row_floor, record_floor
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.row_to_check import CaseSolver
-from netdesign.words.message import say
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 
@@ -221,6 +220,13 @@ def find_member_force(member, ends, width, *, has_floor=True):
     return find_force(forces, given, width)
 
 
+def check_alone(force, load_case=""):
+    """Check of a force without a resistance."""
+    steps = list_steps(force.action)
+    named = {"id": "a.b", "clause": "", "member": "a", "mode": "b"}
+    return Check(**named, steps=steps, load_case=load_case)
+
+
 def test_band_is_cut_off_at_the_floor():
     draw, effects = random.Random(31), find_effects(ROW, SWISS, RANGES)
     width = effects.supports[0]
@@ -232,24 +238,26 @@ def test_band_is_cut_off_at_the_floor():
         action = found.action
         assert [action.low, action.value, action.high] == pytest.approx(cut, rel=1e-12)
         assert action.low >= found.on.guideline.value
-        assert found.governs == ("guideline" if scale >= ends[2] else "coupled")
+        assert check_alone(found).governs == (
+            "guideline" if scale >= ends[2] else "coupled"
+        )
     free = find_member_force(Member.POST, ends, width, has_floor=False)
     assert [free.action.low, free.action.value, free.action.high] == ends
-    assert (free.governs, free.on.guideline) == ("coupled", None)
+    assert (check_alone(free).governs, free.on.guideline) == ("coupled", None)
 
 
 def test_reason_names_the_load_and_gives_back_its_own_part():
     width, none = find_effects(ROW, SWISS, RANGES).supports[1], (0.0, 0.0, 0.0)
     forced = find_member_force(Member.FOOT_ANCHOR, none, width)
     case = a_floor().find(Member.FOOT_ANCHOR).case.name
-    reason = say("check.passes")
-    told = name_governing(reason, forced, case)
+    told = check_alone(forced, case).reason
     assert str(told).endswith(
         "; the guideline's load (load case 2) governs the design force."
     )
     slack = find_member_force(Member.DOWNHILL_GUY, none, width)
     assert slack.action.high == 0.0
-    assert name_governing(reason, slack, case) == reason
+    found = check_alone(slack, case)
+    assert found.reason == found.told
 
 
 def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):

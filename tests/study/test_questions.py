@@ -1,7 +1,5 @@
 """A net row whose numbers are in question: not proven, and no hand makes it a pass."""
 
-from dataclasses import replace
-
 import pytest
 
 from netdesign.checks import load_standard
@@ -27,14 +25,6 @@ ASKED = say(
 def judged():
     site = build_site(build_row("R1", questions=(ASKED,)), build_row("R2"))
     return site, judge_site(site, solve_site(site, RUN), STANDARD, RUN)
-
-
-def alter(study, **changes):
-    (check,) = [one for one in study.rows[0].checks if one.id == "inputs.plausible"]
-    others = [one for one in study.rows[0].checks if one is not check]
-    kept = [*others, replace(check, **changes)] if changes else others
-    row = replace(study.rows[0], checks=kept, verdict=Verdict.PASS, reasons=[])
-    return replace(study, rows=[row, *study.rows[1:]], verdict=Verdict.PASS)
 
 
 def test_the_row_is_not_proven_by_it_alone_and_the_other_one_passes(judged):

@@ -7,7 +7,6 @@ from netdesign.calculation.steps import Step
 from netdesign.checks.check import Check
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
-from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.model_form import record_model_form
@@ -20,15 +19,9 @@ CHECK = Check(
     clause="",
     member="foot_anchor",
     mode="tendon",
-    demand_kN=70.0,
-    resistance_kN=100.0,
-    utilisation=0.7,
     steps=[
         Step(symbol="μ", unit="-", value=0.7, low=0.69, high=0.71, kind=Kind.WORKED)
     ],
-    verdict=Verdict.PASS,
-    case=None,
-    reason="holds",
 )
 
 

@@ -39,7 +39,6 @@ _OVER, _BELOW = "#b23a1e", "#7d838b"  # of a bar: beyond utilisation 1, and belo
 _BAR_UNIT = 100.0  # length of a bar at utilisation 1
 _BAR_BEYOND = 50.0  # length that is left for all above 1
 _FEW = 4  # checks that share a reason and are named
-_PLAIN = ("check.passes", "check.slack")  # what the numbers say already
 # Key of a gap: the row lacks more inputs than a check names.
 MANY_UNSAID = "check.unsaid_many"
 
@@ -130,7 +129,7 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
         return words.show(row.reasons[0]) if row.reasons else words("todo.row_open")
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
-    gaps = [_leave_out_cell(one) for one in find_gaps(check.reason)]
+    gaps = [_leave_out_cell(one) for one in check.gaps]
     if gaps and check.verdict is not Verdict.FAIL:
         return words.join(_show_gap(one, words) for one in gaps)
     return describe_cause(check, words)
@@ -157,14 +156,13 @@ def _leave_out_cell(told: Message) -> Message:
 
 def describe_cause(check: Check, words: Words) -> str:
     """Cause that keeps a check from passing, without what its numbers say already."""
-    gaps = find_gaps(check.reason)
     has_numbers = check.is_of_force and not check.is_unbounded
     if check.verdict is Verdict.FAIL and has_numbers and check.demand_kN is not None:
         demand, resistance = _show_apart(check.demand_kN, check.resistance_kN, words)
         return words("show.exceeds", demand=demand, resistance=resistance)
-    if gaps:
-        return words.join(words.show(one) for one in gaps)
-    return words.show(_strip_load(check.reason))
+    if check.gaps:
+        return words.join(map(words.show, check.gaps))
+    return words.show(check.told)
 
 
 def _show_apart(
@@ -177,22 +175,6 @@ def _show_apart(
         shown = [words.show_digits(force) for force in forces.values()]
     first, second = (append_unit(one, "kN") for one in shown)
     return first, second
-
-
-def find_gaps(reason: object) -> tuple[Message, ...]:
-    """Lacks of a check, wherever in its reason they stand."""
-    if not isinstance(reason, Message):
-        return ()
-    if reason.key in ("check.not_proven", "check.fails_besides"):
-        told = reason.arguments["gaps"]
-        return tuple(x for x in told if isinstance(x, Message))  # type: ignore[union-attr]
-    return find_gaps(reason.arguments.get("reason"))
-
-
-def _strip_load(reason: object) -> Message | None:
-    if isinstance(reason, Message) and reason.key == "load.reason":
-        reason = reason.arguments["reason"]
-    return reason if isinstance(reason, Message) else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -240,7 +222,7 @@ class CheckLine:
         told = {
             one.position == "edge": _tell_beside(one, words)
             for one in self.checks
-            if _find_key(one.reason) not in (*_PLAIN, "check.fails")
+            if one.open or one.gaps
         }
         shown = list(dict.fromkeys(told.values()))
         if len(self.checks) == 1 or (len(told) > 1 and len(shown) == 1):
@@ -281,8 +263,7 @@ def part_lines(
     alone: list[CheckLine] = []
     beside: dict[str, list[CheckLine]] = {}
     for line in lines:
-        is_plain = all(_find_key(one.reason) in _PLAIN for one in line.checks)
-        if id(line) in leading or line.verdict is not Verdict.PASS or not is_plain:
+        if id(line) in leading or line.verdict is not Verdict.PASS:
             alone.append(line)
         else:
             beside.setdefault(line.checks[0].member, []).append(line)
@@ -305,18 +286,12 @@ def _name_resistance(check: Check) -> tuple[object, ...]:
     )
 
 
-def _find_key(reason: object) -> str:
-    """Key of a reason, without the load that it is told of."""
-    told = _strip_load(reason)
-    return told.key if told else ""
-
-
 def _tell_beside(check: Check, words: Words) -> str:
     """Sentence of a reason, without what the numbers of a failure say."""
-    told = _strip_load(check.reason)
-    if told is None or told.key != "check.fails_besides":
-        return words.show(told)
-    return words.join(words.show(one) for one in find_gaps(told))
+    is_by_numbers = check.verdict is Verdict.FAIL and not check.declared
+    if is_by_numbers and check.gaps:
+        return words.join(map(words.show, check.gaps))
+    return words.show(check.told)
 
 
 def name_checks(checks: Sequence[Check], words: Words) -> str:

@@ -44,7 +44,6 @@ from netdesign.report.sections.checks import (
     badge_cell,
     describe_briefly,
     describe_cause,
-    find_gaps,
     list_flips,
     name_checks,
     name_few,
@@ -68,7 +67,6 @@ from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
-_OF_CHECK = "row.check_reason"  # key of a row's reason that its checks say as well
 
 
 def show_title(study: Study, words: Words, *, is_verified: bool = False) -> Part:
@@ -275,8 +273,7 @@ def _add_change(checks: list[Check], cause: str, words: Words) -> str:
 
 def _is_told_of_row(check: Check) -> bool:
     """All that the check lacks is told of its row, as a point of its own."""
-    gaps = find_gaps(check.reason)
-    return bool(gaps) and all(one.key == MANY_UNSAID for one in gaps)
+    return bool(check.gaps) and all(one.key == MANY_UNSAID for one in check.gaps)
 
 
 def _list_unsaid(study: Study, words: Words) -> Iterator[str]:
@@ -300,12 +297,11 @@ def _list_unsaid(study: Study, words: Words) -> Iterator[str]:
 
 
 def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
-    """Reasons of rows that are no check's; those that rows share are told once."""
+    """Laws that rows do not meet; those that rows share are told once."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        for reason in row.reasons:
-            if not (isinstance(reason, Message) and reason.key == _OF_CHECK):
-                rows.setdefault(words.show(reason), []).append(row.id)
+        for reason in row.unmet:
+            rows.setdefault(words.show(reason), []).append(row.id)
     yield from label_rows(rows, study, words)
 
 

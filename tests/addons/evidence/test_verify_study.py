@@ -75,7 +75,13 @@ def test_a_study_comes_out_again_from_its_site_file(home):
 
 
 def to_pass(study):
-    study["verdict"] = study["rows"][0]["verdict"] = "pass"
+    """As one would who puts another number wherever a check does not pass."""
+    for check in study["rows"][0]["checks"]:
+        check.update(open=[], met=check["met"] and "pass")
+        for step in check["steps"]:
+            if step["symbol"] == "μ":
+                step["value"] = 0.5
+                step.pop("low", None), step.pop("high", None)
 
 
 def last_digits(study):

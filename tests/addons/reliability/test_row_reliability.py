@@ -25,6 +25,7 @@ from netdesign.study.side_by_side import name_rows
 from tests.each import each
 from tests.short_example import write_short_example
 from tests.small_site import RUN
+from tests.turn import turn
 
 STANDARD = load_standard("nf-p-95-304-style")
 WITH = replace(RUN, has_reliability=True)
@@ -87,11 +88,11 @@ def test_a_row_with_an_open_check_has_none_however_safe_the_others_are(study, ve
     row = study.rows[0]
     for number in range(0, len(row.checks), 7):
         checks = list(row.checks)
-        checks[number] = replace(checks[number], verdict=verdict)
+        checks[number] = turn(checks[number], verdict)
         found = record_reliability(None, checks, find_worst(checks), None, None)
         assert found.reason.key == "reliability.open_check"
         assert found.beta is None
-    failing = replace(row.checks[3], verdict=Verdict.FAIL, utilisation=None)
+    failing = turn(row.checks[3], Verdict.FAIL, utilisation=math.inf, reason="none")
     found = record_reliability(None, [*row.checks, failing], None, None, None)
     assert found.reason.key == "reliability.open_check"
 

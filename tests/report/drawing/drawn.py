@@ -37,6 +37,7 @@ from netdesign.study.support_records import (
 )
 from netdesign.words.message import say
 from tests.report.build_study import build_row
+from tests.turn import turn
 
 AXES = {
     "density_kg_m3": (203.7, 487.3),
@@ -92,14 +93,14 @@ def build_chains(rng: random.Random) -> RowStudy:
     places = [(member, mode) for member, modes in MODES.items() for mode in modes]
     checks = [
         replace(
-            of_force, member=member, mode=mode, utilisation=one, verdict=_judge(one)
+            turn(of_force, judge_used(one), utilisation=one), member=member, mode=mode
         )
         for (member, mode), one in zip(places, used, strict=True)
     ]
     return replace(row, checks=checks)
 
 
-def _judge(used: float | None) -> Verdict:
+def judge_used(used: float | None) -> Verdict:
     if used is None:
         return Verdict.NOT_PROVEN
     return Verdict.PASS if used <= 1.0 else Verdict.FAIL

@@ -3,7 +3,6 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.page import html
 from netdesign.report.sections.whole import build_report
 from netdesign.report.words import ENGLISH, Words
@@ -45,8 +44,7 @@ def test_ids_are_unique(page):
 def test_every_section_is_there_and_says_something(detail, rows):
     study = build_study(rows=1) if rows < 3 else build_study()
     parts = study.rows[:rows]
-    verdict = merge_verdicts(row.verdict for row in parts)
-    study = replace(study, rows=parts, verdict=verdict)
+    study = replace(study, rows=parts)
     expected = set(list_sections(study, detail))
     assert expected <= set(list_filled(build_report(study, ENGLISH, detail)))
     assert expected <= set(PageReader(html.render_html(study, "en", detail)).ids)
@@ -67,7 +65,6 @@ def test_empty_parts_say_none():
         held_sideways=None,
         guideline=None,
         model_form=None,
-        verdict=Verdict.NOT_PROVEN,
     )
     study = replace(
         study,
@@ -75,7 +72,6 @@ def test_empty_parts_say_none():
         notes=[],
         range_inputs=[],
         profile=replace(study.profile, values=[]),
-        verdict=Verdict.NOT_PROVEN,
     )
     page = html.render_html(study)
     assert len(re.findall('<p class="none">', page)) >= 12
@@ -83,7 +79,7 @@ def test_empty_parts_say_none():
 
 
 def test_study_without_rows_has_a_page():
-    study = replace(build_study(), rows=[], verdict=Verdict.NOT_PROVEN)
+    study = replace(build_study(), rows=[])
     assert "none: the site has no net rows" in html.render_html(study)
 
 

@@ -15,6 +15,7 @@ from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
 from netdesign.words.message import say
 from tests.report.build_study import build_study
+from tests.turn import turn_row
 
 TOLD = {
     "en": "altitude not given, the largest altitude factor of the guideline",
@@ -93,7 +94,7 @@ def test_rows_alike_but_for_their_names_share_a_place():
     study = build_study(rows=1)
     (row,) = study.rows
     moved = [replace(one, cell=f"{one.cell}7") for one in row.inputs]
-    other = replace(row, id="other", verdict=Verdict.NOT_PROVEN)
+    other = replace(turn_row(row, Verdict.NOT_PROVEN), id="other")
     again = replace(row, id="again", inputs=moved)
     several = replace(study, rows=[row, other, again])
     anchors = {row.id: "row-1", "other": "row-2", "again": "row-1"}

@@ -14,6 +14,7 @@ from netdesign.study.remedies import CLOSE
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.report.build_study import build_study
+from tests.turn import turn, turn_row
 
 ENGLISH = Words("en")
 ROW = build_study().rows[0]
@@ -33,7 +34,7 @@ def test_change_in_words():
 @each("language", LANGUAGES)
 @each("verdict", Verdict)
 def test_a_row_shows_every_change_that_is_known(verdict, language):
-    words, row = Words(language), replace(ROW, verdict=verdict)
+    words, row = Words(language), turn_row(ROW, verdict)
     heading, (block,) = show_changes(row, words)
     passes = verdict in (Verdict.PASS, Verdict.DECLARED)
     assert (heading == words("heading.room_left")) is passes
@@ -45,22 +46,29 @@ def test_a_row_shows_every_change_that_is_known(verdict, language):
                 assert show_check(words, check) in told
 
 
+USED = (None, 0.371, 0.8999, 0.9001, 1.07)
+PAIRS = [  # of a verdict and a utilisation that allows it
+    (verdict, used)
+    for verdict in Verdict
+    for used in USED
+    if not used or (used > 1.0) is (verdict is Verdict.FAIL)
+]
+
+
 @each("language", LANGUAGES)
-@each("verdict", Verdict)
-@each("used", [None, 0.371, 0.8999, 0.9001, 1.07])
+@each("verdict, used", PAIRS)
 def test_a_row_without_changes_needs_none_only_where_all_is_well(
     verdict, used, language
 ):
     """An overtopped row has checks that are not proven, and no change for them."""
 
-    def build(verdict, used):
-        steps = [
-            replace(one, value=used, low=None, high=None) if one.symbol == "μ" else one
-            for one in ROW.checks[0].steps
-        ]
-        return replace(ROW.checks[0], verdict=verdict, steps=steps, changes=[])
-
-    checks = [build(Verdict.PASS, 0.4), build(verdict, used)]
+    steps = [replace(one, low=None, high=None) for one in ROW.checks[0].steps]
+    check = replace(ROW.checks[0], steps=steps, changes=[])
+    bare = next(one for one in ROW.checks if not one.is_of_force)
+    checks = [
+        turn(check, Verdict.PASS, utilisation=0.4),
+        turn(check, verdict, utilisation=used) if used else turn(bare, verdict),
+    ]
     words = Words(language)
     is_well = verdict is Verdict.PASS and (used is None or used < CLOSE)
     _, (block,) = show_changes(replace(ROW, checks=checks), words)

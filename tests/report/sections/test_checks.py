@@ -18,6 +18,7 @@ from netdesign.words.message import say
 from tests.digits import write_force
 from tests.each import each
 from tests.report.build_study import build_row, build_study
+from tests.turn import turn
 
 ENGLISH = Words("en")
 STUDY = build_study()
@@ -42,11 +43,15 @@ def test_every_check_of_a_force_stands_once(row, language):
     )
 
 
-def pair(inside=Verdict.PASS, end=Verdict.PASS, **changes):
+def pair(inside=Verdict.PASS, end=Verdict.PASS, reason=None, **changes):
     """One check inside the row, and the same at its end with other values."""
     given = next(one for one in STUDY.rows[0].checks if one.is_of_force)
-    first = replace(given, position="intermediate", verdict=inside)
-    return [first, replace(given, position="edge", verdict=end, **changes)]
+    first, last = (
+        turn(given, one, reason=None if one is Verdict.PASS else reason)
+        for one in (inside, end)
+    )
+    first = replace(first, position="intermediate")
+    return [first, replace(last, position="edge", **changes)]
 
 
 def test_inside_and_end_of_one_resistance_share_a_line():
@@ -59,7 +64,6 @@ def test_inside_and_end_of_one_resistance_share_a_line():
 @pytest.mark.parametrize(
     "changes",
     [
-        {"resistance_kN": 61.7},
         {"resistance_type": "another"},
         {"resistance_cell": "Anchors!B17"},
         {"resistance_basis": "computed"},
@@ -79,16 +83,9 @@ def test_three_of_one_resistance_never_share_a_line():
 @each("worst", [v for v in Verdict if v is not Verdict.PASS])
 @each("is_end", [True, False])
 def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
-    why = say("check.not_proven", gaps=())
+    why = say("bores.rises", rise=7.83)
     verdicts = {"end" if is_end else "inside": worst}
-    first, last = pair(**verdicts)
-    first, last = replace(first, reason=say("check.passes")), replace(last, reason=why)
-    if not is_end:
-        first, last = (
-            replace(first, reason=why),
-            replace(last, reason=say("check.passes")),
-        )
-    (line,) = list_lines([first, last])
+    (line,) = list_lines(pair(**verdicts, reason=why))
     assert line.verdict is worst
     place = ENGLISH("heading.at_end" if is_end else "heading.inside")
     assert [one.startswith(place) for one in line.list_remarks(ENGLISH)] == [True]
@@ -107,14 +104,14 @@ def test_a_cause_is_the_gap_alone_or_both_design_values():
     type_ = say("check.type", type="A25")
     what = say("check.of_cell", what=type_, cell="Anchors!C6")
     gap = say("check.no_resistance", what=what)
-    reason = say("check.not_proven", gaps=(gap,))
-    told = say("load.reason", reason=reason, load=say("load.coupled"))
-    lacking = replace(check, verdict=Verdict.NOT_PROVEN, reason=told)
+    lacking = turn(check, Verdict.NOT_PROVEN, reason=gap)
+    assert lacking.reason.key == "load.reason"
     assert describe_cause(lacking, ENGLISH) == ENGLISH.show(gap)
-    row = replace(STUDY.rows[2], checks=[lacking], verdict=Verdict.NOT_PROVEN)
+    row = replace(STUDY.rows[2], checks=[lacking])
     assert "Anchors!C6" not in describe_briefly(row, ENGLISH)
-    failing = replace(check, verdict=Verdict.FAIL, reason=say("check.fails"))
-    shown = [f"{write_force(x)} kN" for x in (check.demand_kN, check.resistance_kN)]
+    failing = turn(check, Verdict.FAIL)
+    known = (failing.demand_kN, failing.resistance_kN)
+    shown = [f"{write_force(one)} kN" for one in known]
     assert all(one in describe_cause(failing, ENGLISH) for one in shown)
 
 
@@ -128,10 +125,6 @@ def test_a_resistance_names_type_basis_and_cell():
 @each("language", LANGUAGES)
 def test_a_failure_says_only_what_its_numbers_do_not(language):
     words, gap = Words(language), say("bores.rises", rise=7.83)
-    for reason, told in (
-        (say("check.fails"), []),
-        (say("check.fails_besides", gaps=(gap,)), [words.show(gap)]),
-    ):
-        first, last = (replace(one, reason=reason) for one in pair())
-        (line,) = list_lines([first, last])
+    for reason, told in ((None, []), (gap, [words.show(gap)])):
+        (line,) = list_lines(pair(Verdict.FAIL, Verdict.FAIL, reason))
         assert line.list_remarks(words) == told

@@ -18,6 +18,7 @@ from netdesign.study.governing import SEVERITY
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import as_given, build_study
+from tests.turn import turn
 
 STUDY = build_study()
 
@@ -49,9 +50,9 @@ def test_every_check_that_does_not_pass_is_an_open_point(language):
 def test_a_point_without_a_force_names_its_cause(verdict):
     row = STUDY.rows[0]
     cause = as_given("The net of 1.9 m does not reach the 2.5 m that are needed.")
-    check = replace(row.checks[-1], governs="", steps=[], utilisation=None)
-    check = replace(check, verdict=verdict, reason=cause, changes=[])
-    study = replace(STUDY, rows=[replace(row, checks=[check], verdict=verdict)])
+    check = next(one for one in row.checks if not one.is_of_force)
+    check = turn(check, verdict, reason=cause)
+    study = replace(STUDY, rows=[replace(row, checks=[check])])
     (first, *_) = list_open_points(study, ENGLISH)
     assert ENGLISH.show(cause) in first
 
@@ -63,9 +64,8 @@ def test_inputs_that_rows_lack_stand_in_the_points_once_and_in_reasons_shortly(
     names = ("guy_count", "net_cut", "ridge_rope", "lower_rope", "design_life")
     names = tuple(say(f"column.Nets.{one}") for one in names)
     gap = say("check.unsaid_many", names=names[:2], count=3)
-    check = STUDY.rows[0].checks[0]
-    told = {"verdict": Verdict.NOT_PROVEN, "changes": []}
-    check = replace(check, **told, reason=say("check.not_proven", gaps=(gap,)))
+    check = turn(STUDY.rows[0].checks[0], Verdict.NOT_PROVEN, reason=gap)
+    check = replace(check, changes=[])
     lacks = {"A": names, "B": names[1:], "C": names[:-1]}
     rows = [
         replace(STUDY.rows[0], id=row, checks=[check] * 9, unsaid=list(of))
@@ -78,22 +78,20 @@ def test_inputs_that_rows_lack_stand_in_the_points_once_and_in_reasons_shortly(
     assert not any(words.show(gap) in one for one in points)
     places = [one for one in points if words.show(names[0]) in one]
     assert places[0].startswith("A, C")
-    row = replace(rows[0], verdict=Verdict.NOT_PROVEN)
-    told = describe_briefly(row, words)
+    told = describe_briefly(rows[0], words)
     assert "5" in told  # two that are named, and three
     assert len(told.split()) <= 10
 
 
 def test_many_checks_with_one_cause_are_counted():
     row = STUDY.rows[0]
-    reason = say("check.not_proven", gaps=(say("check.no_case_solved"),))
+    lost = turn(row.checks[0], Verdict.NOT_PROVEN, reason=say("check.no_case_solved"))
     open_ = [
-        replace(row.checks[0], id=f"c{k}", mode=mode, verdict=Verdict.NOT_PROVEN,
-                reason=reason, changes=[])
+        replace(lost, id=f"c{k}", mode=mode, changes=[])
         for k, mode in enumerate(("tendon", "pull_out", "rope", "bearing", "sliding",
                                   "compression", "bending"))
     ]  # fmt: skip
-    changed = replace(row, checks=open_, verdict=Verdict.NOT_PROVEN)
+    changed = replace(row, checks=open_)
     (first, *_) = list_open_points(replace(STUDY, rows=[changed]), ENGLISH)
     assert "and 3 more checks: no case could be calculated" in first
 
@@ -107,7 +105,7 @@ def test_what_is_proven_elsewhere_is_an_open_point_with_its_document():
         cell="Declared!B2",
     )
     checks = [
-        replace(one, verdict=Verdict.DECLARED, declared=proof)
+        turn(one, Verdict.DECLARED, proof=proof)
         if one.verdict is Verdict.NOT_PROVEN
         else one
         for one in row.checks
@@ -124,7 +122,6 @@ def test_nothing_is_open_where_all_passes_and_is_confirmed():
     row = replace(
         study.rows[0],
         inputs=[x for x in study.rows[0].inputs if x.cell != "default"],
-        reasons=[],
     )
     bare = replace(
         study,
@@ -146,7 +143,7 @@ def test_a_borehole_that_rises_is_a_point_to_settle_with_its_rows():
 
 
 def test_study_without_rows_is_shown():
-    study = replace(STUDY, rows=[], verdict=Verdict.NOT_PROVEN)
+    study = replace(STUDY, rows=[])
     assert ENGLISH("heading.no_rows") in render_html(study)
 
 
@@ -172,6 +169,6 @@ def test_the_matrix_shows_the_worst_verdict_of_each_member():
 def test_a_large_site_has_the_matrix_on_its_first_page(count):
     row = STUDY.rows[0]
     rows = [replace(row, id=f"N{k}") for k in range(count)]
-    page = render_html(replace(STUDY, rows=rows, verdict=Verdict.PASS))
+    page = render_html(replace(STUDY, rows=rows))
     first = page[: page.index('id="basis"')]
     assert ('class="matrix"' in first) is (count > 8)

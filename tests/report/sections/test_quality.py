@@ -35,7 +35,7 @@ def test_a_law_that_is_not_met_is_named():
         IndependentRecord(name="end_direction", value=1e-9, limit=1e-3, is_met=True),
     ]
     changed = replace(row, independent=laws)
-    study = replace(STUDY, rows=[changed], verdict=row.verdict)
+    study = replace(STUDY, rows=[changed])
     (quality, *_) = PageReader(render_html(study)).tables["annex-quality"]
     name = ENGLISH("law.global_balance")
     assert quality[1][-1] == f"not met: {name}"

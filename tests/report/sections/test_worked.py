@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from netdesign.outcome import Verdict
 from netdesign.report.blocks import Items
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.worked import show_all, work_out
@@ -81,8 +82,11 @@ def test_the_annex_has_each_requirement_without_a_force_once():
 
 
 def test_one_reason_of_many_checks_of_a_row_stands_once_in_the_annex():
-    reason = say("heading.no_rows")
-    checks = [replace(one, governs="", reason=reason) for one in ROW.checks]
+    finding = say("heading.no_rows")
+    checks = [
+        replace(one, steps=[], met=Verdict.NOT_PROVEN, finding=finding)
+        for one in ROW.checks
+    ]
     bare = replace(STUDY, rows=[replace(ROW, checks=checks)])
     (items,) = (one for one in show_all(bare, ENGLISH).blocks if isinstance(one, Items))
     clauses = {(one.clause, one.verdict) for one in checks}

@@ -9,8 +9,9 @@ from netdesign.outcome import Verdict
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.words.catalogue import LANGUAGES
-from tests.report.build_study import as_given, build_study
+from tests.report.build_study import build_study
 from tests.report.reading import read_workbook
+from tests.turn import turn
 
 PROOF = Proof(document="Report G-17", author="B. Rüegg", date="", cell="Declared!B2")
 
@@ -18,15 +19,8 @@ PROOF = Proof(document="Report G-17", author="B. Rüegg", date="", cell="Declare
 def declare(study):
     """The first check of a passing row is declared, and has a resistance."""
     (row,) = study.rows
-    check = replace(
-        row.checks[0],
-        verdict=Verdict.DECLARED,
-        declared=PROOF,
-        reason=as_given("Declared as proven elsewhere."),
-    )
-    checks = [check, *row.checks[1:]]
-    row = replace(row, checks=checks, verdict=Verdict.DECLARED)
-    return replace(study, rows=[row], verdict=Verdict.DECLARED)
+    check = turn(row.checks[0], Verdict.DECLARED, proof=PROOF)
+    return replace(study, rows=[replace(row, checks=[check, *row.checks[1:]])])
 
 
 STUDY = declare(build_study(rows=1))

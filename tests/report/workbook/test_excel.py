@@ -346,7 +346,7 @@ def test_small_studies_have_a_workbook(rows):
     study = build_study(rows=1)
     parts = study.rows[:rows]
     verdict = merge_verdicts(row.verdict for row in parts)
-    content = render_workbook(replace(study, rows=parts, verdict=verdict))
+    content = render_workbook(replace(study, rows=parts))
     book = read_workbook(content)
     assert book["Decision"]["C3"].value == ENGLISH(f"verdict.{verdict}")
 
@@ -359,9 +359,8 @@ def test_bare_row_has_a_workbook():
         extremes=[],
         cases=[],
         drawing=None,
-        verdict=Verdict.NOT_PROVEN,
     )
-    study = replace(study, rows=[bare], notes=[], verdict=Verdict.NOT_PROVEN)
+    study = replace(study, rows=[bare], notes=[])
     book = read_workbook(render_workbook(study))
     assert book["Checks"]["A5"].value == "none: no check was made"
     assert book["Cases"]["A4"].value.startswith("none")
