@@ -206,7 +206,9 @@ class Check:
     mode: str
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
     steps: Items[Step] = field(default_factory=list)
-    met: Verdict | None = None  # by its own comparison, of a check without a force
+    # By its own comparison, of a check without a force; not proven of forces that are
+    # information only.
+    met: Verdict | None = None
     finding: Text | None = None  # sentence of that comparison
     open: Items[Open] = field(default_factory=list)
     case: CasePoint | None = None

@@ -334,12 +334,16 @@ def check_others(known: RowForces, judged: Sequence[MemberCheck]) -> Iterator[Ch
 def apply_declaration(basis: Basis, check: Check) -> Check:
     """Check with what the workbook says of it: a document that proves it elsewhere.
 
-    Forces of a net below its snow are those of snow up to its head: they may fail, and
-    prove nothing.
+    Forces of a net below its snow are those of snow up to its head: information, which
+    proves nothing either way. No document proves them where they fail already.
     """
     row, member = basis.row, check.member
     if row.is_overtopped and member != Member.NET:
-        check = check.with_open(OpenKind.UNSOLVED, say("check.overtopped"))
+        fails = check.verdict is Verdict.FAIL
+        point = Open(kind=OpenKind.UNSOLVED, message=say("check.overtopped"))
+        check = replace(check, met=Verdict.NOT_PROVEN, finding=None, open=[point])
+        if fails:
+            return check
     found = basis.site.find_declaration(row, member, check.mode, check.position)
     if found is None:
         return check

@@ -12,7 +12,7 @@ import netdesign as nd
 from netdesign import cli
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
-from netdesign.study.document import read_document, write_document
+from netdesign.study.document import hash_text, read_document, write_document
 from tests.short_example import write_short_example
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
@@ -123,6 +123,18 @@ def test_a_changed_study_ends_with_1_and_the_place(verify, change, place):
     assert "same" not in ended.out
 
 
+def test_a_verdict_alone_altered_is_found_before_a_solve(home, call, tmp_path):
+    """Under the digest of before, and under one made anew by who altered it."""
+    text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
+    study = json.loads(text) | {"verdict": "pass"}
+    for digest in (study["digest"], hash_text(json.dumps(study))):
+        altered = json.dumps(study | {"digest": digest})
+        (tmp_path / "study.json").write_text(altered, encoding="utf-8")
+        ended = call("verify", "--study", "study.json", "--site", home / "site.xlsx")
+        assert ended.code == REFUSED
+        assert "altered after it was written" in ended.err
+
+
 def test_the_last_digits_of_another_machine_are_no_difference(verify):
     ended = verify(last_digits)
     assert ended.code == 0
@@ -197,7 +209,7 @@ def test_verify_refuses_reports_of_another_study(verify, call, home):
 
 
 def test_a_row_left_out_by_hand_is_found(home, call, tmp_path, monkeypatch):
-    """Also where it stands among those left out, with the verdict of the rest."""
+    """Also where it stands among those left out."""
     write_short_example(tmp_path / "two.xlsx", ["R7", "R1"])
     solving = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-html", "--no-excel")
     monkeypatch.setattr(workers, "solve_scene", solve_once)
@@ -205,13 +217,11 @@ def test_a_row_left_out_by_hand_is_found(home, call, tmp_path, monkeypatch):
     study = json.loads((tmp_path / "netdesign-out" / "study.json").read_text())
     study["rows"] = [one for one in study["rows"] if one["id"] == "R1"]
     study["left_out"] = ["R7"]
-    for verdict, code in ((study["verdict"], DIFFERS), ("not_proven", UNPROVEN)):
-        study["verdict"] = verdict
-        sealed = write_document(read_document(json.dumps(study)))
-        (tmp_path / "study.json").write_text(sealed, encoding="utf-8")
-        ended = call("verify", "--study", "study.json")
-        assert ended.code == code, ended.out
-        assert "not verified: net rows R7, which were left out" in ended.out
+    sealed = write_document(read_document(json.dumps(study)))
+    (tmp_path / "study.json").write_text(sealed, encoding="utf-8")
+    ended = call("verify", "--study", "study.json")
+    assert ended.code == UNPROVEN, ended.out
+    assert "not verified: net rows R7, which were left out" in ended.out
 
 
 def test_a_study_from_python_is_shown_compared_and_verified(
