@@ -114,7 +114,7 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
     slope = next(one for one in row["checks"] if one["id"] == "geometry.slope")
     assert slope["verdict"] == "not_proven"
     reason = str(restore(slope["reason"]))
-    assert reason.endswith("Is it a percentage? 65 % are 33.02 degrees.")
+    assert reason.endswith("(is it a percentage? 65 % are 33.02 degrees).")
 
 
 @pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
