@@ -29,8 +29,13 @@ from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
-from netdesign.study.case_records import BoundRecord
-from netdesign.study.record_envelope import record_envelope, show_case, show_coincident
+from netdesign.study.case_records import DrawnForce
+from netdesign.study.record_envelope import (
+    record_envelope,
+    record_largest,
+    show_case,
+    show_coincident,
+)
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
@@ -66,9 +71,7 @@ def write_envelope_document(
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
         "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
-        "extremes": [
-            _write_bound(envelope, bound, language) for bound in record.bounds
-        ],
+        "extremes": [_write_bound(envelope, one, language) for one in record.drawn],
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
@@ -146,28 +149,28 @@ def write_grid_document(
 
 
 def _write_bound(
-    envelope: RowEnvelope, bound: BoundRecord, language: Language
+    envelope: RowEnvelope, drawn: DrawnForce, language: Language
 ) -> dict[str, Any]:
-    extreme = envelope.extremes[bound.quantity]
-    band = extreme.widened
-    confirmation = None
-    if bound.confirmation is not None:
-        told = render(bound.confirmation.reason or "", language)
-        plain = asdict(replace(bound.confirmation, reason=None))
+    extreme = envelope.extremes[drawn.quantity]
+    force = record_largest(extreme, envelope, tuple(QUANTITY_KEYS))
+    confirmation, bound = None, force.bound_kN or 0.0
+    if force.confirmed is not None:
+        told = render(force.confirmed.reason or "", language)
+        plain = asdict(replace(force.confirmed, reason=None))
         confirmation = _per_metre(plain | {"reason": told})
     return {
-        "quantity": QUANTITY_KEYS[bound.quantity],
-        "max": bound.max_kN,
-        "upper_bound": bound.upper_bound_kN,
-        "gap": bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN else 0.0,
-        "low": kilonewton_from_newton(band.low),
-        "high": kilonewton_from_newton(band.high),
-        "case": bound.case,
+        "quantity": QUANTITY_KEYS[force.quantity],
+        "max": force.value_kN,
+        "upper_bound": bound,
+        "gap": bound / force.value_kN - 1.0 if force.value_kN else 0.0,
+        "low": force.low_kN,
+        "high": force.high_kN,
+        "case": show_case(extreme.governing.case.values),
         "coincident": _list_coincident(extreme),
         "confirmation": confirmation,
         "sensitivity": {
-            "unexplained": bound.unexplained,
-            "drivers": [_per_metre(asdict(driver)) for driver in bound.drivers],
+            "unexplained": drawn.unexplained,
+            "drivers": [_per_metre(asdict(driver)) for driver in drawn.drivers],
         },
     }
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
-from netdesign.calculation.steps import Step
 from netdesign.checks.check import Check
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
@@ -51,8 +50,6 @@ _OF_STEPS = {
     "resistance_characteristic_kN": ("R_k", 1),
     "resistance_factor": ("γ_R", 1),
 }
-_TOLD = ("E_d", "γ_E", "R_k", "γ_R", "R_d", "μ")  # symbols of all of these
-_BANDED = ("E_d", "μ")  # whose ends are told, or follow
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
 # In the order of the terminal.
@@ -66,18 +63,6 @@ _FOLLOWS = (
     *("diff_check.utilisation_low", "diff_check.utilisation_high"),
     "diff.upper_bound",
 )
-# Names of what is told by its count alone.
-_PARTS = {
-    **dict.fromkeys(("cases", "envelope", "extremes", "forces"), "cases"),
-    **dict.fromkeys(("checks", "reasons", "questions", "unsaid"), "checks"),
-    **dict.fromkeys(("drawing", "anchors", "head", "pulls", "panel"), "forces"),
-    **dict.fromkeys(("guideline", "floor", "model_form", "reliability"), "opinions"),
-    **dict.fromkeys(("held_sideways", "tilt", "independent"), "forces"),
-    **dict.fromkeys(("inputs", "range_inputs", "parts"), "inputs"),
-    "rows": "order",
-    **dict.fromkeys(("notes", "monitoring"), "notes"),
-    **dict.fromkeys(("profile", "provenance"), "profile"),
-}
 _Value = TypeVar("_Value")
 Named = Mapping[Message, Any]  # values by their names
 
@@ -185,14 +170,8 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
         *compare("range", lambda study: _list_inputs(study.range_inputs)),
         *compare_rows("input", lambda row: _list_inputs(row.inputs)),
         *compare("settings", _list_settings),
-        *_compare_rest("", _keep_rest(old), _keep_rest(new)),
-        *(
-            change
-            for name, one, other in both
-            for change in _compare_rest(
-                name, _keep_row_rest(one), _keep_row_rest(other)
-            )
-        ),
+        *_count_values("", _list_shared(old), _list_shared(new)),
+        *(change for pair in both for change in _count_values(*pair)),
     ]
 
 
@@ -295,15 +274,23 @@ def _tell(verdict: str) -> _Word:
     return _Word(key=key, name=say(f"diff_value.{key.replace(' ', '_')}"))
 
 
-def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
-    """Other values that differ: how many of each part."""
-    counts = Counter(
-        _PARTS.get(one.place.partition(".")[0].partition("[")[0], "other")
-        for one in compare_values(old, new, is_exact=True)
-    )
-    for part, count in counts.items():
-        what = say("diff.values_of", part=name("diff_part", part), count=count)
+def _count_values(row: str, old: object, new: object) -> Iterator[Change]:
+    """Number of all values of a part that differ, whether they are told or not."""
+    count = len(compare_values(old, new, is_exact=True))
+    if count:
+        what = say("diff.values_of", count=count)
         yield Change(area="other", row=row, what=what, old=None, new=count)
+
+
+def _list_shared(study: Study) -> dict[str, object]:
+    """What a study says of all its rows, and the rows' order."""
+    return {
+        "profile": study.profile,
+        "order": [row.id for row in study.rows],
+        "range_inputs": study.range_inputs,
+        "notes": study.notes,
+        "site_sha256": study.provenance.site_sha256,
+    }
 
 
 def _name_verdict(study: Study) -> Named:
@@ -358,10 +345,10 @@ def _list_governing(row: RowStudy) -> Named:
         for key, value in point.items():
             named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
             found[say("diff.governing_case", key=named)] = value
-    extremes = _name_all((name_member(one.quantity), one) for one in row.extremes)
+    extremes = _name_all((name_member(one.quantity), one) for one in row.member_forces)
     for quantity, one in extremes.items():
-        found[say("diff.largest", quantity=quantity)] = one.max_kN
-        found[say("diff.upper_bound", quantity=quantity)] = one.upper_bound_kN
+        found[say("diff.largest", quantity=quantity)] = one.value_kN
+        found[say("diff.upper_bound", quantity=quantity)] = one.bound_kN
     return found
 
 
@@ -465,58 +452,6 @@ def _list_settings(study: Study) -> Named:
         **{name("setting", key): value for key, value in settings},
         **{as_given(key): value for key, value in provenance.libraries.items()},
     }
-
-
-def _keep_rest(study: Study) -> object:
-    """Parts of a study that are told in sum only."""
-    return {
-        "profile": {
-            "title": study.profile.title,
-            "choice_text": study.profile.choice_text,
-            "sha256": study.profile.sha256,
-            "is_floor_overruled": study.profile.is_floor_overruled,
-            "values": [replace(one, value=0.0) for one in study.profile.values],
-        },
-        "rows": {"order": ", ".join(row.id for row in study.rows)},
-        "range_inputs": [replace(echo, value="") for echo in study.range_inputs],
-        "notes": study.notes,
-        "provenance": {"site_sha256": study.provenance.site_sha256},
-    }
-
-
-def _keep_row_rest(row: RowStudy) -> object:
-    """Parts of a net row that are told in sum only."""
-    return replace(
-        row,
-        checks=[_keep_check_rest(check) for check in row.checks],
-        extremes=[
-            replace(one, max_kN=0.0, upper_bound_kN=None) for one in row.extremes
-        ],
-        inputs=[replace(echo, value="") for echo in row.inputs],
-        independent=[replace(one, is_met=True) for one in row.independent],
-    )
-
-
-def _keep_check_rest(check: Check) -> Check:
-    told = dict.fromkeys(("clause", "resistance_basis", "resistance_type"), "")
-    points = [one for one in check.open if one.proof is None]
-    own = {"E_d": check.demand_kN, "R_d": check.resistance_kN, "μ": check.utilisation}
-    steps = [
-        _keep_step_rest(one, own.get(one.symbol, one.value))
-        if one.symbol in _TOLD
-        else one
-        for one in check.steps
-    ]
-    return replace(check, steps=steps, open=points, met=None, **told)  # type: ignore[arg-type]
-
-
-def _keep_step_rest(step: Step, told: float | None) -> Step:
-    """A step without the value that is told; what nobody tells stays."""
-    value = None if step.value == told else step.value
-    if step.symbol in _BANDED:
-        return replace(step, value=value, low=None, high=None)
-    low, high = (None if one == step.value else one for one in (step.low, step.high))
-    return replace(step, value=value, low=low, high=high)
 
 
 def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:

@@ -65,22 +65,33 @@ class ConfirmationRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoundRecord:
-    """Largest value of one force anywhere in the ranges.
+class LargestForce:
+    """Largest value of one force anywhere in the ranges of a row, characteristic.
 
-    Per anchor; per metre of width where the envelope says so.
+    Per anchor; per metre of width where an envelope says so. The only place where such
+    a force leaves SI units.
     """
 
+    quantity: str  # "foot_anchor", "panel_post", "panel_upper_along", ...
+    low_kN: float  # numerical band; its upper end has what may hide between the cases
+    value_kN: float
+    high_kN: float
+    bound_kN: float | None  # value with what may hide; None of a grid of cases
+    case: CasePoint
+    beside_kN: dict[str, float]  # the members' forces in that case
+    unknown: Items[str] = field(default_factory=list)  # axes nothing is known along
+    confirmed: ConfirmationRecord | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawnForce:
+    """What a drawing shows of one force over the ranges."""
+
     quantity: str
-    max_kN: float
-    upper_bound_kN: float  # with what may hide between the cases
-    case: dict[str, float]
-    coincident_kN: dict[str, float]
     unexplained: float | None  # error of the Sobol indices: share of the variance
-    drivers: Items[DriverRecord]  # with lines and maps: of what is drawn
+    drivers: Items[DriverRecord]
     lines: Items[LineRecord]
     maps: Items[MapRecord]
-    confirmation: ConfirmationRecord | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +108,7 @@ class EnvelopeRecord:
     skipped: int  # known without a solve, since the snow stuck with less friction
     skips_tested: int
     failed: int
-    bounds: Items[BoundRecord]
+    drawn: Items[DrawnForce]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,34 +125,6 @@ class CaseRecord:
     error_percent: float | None  # estimated, of the worst of the four
     balance_residual: float | None  # relative to the weight
     is_calibrated: bool = True  # the creep law is given for this density
-
-
-@dataclass(frozen=True, kw_only=True)
-class ExtremeRecord:
-    """Largest value of one member force over all cases, characteristic."""
-
-    quantity: str  # "foot_anchor", "uphill_guy", "downhill_guy", "post"
-    max_kN: float
-    low_kN: float  # band: numerical error
-    high_kN: float
-    case: CasePoint
-    coincident_kN: dict[str, float]  # the other members in that case
-    upper_bound_kN: float | None = None  # None for a grid, which has no bound
-
-
-@dataclass(frozen=True, kw_only=True)
-class ForceRecord:
-    """Largest force of one kind over the cases of a row, as its checks take it.
-
-    The upper end has what may hide between the cases.
-    """
-
-    quantity: str  # "foot_anchor", "panel_post", "panel_upper_along", ...
-    low_kN: float
-    value_kN: float
-    high_kN: float
-    case: CasePoint
-    unknown: Items[str] = field(default_factory=list)  # axes nothing is known along
 
 
 @dataclass(frozen=True, kw_only=True)

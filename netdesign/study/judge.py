@@ -17,8 +17,6 @@ from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import (
     EnvelopeRecord,
-    ExtremeRecord,
-    ForceRecord,
 )
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects
@@ -34,8 +32,7 @@ from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import (
     record_case,
     record_envelope,
-    record_extreme,
-    record_point,
+    record_largest,
 )
 from netdesign.study.record_guideline import (
     find_row_floor,
@@ -65,7 +62,6 @@ from netdesign.study.row_checks import (
 )
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
-from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 
@@ -161,7 +157,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     return RowStudy(
         id=row.id,
         checks=checks,
-        extremes=_record_extremes(extremes),
         cases=cases,
         inputs=list(row.inputs),
         parts=list_parts(row, task.site.ranges["inclination"]),
@@ -220,14 +215,6 @@ def _check_row(
     return found, form
 
 
-def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:
-    return [
-        record_extreme(extremes[member])
-        for member in REPORTED_MEMBERS
-        if member in extremes
-    ]
-
-
 def _record_search(
     solved: RowGrid | RowEnvelope, checks: Sequence[Check]
 ) -> EnvelopeRecord | None:
@@ -284,6 +271,7 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
     """Knowledge of a row by its cases and the guideline's load."""
     site, row, standard = task.site, task.row, task.standard
     results, extremes = task.solved.results, task.extremes
+    envelope = task.solved if isinstance(task.solved, RowEnvelope) else None
     effects = find_effects(row, standard, site.ranges)
     head = floor.head if floor else None
     held = find_held_sideways(task, head)
@@ -293,7 +281,7 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
         standard=standard,
         law=task.law,
         effects=effects,
-        largest={name: _record_force(one) for name, one in extremes.items()},
+        largest={k: record_largest(one, envelope) for k, one in extremes.items()},
         floor=record_floor(floor, row),
         held=held,
         tilt=find_tilt(
@@ -302,18 +290,6 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
         pulls=tuple(list_pulls(task, effects.lateral_share, head)),
         gap=task.solved.gap,
         panel_gap=_find_failed_panel(row, results),
-    )
-
-
-def _record_force(extreme: Extreme) -> ForceRecord:
-    force = extreme.widened
-    return ForceRecord(
-        quantity=extreme.member,
-        low_kN=kilonewton_from_newton(force.low),
-        value_kN=kilonewton_from_newton(force.value),
-        high_kN=kilonewton_from_newton(force.high),
-        case=record_point(extreme.governing.case),
-        unknown=list(extreme.unknown),
     )
 
 

@@ -15,7 +15,7 @@ from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import CONNECTED, ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
-from netdesign.study.case_records import ForceRecord
+from netdesign.study.case_records import LargestForce
 from netdesign.study.dependent import (
     connect,
     corrode,
@@ -279,7 +279,7 @@ def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
     return next((one for one in doubts if one is not None), None)
 
 
-def _find_unseen(forces: Sequence[ForceRecord]) -> Message | None:
+def _find_unseen(forces: Sequence[LargestForce]) -> Message | None:
     """Quantities between whose samples nothing is known of some largest force."""
     unknown = dict.fromkeys(axis for one in forces for axis in one.unknown)
     if not unknown:

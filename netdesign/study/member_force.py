@@ -31,7 +31,7 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.case_records import FloorForceRecord, FloorRecord, ForceRecord
+from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
 from netdesign.study.effects import RowEffects
 from netdesign.study.pulls import may_share
 from netdesign.study.row_to_check import Basis
@@ -59,7 +59,7 @@ class RowForces(Basis):
     ----------
     effects : RowEffects
         Supports that differ in their load.
-    largest : mapping of str to ForceRecord
+    largest : mapping of str to LargestForce
         Largest solved forces by their keys, with what may hide.
     floor : FloorRecord or None
         Forces by the guideline's load; None where it is no floor.
@@ -76,7 +76,7 @@ class RowForces(Basis):
     """
 
     effects: RowEffects
-    largest: Mapping[str, ForceRecord]
+    largest: Mapping[str, LargestForce]
     floor: FloorRecord | None
     held: HeldSidewaysRecord | Message
     tilt: float
@@ -108,9 +108,9 @@ class MemberForce:
     ----------
     on : SupportForce
         The force, step by step.
-    solved : tuple of ForceRecord
+    solved : tuple of LargestForce
         By section, and by the panel between posts where there is one.
-    largest : ForceRecord
+    largest : LargestForce
         Larger one of them, which the check names its case by.
     pull, rise : float
         Largest pull on a head, which brings what is added, 0 without any; and what that
@@ -118,8 +118,8 @@ class MemberForce:
     """
 
     on: SupportForce
-    solved: tuple[ForceRecord, ...]
-    largest: ForceRecord
+    solved: tuple[LargestForce, ...]
+    largest: LargestForce
     pull: float = 0.0
     rise: float = 0.0
 
@@ -194,7 +194,7 @@ def find_cell(row: NetRow, column: str, sheet: str = "Nets") -> str:
     return next((one.cell for one in row.inputs if one.label == label), "")
 
 
-def solve_for(record: ForceRecord, symbol: str) -> Quantity:
+def solve_for(record: LargestForce, symbol: str) -> Quantity:
     """Largest solved force as a quantity [kN]."""
     return given(
         *(symbol, record.value_kN, "kN", record.quantity),
@@ -323,7 +323,7 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     return ([] if is_none else [weight, share, pull, splay, least]), rise
 
 
-def lifts(forces: Iterable[ForceRecord], floor: FloorRecord | None) -> bool:
+def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
     """Some case, or the guideline's load, may pull a post off its base."""
     least = floor.forces if floor else ()
     pulls = [

@@ -25,12 +25,12 @@ from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
     AxisRecord,
-    BoundRecord,
     CaseRecord,
     ConfirmationRecord,
+    DrawnForce,
     DriverRecord,
     EnvelopeRecord,
-    ExtremeRecord,
+    LargestForce,
     LineRecord,
     MapRecord,
 )
@@ -89,17 +89,23 @@ def _largest_error_percent(result: CaseResult) -> float | None:
     return 100.0 * max(pull.error / pull.size for pull in pulls)
 
 
-def record_extreme(extreme: Extreme) -> ExtremeRecord:
-    """Largest force of a member; of a search with what may hide between its cases."""
-    force = extreme.widened if extreme.is_bounded else extreme.force
-    return ExtremeRecord(
+def record_largest(
+    extreme: Extreme,
+    envelope: RowEnvelope | None = None,
+    members: Sequence[str] = REPORTED_MEMBERS,
+) -> LargestForce:
+    """Largest force; of a search with what may hide between its cases."""
+    force = extreme.widened
+    return LargestForce(
         quantity=extreme.member,
-        max_kN=kilonewton_from_newton(force.value),
         low_kN=kilonewton_from_newton(force.low),
+        value_kN=kilonewton_from_newton(force.value),
         high_kN=kilonewton_from_newton(force.high),
+        bound_kN=kilonewton_if_known(extreme.upper_bound),
         case=record_point(extreme.governing.case),
-        coincident_kN=show_coincident(extreme, REPORTED_MEMBERS),
-        upper_bound_kN=kilonewton_if_known(extreme.upper_bound),
+        beside_kN=show_coincident(extreme, members),
+        unknown=list(extreme.unknown),
+        confirmed=_record_confirmation(envelope, extreme.member) if envelope else None,
     )
 
 
@@ -131,10 +137,10 @@ def record_envelope(
     members : sequence of str
         Those that are reported.
     drawn : str, optional
-        The one whose drivers, lines and maps are recorded; by default all are.
+        The one that is drawn; by default all are.
     """
     maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
-    shown = [member for member in members if member in extremes]
+    shown = [one for one in members if one in extremes and drawn in (None, one)]
     answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
         axes=[
@@ -154,36 +160,23 @@ def record_envelope(
         skipped=envelope.skipped,
         skips_tested=envelope.skips_tested,
         failed=sum(not result.is_converged for result in envelope.results),
-        bounds=[
-            _record_bound(
-                *(envelope, extremes[member], shown, found),
-                is_drawn=drawn in (None, member),
-            )
+        drawn=[
+            _record_drawn(envelope, member, found)
             for member, found in zip(shown, answers, strict=True)
         ],
     )
 
 
-def _record_bound(
-    envelope: RowEnvelope,
-    extreme: Extreme,
-    shown: Sequence[str],
-    answers: Sequence[Sensitivity],
-    *,
-    is_drawn: bool,
-) -> BoundRecord:
-    place = envelope.members.index(extreme.member)
-    return BoundRecord(
-        quantity=extreme.member,
-        max_kN=kilonewton_from_newton(extreme.force.value),
-        upper_bound_kN=kilonewton_from_newton(extreme.force.value + extreme.hidden),
-        case=show_case(extreme.governing.case.values),
-        coincident_kN=show_coincident(extreme, shown),
+def _record_drawn(
+    envelope: RowEnvelope, member: str, answers: Sequence[Sensitivity]
+) -> DrawnForce:
+    place = envelope.members.index(member)
+    return DrawnForce(
+        quantity=member,
         unexplained=measure_unexplained(envelope.maxima, place),
-        drivers=_record_drivers(envelope.task.ranges.axes, answers) if is_drawn else [],
-        lines=_record_lines(envelope, place) if is_drawn else [],
-        maps=_record_maps(envelope, place) if is_drawn else [],
-        confirmation=_record_confirmation(envelope, extreme.member),
+        drivers=_record_drivers(envelope.task.ranges.axes, answers),
+        lines=_record_lines(envelope, place),
+        maps=_record_maps(envelope, place),
     )
 
 

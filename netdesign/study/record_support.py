@@ -9,7 +9,7 @@ import numpy as np
 
 from netdesign.coupling.face import NetState, find_net_face
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Rope
@@ -20,7 +20,7 @@ from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart, RopeForce
-from netdesign.study.record_envelope import record_extreme, record_point
+from netdesign.study.record_envelope import record_point
 from netdesign.study.support_records import (
     AnchorRecord,
     Arrow,
@@ -46,15 +46,15 @@ def record_panel(
     extremes: Mapping[str, Extreme] = MappingProxyType({}),
     drawn: CaseResult | None = None,
 ) -> PanelRecord | None:
-    """Panel of a row with its largest forces over the cases that have some.
+    """Panel of a row, with what its ropes bear over the cases that have some.
 
     None of a row without a panel. ``drawn`` is the case that is shown.
     """
     if not row.solved_panels:
         return None
     panel = row.panels[0]
-    found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
-    highs = {name: one.widened.high for name, one in found.items()}
+    ropes = [rope for rope in RopeForce if rope in extremes]
+    highs = {rope: extremes[rope].widened.high for rope in ropes}
     return PanelRecord(
         cut=panel.cut,
         has_mid_anchors=panel.has_mid_anchors,
@@ -75,7 +75,6 @@ def record_panel(
                 row.find_net_part(NetPart.RIDGE_ROPE),
             ),
         ],
-        extremes=[record_extreme(one) for one in found.values()],
         failed=sum(isinstance(one.panel, FailedPanel) for one in results),
         end_guy_deg=degree_if_known(row.row_end.guy_angle if row.row_end else None),
         drawing=_draw(drawn) if drawn and not row.panel_assumed else None,

@@ -22,13 +22,13 @@ from netdesign.edge.json_text import (
 )
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import InputEcho, Project, ReplacedCell
+from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
     CaseRecord,
     EnvelopeRecord,
-    ExtremeRecord,
     FloorRecord,
-    ForceRecord,
     GuidelineRecord,
+    LargestForce,
 )
 from netdesign.study.parts import PartRecord
 from netdesign.study.support_records import (
@@ -158,7 +158,7 @@ class RowStudy:
 
     id: str
     checks: Items[Check]
-    extremes: Items[ExtremeRecord]
+    forces: Items[LargestForce]  # of members first, then of panel and ropes
     cases: Items[CaseRecord]
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
@@ -168,7 +168,6 @@ class RowStudy:
     anchors: Items[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: Items[HeadForce] = field(default_factory=list)  # in the drawn case
     pulls: Items[PullRecord] = field(default_factory=list)  # over all solved cases
-    forces: Items[ForceRecord] = field(default_factory=list)  # that checks rest on
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: Items[Text] = field(default_factory=list)
@@ -195,6 +194,11 @@ class RowStudy:
             for one in self.independent
             if not one.is_met
         ]
+
+    @property
+    def member_forces(self) -> list[LargestForce]:
+        """Largest forces of post, guys and foot anchor by the section."""
+        return [one for one in self.forces if one.quantity in REPORTED_MEMBERS]
 
     @cached_property
     def reasons(self) -> list[Message]:

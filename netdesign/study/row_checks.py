@@ -13,7 +13,7 @@ from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
 from netdesign.structure.members import RopeForce, name_in_panel
-from netdesign.study.case_records import ForceRecord
+from netdesign.study.case_records import LargestForce
 from netdesign.study.check_by_case import CheckByCase, Push
 from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_shown
@@ -171,7 +171,7 @@ def _find_load(
     return load * find_tilt(known.row, (span.low, span.high))
 
 
-def _widen(force: ForceRecord, results: Sequence[CaseResult]) -> float:
+def _widen(force: LargestForce, results: Sequence[CaseResult]) -> float:
     """Upper end with what may hide, over the largest one of the solved cases [-]."""
     at_cases = kilonewton_from_newton(find_extreme(force.quantity, results).force.high)
     return force.high_kN / at_cases if at_cases else 1.0

@@ -12,7 +12,6 @@ from netdesign.edge.json_text import Items
 from netdesign.structure.anchors import PullRange
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
-from netdesign.study.case_records import ExtremeRecord
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message
 
@@ -169,7 +168,6 @@ class PanelRecord:
     cut: str  # "uniform", "upper" or "fitted"
     has_mid_anchors: bool
     ropes: Items[RopeRecord]
-    extremes: Items[ExtremeRecord]  # quantities "panel_foot_anchor", ...
     failed: int = 0  # solved cases without forces by the panel
     end_guy_deg: float | None = None  # angle to the row; None where none is given
     drawing: PanelDrawing | None = None  # None where the drawn case has no panel

@@ -31,11 +31,10 @@ def state_verdicts(document):
 
 
 def state_row(row):
-    forces = [*row["extremes"], *((row["panel"] or {}).get("extremes") or ())]
     return {
         "verdict": row["verdict"],
         "checks": {check["id"]: state_check(check) for check in row["checks"]},
-        "forces": {force["quantity"]: state_force(force) for force in forces},
+        "forces": {force["quantity"]: state_force(force) for force in row["forces"]},
         "floor": {
             f"{one['member']} {one['load_case']} {one['inclination_deg']:g}": {
                 "force_kN": one["force_kN"]
@@ -51,12 +50,9 @@ def state_check(check):
 
 
 def state_force(force):
-    return {
-        "low": force["low_kN"],
-        "value": force["max_kN"],
-        "high": force["high_kN"],
-        "case": force["case"],
-    }
+    """Upper ends stand in the other record."""
+    names = ("low_kN", "value_kN", "case")
+    return {name.removesuffix("_kN"): force[name] for name in names}
 
 
 def flatten(value, place=""):

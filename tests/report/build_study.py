@@ -24,11 +24,11 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (
     CaseRecord,
-    ExtremeRecord,
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
     GuidelineRecord,
+    LargestForce,
 )
 from netdesign.study.records import (
     SCHEMA,
@@ -167,7 +167,7 @@ def build_row(
     return RowStudy(
         id=name,
         checks=checks,
-        extremes=extremes,
+        forces=extremes,
         cases=cases,
         inputs=[
             _echo(say("column.Nets.slope_angle"), "°", "40", 40.0, "Nets!B5"),
@@ -220,7 +220,7 @@ def build_held_sideways() -> HeldSidewaysRecord:
     )
 
 
-def build_floor(extreme: ExtremeRecord) -> FloorRecord:
+def build_floor(extreme: LargestForce) -> FloorRecord:
     """One member of a floor."""
     return FloorRecord(
         profile="swiss-guideline-2007",
@@ -228,7 +228,7 @@ def build_floor(extreme: ExtremeRecord) -> FloorRecord:
         forces=[
             FloorForceRecord(
                 member=extreme.quantity,
-                force_kN=0.4 * extreme.max_kN / 1.1,
+                force_kN=0.4 * extreme.value_kN / 1.1,
                 load_case="load_case_1",
                 inclination_deg=35.0,
                 snow_thickness_m=4.0,
@@ -296,7 +296,7 @@ def build_independent() -> list[IndependentRecord]:
     ]
 
 
-def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
+def build_guideline(extreme: LargestForce) -> GuidelineRecord:
     """One load case with numbers, one without."""
     numbers = {
         "creep_factor": 0.741,
@@ -314,7 +314,7 @@ def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
         sha256="0" * 64,
         case=extreme.case,
         solved_load_kN_per_m=15.0,
-        solved_foot_anchor_kN=extreme.max_kN,
+        solved_foot_anchor_kN=extreme.value_kN,
         cases=[
             GuidelineCase(
                 name="same_snow", density_kg_m3=450.0, height_vertical_m=5.22, **numbers
@@ -331,13 +331,13 @@ def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
     )
 
 
-def build_model_form(extreme: ExtremeRecord) -> ModelFormRecord:
+def build_model_form(extreme: LargestForce) -> ModelFormRecord:
     """One variant with a force, one without."""
     forces = {"foot_anchor_kN": 141.2, "uphill_guy_kN": 37.6, "post_kN": 122.9}
     return ModelFormRecord(
         case=extreme.case,
         member="foot_anchor",
-        force_kN=extreme.max_kN,
+        force_kN=extreme.value_kN,
         low_ratio=0.907,
         high_ratio=1.0,
         utilisation=0.78,
@@ -454,25 +454,26 @@ def build_failed_case(point: CasePoint) -> CaseRecord:
     )
 
 
-def build_extreme(member: str, cases: list[CaseRecord]) -> ExtremeRecord:
+def build_extreme(member: str, cases: list[CaseRecord]) -> LargestForce:
     """Largest force of ``member`` over the cases that have a result."""
     solved = [case for case in cases if case.outcome is Outcome.CONVERGED]
     worst = max(solved, key=lambda case: getattr(case, f"{member}_kN"))
     largest = getattr(worst, f"{member}_kN")
-    return ExtremeRecord(
+    return LargestForce(
         quantity=member,
-        max_kN=largest,
+        value_kN=largest,
         low_kN=largest * (1 - ERROR),
         high_kN=largest * (1 + ERROR),
+        bound_kN=None,
         case=worst.case,
-        coincident_kN={
+        beside_kN={
             other: getattr(worst, f"{other}_kN") for other in MEMBERS if other != member
         },
     )
 
 
 def build_check(
-    member: str, mode: str, extreme: ExtremeRecord, characteristic: float | None
+    member: str, mode: str, extreme: LargestForce, characteristic: float | None
 ) -> Check:
     """Force check; without ``characteristic`` resistance it is not proven."""
     used = rate_force(extreme, characteristic)
@@ -527,7 +528,7 @@ def build_check(
     )
 
 
-def rate_force(extreme: ExtremeRecord, characteristic: float | None) -> Quantity:
+def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     """Utilisation of a force on the first support of a row, step by step."""
     spacing = given("b", 4.0, "m", "Nets!L5")
     support = place_end_support(
@@ -536,7 +537,7 @@ def rate_force(extreme: ExtremeRecord, characteristic: float | None) -> Quantity
         given("Δl", 1.5, "m", "end.constant", kind=Kind.PROFILE),
     )
     largest, low, high = (
-        force / 1.1 for force in (extreme.max_kN, extreme.low_kN, extreme.high_kN)
+        force / 1.1 for force in (extreme.value_kN, extreme.low_kN, extreme.high_kN)
     )
     solved = given(
         *("E_s", largest, "kN", extreme.quantity), kind=Kind.SOLVED, band=(low, high)
@@ -568,9 +569,9 @@ def build_geometry_check() -> Check:
     )
 
 
-def build_slack_check(extreme: ExtremeRecord) -> Check:
+def build_slack_check(extreme: LargestForce) -> Check:
     """Check of a member that never carries."""
-    slack = replace(extreme, max_kN=0.0, low_kN=0.0, high_kN=0.0)
+    slack = replace(extreme, value_kN=0.0, low_kN=0.0, high_kN=0.0)
     return Check(
         id="downhill_guy.rope",
         clause="6.1",
@@ -582,7 +583,7 @@ def build_slack_check(extreme: ExtremeRecord) -> Check:
 
 
 def build_drawing(
-    extreme: ExtremeRecord, *, slope: float = 40.0, tilt: float = 15.0
+    extreme: LargestForce, *, slope: float = 40.0, tilt: float = 15.0
 ) -> Drawing:
     """Section with a parabolic net under load."""
     lean = math.radians(extreme.case.inclination_deg)
@@ -596,7 +597,7 @@ def build_drawing(
         for s in spread(0, 1, 25)
     ]
     base = head[0] - thickness * math.tan(math.radians(tilt))
-    forces = {"foot_anchor": extreme.max_kN, **extreme.coincident_kN}
+    forces = {"foot_anchor": extreme.value_kN, **extreme.beside_kN}
     uphill, downhill = -thickness, base + thickness
     return Drawing(
         case=extreme.case,

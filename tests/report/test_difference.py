@@ -83,7 +83,10 @@ def test_project_profile_ranges_and_settings_are_told():
     assert found["range", "", "density, low [kg/m3]"] == (250.0, 260.0)
     assert [new_value for area, _, what in found if area == "profile"
             for new_value in [found[area, "", what][1]]] == [7.0]  # fmt: skip
-    assert len(found) == 4
+    assert {area for area, *_ in found} == {
+        *("project", "settings", "range", "profile", "other")
+    }
+    assert len(found) == 5
 
 
 def test_the_document_and_the_lines_show_the_same_values():
@@ -163,16 +166,16 @@ def test_reordered_rows_are_told():
     old = build_study()
     (change,) = compare_studies(old, replace(old, rows=old.rows[::-1]))
     assert change.area == "other"
-    assert str(change) == "order of the net rows: 1 value differs"
+    assert str(change) == "2 values differ in all"
 
 
 def test_values_are_told_apart_however_close():
     old = build_study()
-    extreme = replace(old.rows[0].extremes[0], max_kN=100.0 + 1e-9)
-    row = replace(old.rows[0], extremes=[replace(extreme, max_kN=100.0)])
-    close = replace(old.rows[0], extremes=[extreme])
+    extreme = replace(old.rows[0].member_forces[0], value_kN=100.0 + 1e-9)
+    row = replace(old.rows[0], forces=[replace(extreme, value_kN=100.0)])
+    close = replace(old.rows[0], forces=[extreme])
     before, after = (replace(old, rows=[one]) for one in (row, close))
-    (change,) = compare_studies(before, after)
+    change, _ = compare_studies(before, after)
     assert str(change).endswith("100 -> 100.000000001")
 
 
@@ -268,10 +271,10 @@ def change_much():
         for one in row.checks[:-1]
     ]
     inputs = [replace(one, value="free") for one in row.inputs]
-    extremes = [replace(one, max_kN=37.1) for one in row.extremes]
+    extremes = [replace(one, value_kN=37.1) for one in row.member_forces]
     laws = [replace(one, is_met=not one.is_met) for one in row.independent]
     turned = replace(
-        row, checks=checks, inputs=inputs, extremes=extremes, independent=laws
+        row, checks=checks, inputs=inputs, forces=extremes, independent=laws
     )
     return replace(old, rows=[fewer, *old.rows[1:]]), replace(
         old, rows=[turned, turn_row(old.rows[2], Verdict.PASS)]
@@ -314,7 +317,8 @@ def test_a_basis_is_told_in_words_and_kept_as_a_key():
     ])  # fmt: skip
     bare = replace(row, checks=[replace(c, resistance_basis="") for c in row.checks])
     changes = compare_studies(replace(old, rows=[row]), replace(old, rows=[bare]))
-    assert {(one.old, one.new) for one in changes} == {("tested", "")}
+    told = {(one.old, one.new) for one in changes if one.area != "other"}
+    assert told == {("tested", "")}
     assert changes[0].tell("de").endswith("durch Versuche belegt -> kein Wert")
 
 

@@ -60,14 +60,11 @@ def test_the_study_holds_bounds_and_confirmations(standard, envelopes):
         record = row.envelope
         assert record.is_closed
         assert len(row.cases) == record.cases
-        assert len([one for one in record.bounds if one.lines and one.maps]) == 1
-        for bound, extreme in zip(record.bounds, row.extremes, strict=True):
-            assert bound.quantity == extreme.quantity
-            assert bound.max_kN == extreme.max_kN
-            assert extreme.upper_bound_kN == bound.upper_bound_kN
-            assert extreme.high_kN >= bound.upper_bound_kN - 1e-9
-            if bound.max_kN > 0.0:
-                assert bound.confirmation.confirmed_kN <= extreme.high_kN
+        assert len([one for one in record.drawn if one.lines and one.maps]) == 1
+        for force in row.member_forces:
+            assert force.high_kN >= force.bound_kN - 1e-9
+            if force.value_kN > 0.0:
+                assert force.confirmed.confirmed_kN <= force.high_kN
     again = read_document(write_document(study))
     assert replace(again, digest="") == study
 

@@ -13,7 +13,7 @@ from netdesign.checks.check import CasePoint, Check
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Outcome, StudyError, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.case_records import CaseRecord, ExtremeRecord
+from netdesign.study.case_records import CaseRecord, LargestForce
 from netdesign.study.document import (
     compute_digest,
     hash_results,
@@ -65,14 +65,15 @@ DRAWING = Drawing(
 ROW = RowStudy(
     id="Couloir n° 1 – “Ost”",
     checks=[CHECK, GEOMETRY],
-    extremes=[
-        ExtremeRecord(
+    forces=[
+        LargestForce(
             quantity="foot_anchor",
-            max_kN=22.2,
+            value_kN=22.2,
             low_kN=22.0,
             high_kN=22.5,
+            bound_kN=22.4,
             case=POINT,
-            coincident_kN={"post": 12.0},
+            beside_kN={"post": 12.0},
         )
     ],
     cases=[

@@ -90,7 +90,9 @@ def test_study_is_complete(results, standard):
             "geometry.height",
         ]
         assert len(row.cases) == 9
-        assert {extreme.quantity for extreme in row.extremes} == set(REPORTED_MEMBERS)
+        assert {extreme.quantity for extreme in row.member_forces} == set(
+            REPORTED_MEMBERS
+        )
         assert all(check.reason for check in row.checks)
         assert row.inputs[0].cell == "default"
     assert study.verdict == study.rows[0].verdict == Verdict.PASS
@@ -124,13 +126,13 @@ def test_progress_sees_every_case(results):
 
 def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):
     study = judge()
-    for extreme in study.rows[0].extremes:
+    for extreme in study.rows[0].member_forces:
         forces = [r.member_forces[extreme.quantity].value for r in results[0]]
-        assert extreme.max_kN == max(forces) / 1000.0
-        assert extreme.low_kN <= extreme.max_kN <= extreme.high_kN
+        assert extreme.value_kN == max(forces) / 1000.0
+        assert extreme.low_kN <= extreme.value_kN <= extreme.high_kN
         governing = results[0][forces.index(max(forces))]
         assert extreme.case.density_kg_m3 == governing.case.density
-        assert extreme.coincident_kN == {
+        assert extreme.beside_kN == {
             member: governing.member_forces[member].value / 1000.0
             for member in REPORTED_MEMBERS
             if member != extreme.quantity
@@ -141,11 +143,11 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     study = judge(resistances=resist(foot_anchor__pull_out=1e5))
     check = check_of(study, "foot_anchor.pull_out.end")
     factors = {value.id: value.value for value in study.profile.values}
-    action = study.rows[0].extremes[0]
+    action = study.rows[0].member_forces[0]
     assert action.quantity == "foot_anchor"
-    assert check.read("E_s") == action.max_kN
+    assert check.read("E_s") == action.value_kN
     on_row = compare_support(check)
-    assert check.read("E_k") == pytest.approx(on_row * action.max_kN, rel=1e-12)
+    assert check.read("E_k") == pytest.approx(on_row * action.value_kN, rel=1e-12)
     assert check.read("γ_E") == factors["action.snow"]
     assert check.demand_kN == pytest.approx(
         factors["action.snow"] * check.read("E_k"), rel=1e-12
@@ -156,9 +158,9 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     hidden = between.high - between.low
     assert hidden > 0.0
     assert between.note is None
-    at_cases = factors["action.snow"] * on_row * action.high_kN / check.resistance_kN
-    assert numerical.high == pytest.approx(at_cases, rel=1e-12)
-    assert check.utilisation_band[1] == pytest.approx(at_cases + hidden, rel=1e-12)
+    widest = factors["action.snow"] * on_row * action.high_kN / check.resistance_kN
+    assert numerical.high == pytest.approx(widest - hidden, rel=1e-12)
+    assert check.utilisation_band[1] == pytest.approx(widest, rel=1e-12)
     assert check.read("R_k") == 100.0
     assert check.resistance_kN == pytest.approx(
         100.0 / factors["resistance.pull_out.tested"], rel=1e-12
@@ -251,7 +253,7 @@ def test_without_any_result_nothing_is_proven(judge, results):
     study = judge([fail(result) for result in results[0]])
     row = study.rows[0]
     assert row.verdict == Verdict.NOT_PROVEN
-    assert row.extremes == []
+    assert row.member_forces == []
     assert row.drawing is None
     assert {check.demand_kN for check in row.checks} == {None}
 
@@ -358,7 +360,7 @@ def test_order_of_rows_and_cases_changes_nothing(results, standard, seed):
         expected = straight.rows[k]
         assert row.verdict == expected.verdict
         assert row.checks == expected.checks
-        assert row.extremes == expected.extremes
+        assert row.member_forces == expected.member_forces
         assert row.drawing == expected.drawing
         assert row.reasons == expected.reasons
 

@@ -15,7 +15,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
-from netdesign.study.case_records import ForceRecord
+from netdesign.study.case_records import LargestForce
 from netdesign.study.cases import solve_site
 from netdesign.study.effects import find_effects
 from netdesign.study.judge import judge_site
@@ -203,8 +203,14 @@ def find_member_force(member, ends, width, *, has_floor=True):
     given = next(one for one in ROW.resistances if one.member == member)
     at = record_point(Case(density=250.0, friction_angle=0.5, inclination=0.5))
     low, value, high = ends
-    solved = ForceRecord(
-        quantity=member, low_kN=low, value_kN=value, high_kN=high, case=at
+    solved = LargestForce(
+        quantity=member,
+        low_kN=low,
+        value_kN=value,
+        high_kN=high,
+        bound_kN=value,
+        case=at,
+        beside_kN={},
     )
     forces = RowForces(
         site=None,

@@ -45,12 +45,12 @@ def judged():
 def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     _, study = judged
     row, checks = study.rows[0], checks_of(study)
-    forces = {one.quantity: one for one in row.panel.extremes}
+    forces = {one.quantity: one for one in row.forces}
     width = find_effects(with_panel(a_panel()), PROFILE, RANGES).find_support("edge")
     factor = compute_end_factor(width, 3.5)
     assert factor > 1.2
     lower, upper = (
-        factor * forces[f"panel_{rope}_along"].max_kN for rope in ("lower", "upper")
+        factor * forces[f"panel_{rope}_along"].value_kN for rope in ("lower", "upper")
     )
     expected = {
         "lateral_anchor.tendon.end": lower,

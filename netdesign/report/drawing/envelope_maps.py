@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from netdesign.checks.check import CasePoint
@@ -30,8 +31,8 @@ from netdesign.report.words import (
     name_heading,
 )
 from netdesign.study.case_records import (
-    BoundRecord,
-    ExtremeRecord,
+    DrawnForce,
+    LargestForce,
     LineRecord,
     MapRecord,
 )
@@ -42,44 +43,53 @@ _MOST_MAPS = 3  # side by side
 _MAPPED = 3  # first quantities of a case: density, friction, inclination
 
 
-def bound_grid(row: RowStudy) -> list[BoundRecord]:
-    """Maps of every member over the cases of a row; nothing bounds the force between.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnvelopeView:
+    """Largest force of a member, and what a drawing shows of it over the ranges."""
 
-    The force of a case without a result is NaN.
-    """
-    return [_record_member(row, one) for one in row.extremes]
+    force: LargestForce
+    drawn: DrawnForce
+
+    @property
+    def bound_kN(self) -> float:
+        """Largest force with what may hide; the force itself over a grid of cases."""
+        bound = self.force.bound_kN
+        return self.force.value_kN if bound is None else bound
 
 
-def _record_member(row: RowStudy, extreme: ExtremeRecord) -> BoundRecord:
-    return BoundRecord(
-        quantity=extreme.quantity,
-        max_kN=extreme.max_kN,
-        upper_bound_kN=extreme.max_kN,
-        case=extreme.case.values,
-        coincident_kN=extreme.coincident_kN,
-        unexplained=None,
-        drivers=[],
-        lines=[],
-        maps=list(_list_maps(row, extreme)),
-        confirmation=None,
+def view_envelope(row: RowStudy) -> list[EnvelopeView]:
+    """Drawn forces of a row's search; of a grid those of every member."""
+    if row.envelope is None:
+        return [_view_grid(row, one) for one in row.member_forces]
+    forces = {one.quantity: one for one in row.forces}
+    drawn = row.envelope.drawn
+    return [EnvelopeView(force=forces[one.quantity], drawn=one) for one in drawn]
+
+
+def _view_grid(row: RowStudy, force: LargestForce) -> EnvelopeView:
+    """Map of a member over the cases; the force of one without a result is NaN."""
+    maps = list(_list_maps(row, force))
+    drawn = DrawnForce(
+        quantity=force.quantity, unexplained=None, drivers=[], lines=[], maps=maps
     )
+    return EnvelopeView(force=force, drawn=drawn)
 
 
-def _list_maps(row: RowStudy, extreme: ExtremeRecord) -> Iterator[MapRecord]:
+def _list_maps(row: RowStudy, force: LargestForce) -> Iterator[MapRecord]:
     """Maps of some inclinations, with the governing one; others as in that case."""
     forces = {
         (one.case.inclination_deg, one.case.friction_deg, one.case.density_kg_m3): (
-            getattr(one, f"{extreme.quantity}_kN")
+            getattr(one, f"{force.quantity}_kN")
         )
         for one in row.cases
-        if _list_further(one.case) == _list_further(extreme.case)
+        if _list_further(one.case) == _list_further(force.case)
     }
     if not forces:
         return
     axes = zip(*forces, strict=True)
     angles, frictions, densities = (sorted(set(axis)) for axis in axes)
     if len(angles) > _MOST_MAPS:
-        angles = sorted({angles[0], extreme.case.inclination_deg, angles[-1]})
+        angles = sorted({angles[0], force.case.inclination_deg, angles[-1]})
     for angle in angles:
         table = [[forces.get((angle, f, d)) for d in densities] for f in frictions]
         yield MapRecord(
@@ -103,75 +113,77 @@ _FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
 
-def draw_maps(bound: BoundRecord, words: Words = ENGLISH) -> str:
+def draw_maps(view: EnvelopeView, words: Words = ENGLISH) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
     case, in the map of the inclination nearest to it.
     """
-    if not bound.maps:
+    if not view.drawn.maps:
         return ""
-    chart, at = Chart(language=words.language), bound.case
-    chart.text(2.0, TEXT_PT + 1.0, _name(bound, words), bold=True)
+    chart, at = Chart(language=words.language), view.force.case.values
+    chart.text(2.0, TEXT_PT + 1.0, _name(view, words), bold=True)
     nearest = min(
-        range(len(bound.maps)),
-        key=lambda k: abs(bound.maps[k].inclination_deg - at["inclination_deg"]),
+        range(len(view.drawn.maps)),
+        key=lambda k: abs(view.drawn.maps[k].inclination_deg - at["inclination_deg"]),
     )
-    known = _list_known(bound)
+    known = _list_known(view)
     low, high = bounds_of(known)
     frames = [
-        _place_panel(column, len(bound.maps), one)
-        for column, one in enumerate(bound.maps)
+        _place_panel(column, len(view.drawn.maps), one)
+        for column, one in enumerate(view.drawn.maps)
     ]
-    pairs = list(zip(frames, bound.maps, strict=True))
+    pairs = list(zip(frames, view.drawn.maps, strict=True))
     chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
     for frame, one in pairs:
         _name_map(chart, frame, one, words)
         _mark_failed(chart, frame, one)
-    if any(math.isnan(x) for one in bound.maps for row in one.force_kN for x in row):
+    if any(
+        math.isnan(x) for one in view.drawn.maps for row in one.force_kN for x in row
+    ):
         told = f"{_FAILED} {words('drawing.no_result')}"
         chart.text(_BESIDE - 2.0, TEXT_PT + 1.0, told, anchor="end")
     governing = at["density_kg_m3"], at["friction_deg"]
     chart.ring(frames[nearest].x(governing[0]), frames[nearest].y(governing[1]), ACCENT)
     _paint_legend(chart, low, high)
-    title = _title("drawing.maps", bound, known, words)
+    title = _title("drawing.maps", view, known, words)
     return chart.write(_HEAD + _PANEL + _FOOT, title, _BESIDE)
 
 
-def draw_lines(bound: BoundRecord, words: Words = ENGLISH) -> str:
+def draw_lines(view: EnvelopeView, words: Words = ENGLISH) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
-    if not bound.lines:
+    if not view.drawn.lines:
         return ""
     chart, top = Chart(language=words.language), 0.0
-    chart.text(2.0, TEXT_PT + 1.0, _name(bound, words), bold=True)
-    for start in range(0, len(bound.lines), _ACROSS):
-        some = bound.lines[start : start + _ACROSS]
-        top += _paint_lines(chart, some, bound, top, words)
-    forces = [one.force_kN for one in bound.lines]
-    return chart.write(top, _title("drawing.lines", bound, forces, words), _BESIDE)
+    chart.text(2.0, TEXT_PT + 1.0, _name(view, words), bold=True)
+    for start in range(0, len(view.drawn.lines), _ACROSS):
+        some = view.drawn.lines[start : start + _ACROSS]
+        top += _paint_lines(chart, some, view, top, words)
+    forces = [one.force_kN for one in view.drawn.lines]
+    return chart.write(top, _title("drawing.lines", view, forces, words), _BESIDE)
 
 
 def _paint_lines(
     chart: Chart,
     lines: Sequence[LineRecord],
-    bound: BoundRecord,
+    view: EnvelopeView,
     top: float,
     words: Words,
 ) -> float:
     """Paint lines side by side, all to the scale of their member; their height [pt]."""
-    low, high = bounds_of([*(one.force_kN for one in bound.lines)])
-    high = max(high, bound.upper_bound_kN)
+    low, high = bounds_of([*(one.force_kN for one in view.drawn.lines)])
+    high = max(high, view.bound_kN)
     margin = 0.06 * (high - low) or 0.01 * high
     names = 1
     for column, one in enumerate(lines):
         frame = Frame(
-            **_panel(column, min(len(bound.lines), _ACROSS), top),
+            **_panel(column, min(len(view.drawn.lines), _ACROSS), top),
             x_low=one.values[0],
             x_high=one.values[-1],
             y_low=low - margin,
             y_high=high + margin,
         )
-        names = max(names, _paint_line(chart, frame, one, bound, words))
+        names = max(names, _paint_line(chart, frame, one, view, words))
     return _HEAD + _PANEL + _FOOT + (names - 1) * LINE_PT
 
 
@@ -239,7 +251,7 @@ def _paint_legend(chart: Chart, low: float, high: float) -> None:
 
 
 def _paint_line(
-    chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord, words: Words
+    chart: Chart, frame: Frame, one: LineRecord, view: EnvelopeView, words: Words
 ) -> int:
     """Force and bound along a quantity; how many lines its name takes."""
 
@@ -254,14 +266,16 @@ def _paint_line(
     force, allowed = trace(one.force_kN), trace(one.bound_kN)
     chart.area([*force, *allowed[::-1]], PALE, GREY)
     chart.line(force, stroke=INK)
-    across = frame.y(bound.upper_bound_kN)
+    across = frame.y(view.bound_kN)
     chart.line(
         [(frame.left, across), (frame.left + frame.width, across)],
         stroke=ACCENT,
         width=0.5,
     )
     chart.axes(frame)
-    chart.ring(frame.x(bound.case[one.key]), frame.y(bound.max_kN), ACCENT)
+    chart.ring(
+        frame.x(view.force.case.values[one.key]), frame.y(view.force.value_kN), ACCENT
+    )
     return _name_axis(chart, frame, name_heading(words, one.key))
 
 
@@ -303,35 +317,35 @@ def _edges(
     return [first, *(place((a + b) / 2) for a, b in pairwise(values)), last]
 
 
-def _list_known(bound: BoundRecord) -> list[list[float]]:
+def _list_known(view: EnvelopeView) -> list[list[float]]:
     """Forces of all maps, without those of cases that gave no result."""
-    rows = (row for one in bound.maps for row in one.force_kN)
+    rows = (row for one in view.drawn.maps for row in one.force_kN)
     return [known for row in rows if (known := [x for x in row if not math.isnan(x)])]
 
 
-def _list_loaded(bounds: Sequence[BoundRecord]) -> list[BoundRecord]:
-    largest = max((bound.max_kN for bound in bounds), default=0.0)
-    return [bound for bound in bounds if bound.max_kN > _SMALLEST * largest]
+def _list_loaded(views: Sequence[EnvelopeView]) -> list[EnvelopeView]:
+    largest = max((view.force.value_kN for view in views), default=0.0)
+    return [view for view in views if view.force.value_kN > _SMALLEST * largest]
 
 
-def _name(bound: BoundRecord, words: Words) -> str:
+def _name(view: EnvelopeView, words: Words) -> str:
     """Force of a member."""
-    return name_heading(words, f"{bound.quantity}_kN")
+    return name_heading(words, f"{view.force.quantity}_kN")
 
 
 def _title(
-    what: str, bound: BoundRecord, forces: Sequence[Sequence[float]], words: Words
+    what: str, view: EnvelopeView, forces: Sequence[Sequence[float]], words: Words
 ) -> str:
     """Name and numbers of a drawing for those who cannot see it."""
-    member = _name(bound, words)
+    member = _name(view, words)
     named = words("drawing.of_member", member=member, what=words(what))
     low, high = bounds_of(forces)
     told = words(
         "drawing.forces_in_words",
         member=member,
         forces=words.show_band("max_kN", low, high),
-        largest=words.show_number("max_kN", bound.max_kN),
-        case=", ".join(words.name_values(bound.case.items())),
+        largest=words.show_number("max_kN", view.force.value_kN),
+        case=", ".join(words.name_values(view.force.case.values.items())),
     )
     return words("drawing.with_values", what=named, values=(told,))
 
@@ -341,10 +355,10 @@ def draw_envelope(row: RowStudy, words: Words) -> str:
 
     Of another member where that has no force.
     """
-    bounds = row.envelope.bounds if row.envelope else bound_grid(row)
-    members = [one for one in _list_loaded(bounds) if one.maps or one.lines]
+    views = _list_loaded(view_envelope(row))
+    members = [one for one in views if one.drawn.maps or one.drawn.lines]
     if not members:
         return ""
     first = find_shown_member(row.checks)
-    shown = min(members, key=lambda one: one.quantity != first)
+    shown = min(members, key=lambda one: one.force.quantity != first)
     return draw_maps(shown, words) or draw_lines(shown, words)

@@ -34,7 +34,7 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import BoundRecord, CaseRecord, DriverRecord
+from netdesign.study.case_records import CaseRecord, DriverRecord, LargestForce
 from netdesign.study.governing import find_shown, find_shown_member, list_failed
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.message import Message
@@ -200,20 +200,18 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_member(words, extreme.quantity)),
-                number_cell(words, "max_kN", extreme.max_kN),
+                number_cell(words, "max_kN", extreme.value_kN),
                 number_cell(words, "max_kN", extreme.low_kN),
                 number_cell(words, "max_kN", extreme.high_kN),
                 *_show_case(extreme.case, words),
                 *(
-                    number_cell(
-                        words, f"{member}_kN", extreme.coincident_kN.get(member)
-                    )
+                    number_cell(words, f"{member}_kN", extreme.beside_kN.get(member))
                     if member != extreme.quantity
-                    else number_cell(words, "max_kN", extreme.max_kN)
+                    else number_cell(words, "max_kN", extreme.value_kN)
                     for member in REPORTED_MEMBERS
                 ),
             )
-            for extreme in row.extremes
+            for extreme in row.member_forces
         ),
         empty=words("heading.no_case_converged"),
     )
@@ -256,26 +254,25 @@ def build_bounds(row: RowStudy, words: Words) -> Table:
     )
 
 
-def _list_bounds(row: RowStudy) -> list[BoundRecord]:
+def _list_bounds(row: RowStudy) -> list[LargestForce]:
     """Bounds of the members that carry something."""
-    bounds = [] if row.envelope is None else row.envelope.bounds
-    return [one for one in bounds if one.upper_bound_kN > 0.0]
+    return [one for one in row.member_forces if one.bound_kN]
 
 
-def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
-    again = bound.confirmation
-    gap = bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN > 0.0 else 0.0
+def _bound_row(force: LargestForce, words: Words) -> tuple[Cell, ...]:
+    again, bound = force.confirmed, force.bound_kN or 0.0
+    gap = bound / force.value_kN - 1.0 if force.value_kN > 0.0 else 0.0
     by = MISSING
     if again is not None:
         by = words.show(again.reason)
         if again.reason is None:
             by = words("show.solved_again_by", count=again.elements or 0)
     difference = again.difference_percent if again else None
-    case = words.join(words.show_number(*one) for one in bound.case.items())
+    case = words.join(words.show_number(*one) for one in force.case.values.items())
     return (
-        text_cell(show_member(words, bound.quantity)),
-        number_cell(words, "max_kN", bound.max_kN),
-        number_cell(words, "max_kN", bound.upper_bound_kN),
+        text_cell(show_member(words, force.quantity)),
+        number_cell(words, "max_kN", force.value_kN),
+        number_cell(words, "max_kN", bound),
         fixed_cell(words, 100.0 * gap, 2),
         number_cell(words, "max_kN", again.confirmed_kN if again else None),
         Cell(
@@ -290,7 +287,9 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
 def _build_drivers(row: RowStudy, words: Words) -> Table:
     """Force of the member that is shown at both ends of each range; Sobol indices."""
     member = find_shown_member(row.checks)
-    shown = [one for one in _list_bounds(row) if one.quantity == member and one.drivers]
+    bounded = [one.quantity for one in _list_bounds(row)]
+    drawn = row.envelope.drawn if row.envelope and member in bounded else []
+    shown = [one for one in drawn if one.quantity == member and one.drivers]
     drivers = [driver for one in shown for driver in one.drivers]
     return Table(
         caption=words("caption.driver_table"),

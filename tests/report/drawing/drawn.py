@@ -12,18 +12,18 @@ from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.charts import draw_monitoring
 from netdesign.report.drawing.envelope_maps import (
-    bound_grid,
+    EnvelopeView,
     draw_lines,
     draw_maps,
+    view_envelope,
 )
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.study.case_records import (
-    AxisRecord,
-    BoundRecord,
+    DrawnForce,
     DriverRecord,
-    EnvelopeRecord,
+    LargestForce,
     LineRecord,
     MapRecord,
 )
@@ -53,7 +53,7 @@ AXES = {
 
 def draw_all(rng: random.Random, words) -> list[str]:
     """Every kind of drawing once, of values drawn with ``rng``."""
-    bounds = build_envelope(rng).bounds
+    bounds = [build_view(rng)]
     return [
         draw_section(build_section(rng), "s", words),
         *(draw(one, words) for draw in (draw_maps, draw_lines) for one in bounds),
@@ -67,7 +67,7 @@ def draw_all(rng: random.Random, words) -> list[str]:
 def draw_grid(rng: random.Random, words) -> list[str]:
     """The grid of cases."""
     row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
-    return [draw_maps(one, words) for one in bound_grid(row)]
+    return [draw_maps(one, words) for one in view_envelope(row)]
 
 
 MODES = {
@@ -158,35 +158,27 @@ def _pull(rng, name, at, head):
     )
 
 
-def build_envelope(rng: random.Random) -> EnvelopeRecord:
+def build_view(rng: random.Random) -> EnvelopeView:
     """One member over three to eight quantities."""
     keys = list(AXES)[: rng.randint(3, 8)]
-    size = 10 ** rng.uniform(-0.5, 3.3)
-    return EnvelopeRecord(
-        axes=[AxisRecord(key=key, low=AXES[key][0], high=AXES[key][1]) for key in keys],
-        is_per_metre=False,
-        is_closed=True,
-        gap_asked_percent=1.0,
-        certainty=3.0,
-        resolved_share=0.6,
-        cases=50,
-        skipped=0,
-        skips_tested=0,
-        failed=0,
-        bounds=[_build_bound(rng, keys, size)],
-    )
+    return _build_bound(rng, keys, 10 ** rng.uniform(-0.5, 3.3))
 
 
 def _build_bound(rng, keys, size):
     densities, frictions = (np.linspace(*AXES[key], 9).tolist() for key in keys[:2])
-    force = [size * (0.5 + 0.05 * k) for k in range(9)]
+    line = [size * (0.5 + 0.05 * k) for k in range(9)]
     angles = np.linspace(*AXES["inclination_deg"], rng.randint(1, 3)).tolist()
-    return BoundRecord(
+    force = LargestForce(
         quantity=rng.choice(["foot_anchor", "downhill_guy", "uphill_guy"]),
-        max_kN=size,
-        upper_bound_kN=1.013 * size,
-        case={key: rng.choice(AXES[key]) for key in keys},
-        coincident_kN={},
+        low_kN=size,
+        value_kN=size,
+        high_kN=1.013 * size,
+        bound_kN=1.013 * size,
+        case=CasePoint(**{key: rng.choice(AXES[key]) for key in keys}),
+        beside_kN={},
+    )
+    drawn = DrawnForce(
+        quantity=force.quantity,
         unexplained=0.001,
         drivers=[
             DriverRecord(
@@ -197,20 +189,20 @@ def _build_bound(rng, keys, size):
         ],
         lines=[
             LineRecord(
-                key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=force,
-                bound_kN=[1.01 * one for one in force],
+                key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=line,
+                bound_kN=[1.01 * one for one in line],
             )
             for key in keys
         ],
         maps=[
             MapRecord(
                 inclination_deg=angle, density_kg_m3=densities, friction_deg=frictions,
-                force_kN=[force] * 9,
+                force_kN=[line] * 9,
             )
             for angle in angles
         ],
-        confirmation=None,
     )  # fmt: skip
+    return EnvelopeView(force=force, drawn=drawn)
 
 
 def build_panel(rng: random.Random) -> PanelRecord:
@@ -243,9 +235,7 @@ def build_panel(rng: random.Random) -> PanelRecord:
         lower_along_kN=rng.uniform(0.5, 1.5) * size,
         upper_along_kN=rng.uniform(0.5, 1.5) * size,
     )
-    return PanelRecord(
-        cut="upper", has_mid_anchors=False, ropes=ropes, extremes=[], drawing=drawing
-    )
+    return PanelRecord(cut="upper", has_mid_anchors=False, ropes=ropes, drawing=drawing)
 
 
 def _fill_rope(name, kind):

@@ -4,15 +4,18 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
+from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.envelope_maps import (
-    bound_grid,
+    EnvelopeView,
     draw_lines,
     draw_maps,
+    view_envelope,
 )
 from netdesign.report.drawing.plain_svg import Frame
 from netdesign.study.case_records import (
-    BoundRecord,
+    DrawnForce,
     DriverRecord,
+    LargestForce,
     LineRecord,
     MapRecord,
 )
@@ -24,12 +27,19 @@ NS = "{http://www.w3.org/2000/svg}"
 
 def build_bound(quantity, *, size=100.0):
     densities, frictions = [250.0, 350.0, 450.0], [15.0, 30.0, 45.0]
-    return BoundRecord(
+    force = LargestForce(
         quantity=quantity,
-        max_kN=size,
-        upper_bound_kN=1.01 * size,
-        case={"density_kg_m3": 450.0, "friction_deg": 15.0, "inclination_deg": 35.0},
-        coincident_kN={},
+        low_kN=size,
+        value_kN=size,
+        high_kN=1.01 * size,
+        bound_kN=1.01 * size,
+        case=CasePoint(
+            **{"density_kg_m3": 450.0, "friction_deg": 15.0, "inclination_deg": 35.0}
+        ),
+        beside_kN={},
+    )
+    drawn = DrawnForce(
+        quantity=force.quantity,
         unexplained=0.001,
         drivers=[
             DriverRecord(
@@ -52,8 +62,8 @@ def build_bound(quantity, *, size=100.0):
             )
             for inclination in (25.0, 35.0)
         ],
-        confirmation=None,
     )  # fmt: skip
+    return EnvelopeView(force=force, drawn=drawn)
 
 
 BOUND = build_bound("foot_anchor")
@@ -89,10 +99,10 @@ def test_values_find_their_place_on_the_page():
 @pytest.mark.parametrize("samples", [2, 3])
 def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(samples):
     row = build_row("A", samples, scale=0.72, failed_case=True)
-    for bound, extreme in zip(bound_grid(row), row.extremes, strict=True):
-        svg = draw_maps(bound)
+    for view in view_envelope(row):
+        extreme, svg = view.force, draw_maps(view)
         shown = [one.text for one in shapes(svg, "text")]
-        assert write_force(extreme.max_kN) in svg
+        assert write_force(extreme.value_kN) in svg
         assert len(shapes(svg, "circle")) == 1
         assert f"θ = {extreme.case.inclination_deg:.0f}°" in shown
         assert {"×", "× no result"} <= set(shown)
@@ -100,9 +110,8 @@ def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(sample
 
 def test_a_grid_shows_the_force_of_each_of_its_cases():
     row = build_row("A", 3, scale=0.72)
-    for bound in bound_grid(row):
-        forces = {
-            force for one in bound.maps for line in one.force_kN for force in line
-        }
-        assert forces == {getattr(one, f"{bound.quantity}_kN") for one in row.cases}
-        assert max(forces) == bound.max_kN
+    for view in view_envelope(row):
+        maps, member = view.drawn.maps, view.force.quantity
+        forces = {force for one in maps for line in one.force_kN for force in line}
+        assert forces == {getattr(one, f"{member}_kN") for one in row.cases}
+        assert max(forces) == view.force.value_kN

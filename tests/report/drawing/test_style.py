@@ -17,11 +17,11 @@ def texts(svg):
 @each("slope", [5.0, 25.0, 40.0, 60.0])
 @each("tilt", [0.0, 30.0])
 def test_section_names_every_force(slope, tilt):
-    drawing = build_drawing(ROW.extremes[0], slope=slope, tilt=tilt)
+    drawing = build_drawing(ROW.member_forces[0], slope=slope, tilt=tilt)
     shown = texts(draw_section(drawing, "x"))
     for name in ("Foot anchor", "Uphill anchor", "Downhill anchor", "Post"):
         assert name in shown
-    assert f"{write_force(ROW.extremes[0].max_kN)} kN" in shown
+    assert f"{write_force(ROW.member_forces[0].value_kN)} kN" in shown
     assert f"ψ = {slope:.1f}°" in shown
 
 

@@ -55,7 +55,7 @@ def test_empty_parts_say_none():
     bare = replace(
         study.rows[0],
         checks=[],
-        extremes=[],
+        forces=[],
         cases=[],
         inputs=[],
         drawing=None,

@@ -101,7 +101,6 @@ def test_foot_anchors_in_mid_panel_are_counted(has_mid, assumed, shown):
         cut="upper",
         has_mid_anchors=has_mid,
         ropes=[],
-        extremes=[],
         assumed=[say(f"column.Nets.{one}") for one in assumed],
     )
     checks = [replace(of_force, member="foot_anchor")]

@@ -28,7 +28,7 @@ def test_worked_check_shows_symbols_numbers_and_result():
     row = build_row("A", 2, scale=0.6)
     *_, demand, derivation, resistance, ratio = list_lines(find_shown(ROW.checks))
     assert derivation[0] == "R_k"
-    force = row.extremes[0].max_kN
+    force = row.member_forces[0].value_kN
     assert demand[1] == f"= 1.5 · {force:.4g} kN"
     assert demand[2] == f"= {1.5 * force:.4g} kN"
     assert resistance[2] == f"= {480 / 1.35:.4g} kN"

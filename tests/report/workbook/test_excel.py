@@ -307,7 +307,9 @@ def test_ends_of_intervals_are_numbers(content):
     heads = [line[0] for line in sheet.iter_rows(values_only=True)]
     start = len(heads) - heads[::-1].index("Net row")
     named = [cell.value for cell in sheet[start]]
-    ends = [(one.low_kN, one.high_kN) for row in STUDY.rows for one in row.extremes]
+    ends = [
+        (one.low_kN, one.high_kN) for row in STUDY.rows for one in row.member_forces
+    ]
     names = [f"{ENGLISH('heading.band')} {end} [kN]" for end in ("low", "high")]
     places = [named.index(name) for name in names]
     lines = sheet.iter_rows(min_row=start + 1, values_only=True)
@@ -356,7 +358,7 @@ def test_bare_row_has_a_workbook():
     bare = replace(
         study.rows[0],
         checks=[],
-        extremes=[],
+        forces=[],
         cases=[],
         drawing=None,
     )
