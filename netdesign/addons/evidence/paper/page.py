@@ -294,19 +294,6 @@ def _render_page(
     )
     failures = sum(bool(run.failure) for run in study.runs.values())
     told = ENGLISH("paper.failures", count=failures) if failures else ""
-    histories = ENGLISH(
-        "paper.how_histories",
-        days=day_from_second(study.settings.horizon),
-        criterion=ENGLISH(
-            "solved.criterion",
-            strain=LEAST_STRAIN,
-            pull=PULL_DRIFT,
-            node=NODE_DRIFT,
-            rest=REST_SHARE,
-            way=REST_WAY,
-        ),
-        hours=find_history(NORMAL_NET_DEG).scene.time_scale / 3600.0,
-    )
     blocks = (
         masthead(
             f"netdesign paper · {__version__}",
@@ -329,12 +316,28 @@ def _render_page(
             ENGLISH("paper.how"),
             *(
                 Paragraph(text=one, look="text")
-                for one in (told, ENGLISH("paper.how_forces"), histories)
+                for one in (told, ENGLISH("paper.how_forces"), _tell_histories(study))
                 if one
             ),
         ),
     )
     return render_page(blocks, ENGLISH("paper.title"), "en")
+
+
+def _tell_histories(study: PaperStudy) -> str:
+    return ENGLISH(
+        "paper.how_histories",
+        days=day_from_second(study.settings.horizon),
+        criterion=ENGLISH(
+            "solved.criterion",
+            strain=LEAST_STRAIN,
+            pull=PULL_DRIFT,
+            node=NODE_DRIFT,
+            rest=REST_SHARE,
+            way=REST_WAY,
+        ),
+        hours=find_history(NORMAL_NET_DEG).scene.time_scale / 3600.0,
+    )
 
 
 def _show_plates(plates: Sequence[Plate]) -> Iterator[Block]:
