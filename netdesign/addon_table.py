@@ -31,7 +31,7 @@ METHODS = {
 # Function that makes a record of a row, by the field that has it.
 ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
 # Addition to the reports of a study whose rows have that field.
-SHOWN = {"reliability": "reliability.shown:SHOWN"}
+SHOWN = {"reliability": "reliability.section:SHOWN"}
 # Names of ``from netdesign import ...``.
 NAMES = {
     "TransientSettings": "history.settings:TransientSettings",

@@ -23,17 +23,15 @@ from netdesign.addons.evidence.verification.plan_view import (
     find_excess,
     find_plan_excess,
 )
-from netdesign.addons.evidence.verification.planview.free_gap import (
-    find_isolated_excess,
-    find_isolated_load,
-    solve_free_gap,
-)
 from netdesign.addons.evidence.verification.planview.gap import (
     find_excess_within,
+    find_isolated_excess,
+    find_isolated_load,
     find_load,
+    solve_free_gap,
+    solve_pulled_gap,
 )
-from netdesign.addons.evidence.verification.planview.pulled_gap import solve_pulled_gap
-from netdesign.addons.evidence.verification.planview.row import (
+from netdesign.addons.evidence.verification.planview.waves import (
     find_row_load,
     find_row_velocity,
     solve_row,

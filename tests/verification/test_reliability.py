@@ -18,8 +18,11 @@ from netdesign.addons.reliability.limit_state import (
     Variable,
     build_annual_maximum,
 )
-from netdesign.addons.reliability.reliability import find_reliability
-from netdesign.addons.reliability.sampling import LARGEST_ERROR, estimate_betas
+from netdesign.addons.reliability.reliability import (
+    LARGEST_ERROR,
+    estimate_betas,
+    find_reliability,
+)
 from netdesign.checks import load_standard
 from netdesign.guideline.load_model import read_load_model
 from tests.each import each

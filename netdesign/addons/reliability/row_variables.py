@@ -1,17 +1,20 @@
 """Random variables of a row's governing check: typed, assumed, or of a range.
 
-Theory: addons/reliability/THEORY.md, section 1.
+``assumed.toml`` has what is assumed where nobody gives a distribution. Theory:
+addons/reliability/THEORY.md, section 1.
 """
 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
+from importlib.resources import files
 
-from netdesign.addons.reliability.assumed import load_assumed
 from netdesign.addons.reliability.limit_state import (
+    DistributionKind,
     Variable,
     build_annual_maximum,
     build_by_share,
@@ -26,6 +29,44 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.study.check_by_case import CheckByCase
 from netdesign.words.message import Message, say
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assumed:
+    """One assumed distribution.
+
+    Attributes
+    ----------
+    distribution : str
+        Its kind.
+    variation : float
+        Coefficient of variation [-].
+    source : str
+        Key of the text that says where it is from.
+    period : float or None
+        Return period of the value of the workbook [a].
+    mean_ratio : float or None
+        Mean over the characteristic value [-].
+    """
+
+    distribution: DistributionKind
+    variation: float
+    source: str
+    period: float | None = None
+    mean_ratio: float | None = None
+
+    @property
+    def told(self) -> Message:
+        """Its source in words."""
+        return say(f"source.{self.source}")
+
+
+@lru_cache(maxsize=1)
+def load_assumed() -> Mapping[str, Assumed]:
+    """Assumed distributions by the names of their variables."""
+    text = files(__package__).joinpath("assumed.toml").read_text(encoding="utf-8")
+    return {name: Assumed(**entry) for name, entry in tomllib.loads(text).items()}
+
 
 HEIGHT, MODEL, RESISTANCE = "snow_height", "model", "resistance"
 _GLIDES = ("glide_factor", "slip_length")

@@ -1,4 +1,4 @@
-"""Notional reliability of the rows' governing checks: an annex, and lines of it.
+"""Notional reliability of the rows' governing checks: an annex, lines of it, a sheet.
 
 An index has one decimal, and never stands beside a verdict.
 """
@@ -6,9 +6,9 @@ An index has one decimal, and never stands beside a verdict.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from netdesign.addons.reliability.share_bars import draw_shares
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
     Block,
@@ -24,6 +24,14 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    measure_words,
+)
+from netdesign.report.sections.additions import Addition
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -31,7 +39,41 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
+from netdesign.report.workbook.writer import BETWEEN_TABLES, TABLE_TOP, Book
 from netdesign.study.records import ReliabilityRecord, RowStudy, Study, VariableRecord
+
+_LINE, _BAR = 11.0, 7.0  # from bar to bar, height of a bar [pt]
+_BETWEEN_BARS = 6.0  # beside a bar [pt]
+_NUMBER = 26.0  # room of a number [pt]
+
+
+def draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -> str:
+    """SVG of the bars, the largest first.
+
+    Parameters
+    ----------
+    shares : sequence of (str, float)
+        Name and share of each, from 0 to 1; at least one.
+    title : str
+        What is shown.
+    words : Words
+        Of the language.
+    """
+    ranked = sorted(shares, key=lambda one: -one[1])
+    left = max(measure_words(label, TEXT_PT) for label, _ in ranked) + _BETWEEN_BARS
+    room = 0.6 * WIDTH - left - _NUMBER
+    sketch, texts = Chart(language=words.language), []
+    for place, (label, share) in enumerate(ranked):
+        top = place * _LINE + 0.5 * (_LINE - _BAR)
+        base = top + 0.5 * _BAR + 0.35 * TEXT_PT
+        shown = words("reliability.percent", share=words.show_fixed(100.0 * share, 0))
+        sketch.text(left - _BETWEEN_BARS, base, label, anchor="end")
+        sketch.rectangle(left, top, max(0.5, room * share), _BAR, ACCENT)
+        sketch.text(left + room * share + _BETWEEN_BARS, base, shown)
+        texts.append(words("show.label", label=label, text=shown))
+    told = words("drawing.with_values", what=title, values=tuple(texts))
+    return sketch.write(len(ranked) * _LINE + 2.0, told)
+
 
 # Annual indices of the JCSS Probabilistic Model Code where safety is expensive, for
 # minor, moderate and large consequences.
@@ -264,3 +306,30 @@ def _show_value(variable: VariableRecord, value: float | None, words: Words) -> 
     form = QUANTITIES.get(variable.key)
     shown = words.show_given(float(f"{value:.3g}"))
     return append_unit(shown, form.unit) if form and form.unit else shown
+
+
+NAME = "reliability"
+_SHARE = 2  # column of the shares, zero-based
+
+
+def add_sheet(book: Book, study: Study) -> None:
+    """Add the sheet, with bars behind its shares."""
+    words = book.words
+    indices, shares = tabulate_indices(study, words), tabulate_shares(study, words)
+    note = words("reliability.is_not")
+    told = words("reliability.captioned", caption=indices.caption, note=note)
+    tables = [replace(indices, caption=told), shares, tabulate_variables(study, words)]
+    sheet = book.add_table_sheet(NAME, words("heading.reliability"), tables)
+    first = TABLE_TOP + len(indices.rows) + BETWEEN_TABLES
+    if shares.rows:
+        last = first + len(shares.rows) - 1
+        book.add_ratio_bars(sheet, (first, _SHARE, last, _SHARE), full=1.0)
+
+
+SHOWN = Addition(
+    annex="annex-reliability",
+    show=show_reliability,
+    list_lines=list_reliability,
+    sheet=NAME,
+    add_sheet=add_sheet,
+)

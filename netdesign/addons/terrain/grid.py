@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from netdesign.addons.terrain.crs import require_plane
-from netdesign.addons.terrain.reading import DAMAGE, keep_quiet, read_file
+from netdesign.addons.terrain.crs import DAMAGE, keep_quiet, read_file, require_plane
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError

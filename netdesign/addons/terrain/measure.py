@@ -13,8 +13,14 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from netdesign.addons.terrain.crossings import Rows, find_exit, find_first_crossings
-from netdesign.addons.terrain.fall_line import LONGEST_BENCH, FallLines, follow_fall
+from netdesign.addons.terrain.fall_line import (
+    LONGEST_BENCH,
+    FallLines,
+    Rows,
+    find_exit,
+    find_first_crossings,
+    follow_fall,
+)
 from netdesign.addons.terrain.grid import Grid
 from netdesign.addons.terrain.plan import NetLine, Plan
 from netdesign.addons.terrain.surface import Surface, choose_window

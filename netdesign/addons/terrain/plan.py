@@ -11,8 +11,13 @@ from typing import Any
 import numpy as np
 import shapely
 
-from netdesign.addons.terrain.crs import require_plane, require_same
-from netdesign.addons.terrain.reading import DAMAGE, keep_quiet, read_file
+from netdesign.addons.terrain.crs import (
+    DAMAGE,
+    keep_quiet,
+    read_file,
+    require_plane,
+    require_same,
+)
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError

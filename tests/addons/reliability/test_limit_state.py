@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.stats import gumbel_r, lognorm, norm
 
-from netdesign.addons.reliability.assumed import load_assumed
 from netdesign.addons.reliability.limit_state import (
     KINDS,
     Variable,
@@ -14,6 +13,7 @@ from netdesign.addons.reliability.limit_state import (
     build_by_share,
     read_kind,
 )
+from netdesign.addons.reliability.row_variables import load_assumed
 from netdesign.outcome import ModelError
 from netdesign.words.catalogue import render
 from tests.each import each

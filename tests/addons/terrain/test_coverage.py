@@ -7,8 +7,7 @@ import pytest
 
 from netdesign.addons.terrain.coverage import find_coverage
 from netdesign.addons.terrain.measure import measure_plan
-from netdesign.addons.terrain.neighbours import find_gap
-from netdesign.addons.terrain.site_lines import derive_cells
+from netdesign.addons.terrain.site_lines import derive_cells, find_gap
 from tests.addons.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)

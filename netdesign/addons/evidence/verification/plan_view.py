@@ -19,17 +19,17 @@ from scipy.sparse import block_diag, coo_matrix, csc_matrix, diags_array
 from scipy.sparse.linalg import splu
 
 from netdesign.addons.evidence.verification.case import Found, VerificationCase, judge
-from netdesign.addons.evidence.verification.planview.free_gap import (
-    find_isolated_load,
-    solve_free_gap,
-)
 from netdesign.addons.evidence.verification.planview.gap import (
     find_excess_within,
+    find_isolated_load,
     find_load,
+    solve_free_gap,
+    solve_pulled_gap,
 )
-from netdesign.addons.evidence.verification.planview.pulled_gap import solve_pulled_gap
-from netdesign.addons.evidence.verification.planview.row import solve_row
-from netdesign.addons.evidence.verification.planview.scales import compute_scales
+from netdesign.addons.evidence.verification.planview.waves import (
+    compute_scales,
+    solve_row,
+)
 from netdesign.addons.evidence.verification.slab import Slab
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.creep_law import (
