@@ -1,8 +1,8 @@
 """Load on the ends of two long rows beside a gap, from what slips through it.
 
-A gap is free, or its snow is pulled. Theory: planview/THEORY.md, sections 2 to 4. Lengths
-along the row are in l_z, loads in that of an endless wall, velocities in that far from
-any wall.
+A gap is free, or its snow is pulled. Theory: planview/THEORY.md, sections 2 to 4.
+Lengths along the row are in l_z, loads in that of an endless wall, velocities in that
+far from any wall.
 """
 
 from __future__ import annotations
