@@ -98,7 +98,7 @@ THIRD_PARTY = {
         "solving.identity",
         "addons.evidence.*",
     ),
-    "filelock": ("edge.locks",),
+    "filelock": ("edge.given_files",),
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
     "hatchling": ("core.build",),  # it runs before the package is installed

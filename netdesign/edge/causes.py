@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from netdesign.edge.locks import is_held
+from netdesign.edge.given_files import is_held
 from netdesign.outcome import ContentError, NetDesignError
 from netdesign.words.message import Message, say
 

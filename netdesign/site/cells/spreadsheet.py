@@ -16,8 +16,7 @@ from itertools import islice
 from pathlib import Path
 
 from netdesign.edge.causes import explain
-from netdesign.edge.given_files import make_printable, read_bounded
-from netdesign.edge.locks import is_held
+from netdesign.edge.given_files import is_held, make_printable, read_bounded
 from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import (
     DAMAGE,
