@@ -105,7 +105,6 @@ THIRD_PARTY = {
     "skfem": (
         "snow.forms",
         "addons.evidence.benchmark.reference_path",
-        "addons.evidence.verification.plan_view",
     ),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),

@@ -28,7 +28,6 @@ from netdesign.addons.evidence.verification.coupled import (
 )
 from netdesign.addons.evidence.verification.manufactured import list_manufactured
 from netdesign.addons.evidence.verification.panels import list_panels
-from netdesign.addons.evidence.verification.plan_view import list_plan_view
 from netdesign.addons.evidence.verification.winters import (
     list_snow_heights,
     list_winters,
@@ -57,7 +56,6 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_depth_averaged,
     list_histories,
     list_panels,
-    list_plan_view,
     list_snow_heights,
     list_winters,
     list_another_code,
