@@ -11,7 +11,12 @@ if TYPE_CHECKING:
 
     __version__: str
     # of add-ons, whose types the core does not know
+    DaySolver: Any
+    Season: Any
     TransientSettings: Any
+    WinterRow: Any
+    follow_heights: Any
+    follow_season: Any
     solve_transient: Any
 
 # The linear problems are small: threads of the BLAS make them 3 to 10 times slower

@@ -17,9 +17,11 @@ from netdesign.words.message import say
 COMMANDS = {
     "bench": "evidence.bench_command:bench",
     "paper": "evidence.command:paper",
+    "snowpack": "winter.snowpack_command:snowpack",
     "terrain": "terrain.command:terrain",
     "validate": "evidence.command:validate",
     "verify": "evidence.command:verify",
+    "winter": "winter.command:winter",
 }
 
 
@@ -34,7 +36,12 @@ ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
 SHOWN = {"reliability": "reliability.section:SHOWN"}
 # Names of ``from netdesign import ...``.
 NAMES = {
+    "DaySolver": "winter.day:DaySolver",
+    "Season": "winter.season:Season",
     "TransientSettings": "history.settings:TransientSettings",
+    "WinterRow": "winter.day:WinterRow",
+    "follow_heights": "winter.settling.follow:follow_heights",
+    "follow_season": "winter.season:follow_season",
     "solve_transient": "history.transient:solve_transient",
 }
 

@@ -71,17 +71,15 @@ def _load_command(name: str, place: str) -> click.Command:
 
 
 _OWN_MODULES = (
-    *("check", "completion", "doctor", "envelope", "report"),
-    *("solve", "standards", "winter"),
+    *("check", "completion", "doctor", "envelope", "glide", "report"),
+    *("solve", "standards"),
 )
 _COMMANDS = CommandTable(
     {
         **{name: f"{name}.{name}" for name in _OWN_MODULES},
         "diff": "report.diff",
-        "glide": "snow.glide",
         "init": "site_input.init",
         "map": "site_input.map_headings",
-        "snowpack": "snow.snowpack",
         **addon_table.COMMANDS,
     }
 )

@@ -45,7 +45,6 @@ from netdesign.snow.ground import (
 from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
-from netdesign.snowpack.follow import follow_heights as follow_heights
 from netdesign.solving.runner import Runner as Runner
 from netdesign.structure.anchors import AnchorForces as AnchorForces
 from netdesign.structure.head import FailedSupport as FailedSupport
@@ -53,7 +52,3 @@ from netdesign.structure.layout import SupportLayout as SupportLayout
 from netdesign.study.check_run import CheckRun as CheckRun
 from netdesign.study.check_site import check_site as check_site
 from netdesign.study.records import Study as Study
-from netdesign.winter.day import DaySolver as DaySolver
-from netdesign.winter.day import WinterRow as WinterRow
-from netdesign.winter.season import Season as Season
-from netdesign.winter.season import follow_season as follow_season

@@ -1,1 +1,1 @@
-"""Snowpack of a station from its daily snow heights: layers, masses, densities."""
+"""Series of daily snow heights: gaps, winters; densities of a model code."""

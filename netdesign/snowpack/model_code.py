@@ -1,6 +1,6 @@
 """Mean density of settled snow by its height, after a model code.
 
-Theory: winter/THEORY.md, section 8.
+Theory: addons/winter/THEORY.md, section 8.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import require_positive
-from netdesign.snowpack.pack import GRAVITY
 
 # JCSS Probabilistic Model Code, Part 2.12 (secondary).
 _SETTLED, _FRESH = 5000.0, 1700.0  # unit weights [N/m3]
 _DEPTH = 0.85  # [m]
+GRAVITY = 9.81  # [m/s2]
 
 
 def find_model_code_density(height: float) -> float:

@@ -12,8 +12,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import gumbel_r, norm
 
+from netdesign.addons.winter.statistics import Gumbel, find_trend, fit_gumbel
 from netdesign.snowpack.model_code import find_model_code_density
-from netdesign.winter.statistics import Gumbel, find_trend, fit_gumbel
 
 VARIATION = 0.30  # of the maxima, whose mean is 1
 SCALE = VARIATION * math.sqrt(6.0) / math.pi

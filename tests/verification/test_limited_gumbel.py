@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import genextreme, gumbel_r
 
-from netdesign.winter import statistics
-from netdesign.winter.statistics import LEAST_ABOVE, fit_limited
+from netdesign.addons.winter import statistics
+from netdesign.addons.winter.statistics import LEAST_ABOVE, fit_limited
 from tests.each import each
 
 MODE, SCALE = 16.3, 4.7
@@ -108,7 +108,7 @@ def test_too_few_winters_or_too_few_above_the_limit_have_no_fit():
 @pytest.mark.long
 @pytest.mark.parametrize("winters", [15, 30, 60])
 def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters, monkeypatch):
-    """30 % below the limit; winter/THEORY.md, section 10, has the shares found."""
+    """30 % below the limit: the shares of addons/winter/THEORY.md, section 10."""
     monkeypatch.setattr(statistics, "_BOOTSTRAP", 400)
     limit = float(gumbel_r.ppf(0.3, MODE, SCALE))
     fits = [fit_limited(list(one), limit) for one in draw(winters, 2000)]
@@ -127,7 +127,7 @@ def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters, monkeypatch):
 @pytest.mark.long
 @each("shape, low, held", [(0.1, -0.079, 0.83), (0.2, -0.159, 0.56)])
 def test_a_heavier_tail_makes_the_value_too_low(shape, low, held, monkeypatch):
-    """By as much as winter/THEORY.md says."""
+    """By as much as addons/winter/THEORY.md says."""
     monkeypatch.setattr(statistics, "_BOOTSTRAP", 200)
     tail = genextreme(-shape, MODE, SCALE)
     samples = tail.rvs(size=(1000, 40), random_state=5)

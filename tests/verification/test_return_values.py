@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.stats import genextreme
 
-from netdesign.winter.statistics import fit_extreme_values, fit_gumbel
+from netdesign.addons.winter.statistics import fit_extreme_values, fit_gumbel
 
 SAMPLES = 2000
 PERIODS = (30.0, 100.0)

@@ -14,10 +14,10 @@ from netdesign.addons.evidence.verification.winters import (
     read_made_up_winter,
     solve_winter,
 )
+from netdesign.addons.winter.day import RowDay, build_day_scene, merge_layers
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer
-from netdesign.winter.day import RowDay, build_day_scene, merge_layers
-from tests.winter.made_up_row import SLOPE, a_scene, a_solver, slides
+from tests.addons.winter.made_up_row import SLOPE, a_scene, a_solver, slides
 
 HIGHEST = 2.90  # [m], of this winter
 

@@ -204,7 +204,7 @@ def _describe(
     features: Sequence[Feature], coverage: Coverage, noise: float
 ) -> dict[str, Any]:
     return {
-        "schema": "netdesign.addons.terrain/1",
+        "schema": "netdesign.terrain/1",
         "noise_m": noise,
         "zone_m2": coverage.area,
         "uncovered_m2": coverage.uncovered,

@@ -7,6 +7,7 @@ from datetime import date, timedelta
 
 import numpy as np
 
+from netdesign.addons.winter.figure import draw_winter
 from netdesign.checks.check import CasePoint
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
@@ -19,7 +20,6 @@ from netdesign.report.drawing.envelope_maps import (
 )
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.study.case_records import (
     DrawnForce,
     DriverRecord,

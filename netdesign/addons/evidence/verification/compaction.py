@@ -10,13 +10,13 @@ import math
 from collections.abc import Callable, Mapping
 
 from netdesign.addons.evidence.verification.case import VerificationCase, judge
+from netdesign.addons.winter.settling.hs2swe import Hs2swe
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     PAPER_FLUIDITY,
     CreepLaw,
     compute_confined_softness,
 )
-from netdesign.snowpack.hs2swe import Hs2swe
 
 PLACE = (367.0, 5e3)  # at which one figure is quoted [kg/m3, Pa]
 

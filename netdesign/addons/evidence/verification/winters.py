@@ -16,17 +16,17 @@ from netdesign.addons.evidence.verification.case import (
     judge,
     largest_difference,
 )
+from netdesign.addons.winter.day import DaySolver, RowDay, WinterRow
+from netdesign.addons.winter.season import Season, follow_season
+from netdesign.addons.winter.settling.delta_snow import DELTA_SNOW
+from netdesign.addons.winter.settling.follow import MODELS, follow_heights
+from netdesign.addons.winter.settling.hs2swe import HS2SWE
+from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer
-from netdesign.snowpack.delta_snow import DELTA_SNOW
-from netdesign.snowpack.follow import MODELS, follow_heights
-from netdesign.snowpack.hs2swe import HS2SWE
-from netdesign.snowpack.pack import DayPack
-from netdesign.winter.day import DaySolver, RowDay, WinterRow
-from netdesign.winter.season import Season, follow_season
 
 _SLOPE_DEG = 40.0
 _SLIP = 1.5  # [m]

@@ -1,0 +1,228 @@
+"""``netdesign winter``: heights of snow at a station, on the rows of a site."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from netdesign.commands.config import ConfiguredCommand
+from netdesign.commands.options import take_options
+from netdesign.commands.running import (
+    EXIT_CODES,
+    open_phases,
+    print_document,
+    print_faults,
+    require_places,
+    write_outputs,
+)
+from netdesign.commands.site_input import (
+    build_text_format,
+    choose_rows,
+    read_asked_site,
+    require_source,
+)
+from netdesign.commands.usage import tell
+from netdesign.outcome import ModelError, Verdict
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from netdesign.addons.winter.document import WinterRun
+    from netdesign.site.model import Site, StationWinter
+    from netdesign.solving.runner import Runner
+    from netdesign.words.message import Message
+
+_FOLDER = "winter"
+_PHASE = 150  # solves of a row and winter, about; a table has 63
+EXAMPLE_HEIGHTS = "winter_2000.csv"
+
+
+@click.command(cls=ConfiguredCommand)
+@click.argument("site_file", required=False, type=click.Path(path_type=Path))
+@take_options("winter")
+def winter(site_file: Path | None, **asked: Any) -> None:
+    """Follow a station's snow heights on the net rows of a site.
+
+    \b
+    netdesign winter --example
+    netdesign winter site.xlsx --out winter
+    netdesign winter site.xlsx --heights station.csv --model hs2swe
+    netdesign winter site.xlsx --row R1 --every 1 --json > winter.json
+
+    Daily snow heights become layers, each day's snow is solved at rest: forces against
+    date, the governing day, annual maxima of many winters, and a range of density that
+    sheet Ranges may use. Exit code 4 if a winter may be the largest and has no proven
+    maximum.
+    """
+    from netdesign.addons.winter.document import write_winter_document
+    from netdesign.addons.winter.page import (
+        DOCUMENT_FILE,
+        PAGE_FILE,
+        render_winter,
+    )
+    from netdesign.edge.progress import Phase
+
+    given = [] if asked["heights"] is None else [asked["heights"]]
+    require_source(site_file, asked, *given)
+    folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
+    require_places(folder, (DOCUMENT_FILE, PAGE_FILE), asked)
+    site = read_asked_site(site_file, asked)
+    station = _find_heights(site, asked)
+    chosen = choose_rows(site, asked["rows"])
+    count = _PHASE * len(chosen.rows)
+    words = say("phase.winters")
+    phase = Phase(key="winters", words=words, cases=count, most=4 * count)
+    with open_phases([phase], asked) as (runner, progress):
+        progress.enter("winters")
+        run = _solve(chosen, station, runner, asked)
+    failed = print_faults(runner.faults)
+    document = write_winter_document(run)
+    if folder:
+        write_outputs(folder, render_winter(document), asked)
+    if asked["as_json"]:
+        print_document(document)
+    else:
+        _show(document)
+    sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _is_proven(document: dict[str, Any]) -> bool:
+    """Every winter has a proven maximum or is not the largest."""
+    return all(
+        one["is_proven"] or one["is_below_largest"]
+        for row in document["rows"]
+        for one in row["winters"]
+    )
+
+
+def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
+    """Heights of the file, else those of the site, else those of the example."""
+    from importlib.resources import as_file, files
+
+    from netdesign.site.snow_sheets import complete_by_sheet, read_height_file
+    from netdesign.snowpack.series import smooth
+
+    found = site.winter
+    if asked["heights"] is not None:
+        ids, form = [row.id for row in site.rows], build_text_format(asked)
+        found, remarks = read_height_file(asked["heights"], form, ids)
+        for remark in remarks:
+            tell(remark.message, err=True)
+        found, note = complete_by_sheet(found, site.winter)
+        if note:
+            tell(note, err=True)
+    elif found is None and asked["example"]:
+        with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
+            found, _ = read_height_file(path)
+    if found is None:
+        raise ModelError(say("winter.no_heights"))
+    return replace(found, series=smooth(found.series)) if asked["median"] else found
+
+
+def _solve(
+    site: Site, station: StationWinter, runner: Runner, asked: Mapping[str, Any]
+) -> WinterRun:
+    from netdesign.addons.winter.day import DaySolver
+    from netdesign.addons.winter.document import WinterRun
+    from netdesign.addons.winter.row import (
+        build_winter_row,
+        compare_row,
+        list_measured_pulls,
+        name_measured_winters,
+        require_plausible_heights,
+    )
+    from netdesign.addons.winter.season import follow_station, follow_winters
+    from netdesign.addons.winter.settling.follow import MODELS as KNOWN
+    from netdesign.coupling.scene import SolverSettings
+
+    rows = [build_winter_row(site, row, station) for row in site.rows]
+    pulls = [list_measured_pulls(site, row.id) for row in rows]
+    if not asked["accept_heights"]:
+        require_plausible_heights(rows, site.rows, station)
+    first = asked["model"]
+    others = [model for name, model in KNOWN.items() if name != first]
+    packs = follow_station(station.series, [KNOWN[first], *others])
+    settings = SolverSettings(accuracy=asked["accuracy"])
+    results = []
+    for row, measured in zip(rows, pulls, strict=True):
+        solver = DaySolver(row=row, settings=settings, runner=runner)
+        named = name_measured_winters(measured)
+        results.append(follow_winters(packs, solver, asked["every"], named))
+    return WinterRun(
+        site=site,
+        winter=station,
+        rows=rows,
+        results=results,
+        packs=packs,
+        compared=[
+            compare_row(measured, result, row, station.series)
+            for measured, result, row in zip(pulls, results, rows, strict=True)
+        ],
+        is_smoothed=asked["median"],
+        accuracy=asked["accuracy"],
+        step=asked["every"],
+    )
+
+
+def _show(document: dict[str, Any]) -> None:
+    for row in document["rows"]:
+        for one in row["winters"]:
+            tell(_tell_winter(row["id"], one))
+            if one["days_without_force"]:
+                tell(_count_failed(row["id"], one))
+        if row["equivalent_density"]:
+            tell(row["equivalent_density"]["justification"])
+        if row["snow_heights"]:
+            tell(row["snow_heights"]["text"])
+        for told in _list_statistics(row):
+            tell(told)
+
+
+def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
+    """Line on the pulls of a winter, or on their bound."""
+    has_none = winter["foot_peak_kN_per_m"] is None
+    if has_none or winter["uniform_at_most_kN_per_m"] is not None:
+        return say("show.label", label=f"{row} {winter['name']}", text=winter["why"])
+    return say(
+        "winter.line",
+        row=row,
+        winter=winter["name"],
+        foot=winter["foot_peak_kN_per_m"],
+        head=winter["head_peak_kN_per_m"] or 0.0,
+        day=winter["governing_date"] or "-",
+        why=winter["why"],
+    )
+
+
+def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
+    """Lines on the return values of a row with their errors, and on its trend."""
+    found = row["statistics"]
+    for one in found["return_values"] if found else ():
+        yield say(
+            "winter.return_value",
+            row=row["id"],
+            period=one["period_a"],
+            foot=one["foot_kN_per_m"],
+            low=one["low_kN_per_m"],
+            high=one["high_kN_per_m"],
+            count=found["winters"],
+        )
+    for text in (*row["statistics_notes"], row["trend"]["why"]):
+        yield say("show.label", label=row["id"], text=text)
+
+
+def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
+    """Line on the days of a curve that have no force."""
+    return say(
+        "winter.without_force",
+        row=row,
+        winter=winter["name"],
+        count=winter["days_without_force"],
+        days=len(winter["curve"]),
+    )

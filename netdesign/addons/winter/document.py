@@ -1,0 +1,505 @@
+"""The winter document: plain values of all rows' winters, for JSON and for the page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from netdesign.addons.winter.day import RowDay, WinterRow
+from netdesign.addons.winter.maxima import AnnualMaximum
+from netdesign.addons.winter.measured import Comparison, ComputedForce
+from netdesign.addons.winter.row import ASSUMED_FACTOR, explain_unused
+from netdesign.addons.winter.sample import Sample
+from netdesign.addons.winter.season import (
+    RowWinters,
+    Season,
+    StationPacks,
+    list_complete,
+)
+from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.statistics import (
+    LEAST_FOR_TREND,
+    RETURN_PERIODS,
+    ExtremeValue,
+    Gumbel,
+    LimitedGumbel,
+    Trend,
+    fit_gumbel,
+)
+from netdesign.site.model import Site, StationWinter
+from netdesign.snowpack.series import HeightSeries
+from netdesign.units import (
+    celsius_from_kelvin,
+    degree_from_radian,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
+from netdesign.words.message import Message, say
+
+
+def _write_measured(
+    run: WinterRun, row_id: str, compared: Sequence[Comparison]
+) -> dict[str, Any]:
+    """Parts ``measured`` and ``not_compared`` of a row, by its comparisons."""
+    series = run.winter.series
+    unused = explain_unused(run.site, row_id, compared)
+    return {
+        "measured": [_write_compared(one, series) for one in compared if one.computed],
+        "not_compared": [str(one) for one in unused],
+    }
+
+
+def _write_compared(one: Comparison, series: HeightSeries) -> dict[str, Any]:
+    """Readings, computed forces with their band, and how far they are apart."""
+    return {
+        "winter": one.winter,
+        "member": one.member,
+        "source": one.pulls.source,
+        "days_compared": int(one.ratios.size),
+        "computed_over_measured": one.mean_ratio,
+        "scatter": one.scatter,
+        "readings_in_band": one.inside,
+        "temperature_amplitude_assumed": any(day.is_assumed for day in one.computed),
+        "readings": [
+            {"time": moment.isoformat(), "force_kN": kilonewton_from_newton(force)}
+            for moment, force in zip(one.pulls.moments, one.pulls.forces, strict=True)
+        ],
+        "air_temperatures": [
+            {"time": moment.isoformat(), "air_C": celsius_from_kelvin(kelvin)}
+            for moment, kelvin in one.pulls.air_temperatures
+        ],
+        "computed": [_write_computed(day, series) for day in one.computed],
+    }
+
+
+def _write_computed(day: ComputedForce, series: HeightSeries) -> dict[str, Any]:
+    return {
+        "date": series.day(day.index).isoformat(),
+        "force_kN": kilonewton_from_newton(day.force.value),
+        "low_kN": kilonewton_from_newton(max(0.0, day.force.low - day.swing)),
+        "high_kN": kilonewton_from_newton(day.force.high + day.swing),
+        "rope_swing_kN": kilonewton_from_newton(day.swing),
+        "temperature_amplitude_K": day.amplitude,
+    }
+
+
+SCHEMA = "netdesign.winter/1"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WinterRun:
+    """Winters of a site as they were solved.
+
+    Attributes
+    ----------
+    site : Site
+        Where the rows stand.
+    winter : StationWinter
+        What was measured.
+    rows : sequence of WinterRow
+        As loaded.
+    results : sequence of RowWinters
+        Of each row.
+    packs : StationPacks
+        Snow of the station, from which they come.
+    compared : sequence of sequence of Comparison
+        Measured forces of each row beside its curves.
+    is_smoothed : bool
+        Heights are medians of three days.
+    accuracy : float
+        Of each solve [-].
+    step : int
+        Days between those of a curve.
+    """
+
+    site: Site
+    winter: StationWinter
+    rows: Sequence[WinterRow]
+    results: Sequence[RowWinters]
+    packs: StationPacks
+    compared: Sequence[Sequence[Comparison]]
+    is_smoothed: bool
+    accuracy: float
+    step: int
+
+
+def write_winter_document(run: WinterRun) -> dict[str, Any]:
+    """Document of all rows; its sentences are English.
+
+    Parameters
+    ----------
+    run : WinterRun
+        What was solved.
+    """
+    station, series = run.winter, run.winter.series
+    density = run.site.ranges["density"]
+    return {
+        "schema": SCHEMA,
+        "site": {"file": run.site.file_name, "name": run.site.project.name},
+        "station": {
+            "name": station.station,
+            "file": station.file or run.site.file_name,
+            "altitude_m": station.altitude,
+            "height_factor": station.height_factor or ASSUMED_FACTOR,
+            "height_factor_given": station.height_factor is not None,
+            "first_day": series.first_day.isoformat(),
+            "last_day": series.days[-1].isoformat(),
+            "days_filled": len(series.filled),
+            "is_smoothed": run.is_smoothed,
+        },
+        "model": run.results[0].model if run.results else "",
+        "accuracy": run.accuracy,
+        "days_between": run.step,
+        "check_density_kg_m3": [density.low, density.high],
+        "ranges_sheet": run.site.ranges_sheet,
+        "notes": [str(note) for note in station.notes],
+        "air_temperatures_C": _write_temperatures(station),
+        "rows": [
+            _write_row(row, result, run) | _write_measured(run, row.id, compared)
+            for row, result, compared in zip(
+                run.rows, run.results, run.compared, strict=True
+            )
+        ],
+    }
+
+
+def _write_temperatures(station: StationWinter) -> dict[str, float]:
+    """Daily air temperature of the station by its date, where it is known."""
+    series = station.series
+    return {
+        day.isoformat(): round(celsius_from_kelvin(kelvin), 2)
+        for day, kelvin in zip(series.days, series.air_temperatures, strict=False)
+        if kelvin is not None
+    }
+
+
+def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, Any]:
+    scene, net = row.scene, row.scene.net
+    packs = run.packs.packs[result.model]
+    seasons = {season.name: season for season in result.seasons}
+    complete = list_complete(run.winter.series)
+    largest = max((one.foot for one in result.maxima if one.is_proven), default=0.0)
+    winters = [
+        _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
+        | {
+            "complete": maximum.winter in complete,
+            "is_below_largest": (maximum.bound or math.inf) <= largest,
+            "models": {
+                name: _write_maximum(group, maximum.winter, run)
+                for name, group in result.others.items()
+            },
+        }
+        for maximum in result.maxima
+    ]
+    for winter, maximum in zip(winters, result.maxima, strict=True):
+        winter["why"] = str(_explain(winter, maximum))
+        for day in winter["curve"]:
+            reason = day["reason"]
+            day["reason"] = str(reason) if reason else ""
+    return {
+        "id": row.id,
+        "height_factor": row.height_factor,
+        "height_factor_given": run.winter.find_factor(row.id) is not None,
+        "slope_deg": degree_from_radian(scene.snowpack.slope_angle),
+        "net_height_m": net.height_normal,
+        "inclination_deg": degree_from_radian(net.inclination),
+        "friction_deg": degree_from_radian(getattr(net, "friction_angle", 0.0) or 0.0),
+        "ground": scene.ground.kind,
+        "slip_length_m": scene.ground.slip_length,
+        "winters": winters,
+        "statistics": _write_statistics(result.sample.fit, result.extreme_values),
+        "statistics_notes": [str(one) for one in _note_sample(result.sample)],
+        "winters_left_out": result.sample.left_out,
+        "trend": _write_trend(result.trend),
+        "equivalent_density": _write_range(result, run),
+        "snow_heights": _write_heights(row, winters, run),
+        "fit": None,  # of the schema: forces are no longer fitted
+    }
+
+
+def _write_winter(
+    maximum: AnnualMaximum,
+    packs: Mapping[int, DayPack],
+    season: Season | None,
+    run: WinterRun,
+) -> dict[str, Any]:
+    series = run.winter.series
+    highest = max(packs, key=lambda k: packs[k].height)
+    heaviest = max(packs, key=lambda k: packs[k].mass)
+    governing = season.governing if season else None
+    index = governing.index if governing else maximum.index
+    uniform = maximum.foot if maximum.has_pull else None
+    foot = governing.pull if governing else uniform
+    at_highest = season.highest.pull if season else None
+    curve: Sequence[RowDay] = season.curve if season else ()
+    heads = [day.head.value for day in curve if day.head]
+    head = maximum.head if maximum.has_pull else None
+    if season:
+        head = max(heads, default=None)
+    return {
+        "name": maximum.winter,
+        "outcome": maximum.ending.replace(" ", "_"),
+        "is_proven": maximum.is_proven,
+        "basis": "layers" if governing and governing.layers else "uniform",
+        "height_max_m": packs[highest].height,
+        "height_max_date": series.day(highest).isoformat(),
+        "height_max_density_kg_m3": packs[highest].density,
+        "swe_max_kg_m2": packs[heaviest].mass,
+        "swe_max_date": series.day(heaviest).isoformat(),
+        "governing_date": series.day(index).isoformat() if index is not None else None,
+        "governing_height_m": packs[index].height if index is not None else None,
+        "governing_density_kg_m3": packs[index].density if index is not None else None,
+        "foot_peak_kN_per_m": kilonewton_if_known(foot),
+        "head_peak_kN_per_m": kilonewton_if_known(head),
+        "members_peak_kN": _largest_members(curve),
+        "uniform_peak_kN_per_m": kilonewton_if_known(uniform),
+        "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
+        "foot_at_height_max_kN_per_m": kilonewton_if_known(at_highest),
+        "equivalent_density_kg_m3": (season or maximum).equivalent_density,
+        "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
+        "days_above_90_percent": season.high_days if season else None,
+        "days_without_force": len(season.failed) if season else None,
+        "curve": [_write_day(day, packs, run) for day in curve],
+    }
+
+
+def _write_maximum(
+    group: Sequence[AnnualMaximum], winter: str, run: WinterRun
+) -> dict[str, Any] | None:
+    """Annual maximum of the same winter by another settling model."""
+    maximum = next((one for one in group if one.winter == winter), None)
+    if maximum is None:
+        return None
+    day = run.winter.series.day(maximum.index) if maximum.index is not None else None
+    return {
+        "outcome": maximum.ending.replace(" ", "_"),
+        "uniform_peak_kN_per_m": kilonewton_if_known(
+            maximum.foot if maximum.has_pull else None
+        ),
+        "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
+        "date": day.isoformat() if day else None,
+        "density_kg_m3": maximum.density,
+        "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
+    }
+
+
+def _write_day(
+    day: RowDay, packs: Mapping[int, DayPack], run: WinterRun
+) -> dict[str, Any]:
+    return {
+        "date": run.winter.series.day(day.index).isoformat(),
+        "outcome": day.ending,
+        "reason": day.reason,
+        "station_height_m": packs[day.index].height,
+        "swe_kg_m2": packs[day.index].mass,
+        "thickness_m": day.thickness,
+        "density_kg_m3": day.density,
+        "foot_kN_per_m": kilonewton_if_known(day.pull),
+        "head_kN_per_m": kilonewton_if_known(day.head.value if day.head else None),
+        "error_kN_per_m": kilonewton_if_known(
+            (day.foot.high - day.foot.low) / 2.0 if day.foot else None
+        ),
+        "members_kN": {
+            name: kilonewton_from_newton(band.value)
+            for name, band in day.member_forces.items()
+        },
+        "layers": [
+            {"thickness_m": layer.thickness, "density_kg_m3": layer.density}
+            for layer in day.layers
+        ],
+    }
+
+
+def _largest_members(curve: Sequence[RowDay]) -> dict[str, float]:
+    """Largest force of each member over a curve [kN]."""
+    found: dict[str, float] = {}
+    for day in curve:
+        for name, band in day.member_forces.items():
+            force = kilonewton_from_newton(band.value)
+            found[name] = max(force, found.get(name, 0.0))
+    return found
+
+
+def _write_statistics(
+    fit: Gumbel | LimitedGumbel | None, other: ExtremeValue | None
+) -> dict[str, Any] | None:
+    if fit is None:
+        return None
+    limit = fit.limit if isinstance(fit, LimitedGumbel) else None
+    return {
+        "distribution": _LIMITED if limit else "Gumbel, by moments",
+        "winters": fit.count,
+        "winters_below": fit.below if isinstance(fit, LimitedGumbel) else 0,
+        "limit_kN_per_m": kilonewton_if_known(limit),
+        "mean_kN_per_m": kilonewton_from_newton(fit.mean),
+        "variation": fit.variation,
+        "gev_shape": other.shape if other else None,
+        "return_values": [_write_value(one, fit, other) for one in RETURN_PERIODS],
+    }
+
+
+_LIMITED = "Gumbel, by maximum likelihood above a limit"
+
+
+def _note_sample(sample: Sample) -> Iterator[Message]:
+    """Sentences on winters that count by a bound, or not at all."""
+    if sample.lack:
+        yield sample.lack
+        return
+    if isinstance(sample.fit, LimitedGumbel):
+        yield say(
+            "winter_sample.limited",
+            bounded=len(sample.bounds),
+            count=sample.fit.count,
+            below=sample.fit.below,
+            limit=kilonewton_from_newton(sample.fit.limit),
+        )
+    if sample.left_out:
+        yield say("winter_sample.left_out", winters=tuple(sample.left_out))
+
+
+def _write_value(
+    period: float, fit: Gumbel | LimitedGumbel, other: ExtremeValue | None
+) -> dict[str, Any]:
+    """Return value by both distributions, with the ends of 5 and 95 %."""
+    value, error = fit.find_return_value(period)
+    low, high = fit.find_interval(period)
+    found = {"foot": value, "standard_error": error, "low": low, "high": high}
+    is_far = False
+    if other is not None:
+        found["gev"] = other.find_return_value(period)
+        found["gev_low"], found["gev_high"] = other.find_interval(period)
+        is_far = abs(found["gev"] - value) > error
+    shown = {
+        f"{name}_kN_per_m": kilonewton_from_newton(one) for name, one in found.items()
+    }
+    return {"period_a": period, **shown, "is_gev_far": is_far}
+
+
+def _write_trend(trend: Trend | None) -> dict[str, Any]:
+    """Trend of the maxima, and the sentence that says what it means."""
+    if trend is None:
+        keys = ("winters", "kendall_tau", "p_value", "slope_kN_per_m_per_decade")
+        told = say("winter_trend.none", least=LEAST_FOR_TREND)
+        return {**dict.fromkeys(keys), "is_shown": False, "why": str(told)}
+    slope = _YEARS * kilonewton_from_newton(trend.slope)
+    shown = math.ceil(1e3 * trend.p_value) / 1e3  # "at most 0.001", never 0
+    told = say(_choose_meaning(trend), count=trend.count, p=shown, slope=slope)
+    return {
+        "winters": trend.count,
+        "kendall_tau": trend.rank_correlation,
+        "p_value": trend.p_value,
+        "slope_kN_per_m_per_decade": slope,
+        "is_shown": trend.is_shown,
+        "why": str(told),
+    }
+
+
+def _choose_meaning(trend: Trend) -> str:
+    if not trend.is_shown:
+        return "winter_trend.not_shown"
+    grows = trend.rank_correlation > 0.0
+    return "winter_trend.grown" if grows else "winter_trend.fallen"
+
+
+_YEARS = 10.0  # of a decade
+
+
+def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
+    """Range of density that the winters give, and the sentence that justifies it."""
+    found = result.density_range
+    if found is None:
+        return None
+    text = say(
+        "winter.justification",
+        low=found[0],
+        high=found[1],
+        count=len(result.maxima),
+        station=_name_source(run),
+        first=run.winter.series.first_day.isoformat(),
+        last=run.winter.series.days[-1].isoformat(),
+        models=(result.model, *result.others),
+        row=result.row_id,
+    )
+    return {
+        "low_kg_m3": found[0],
+        "high_kg_m3": found[1],
+        "justification": str(text),
+    }
+
+
+RELIABILITY_PERIOD = 1000.0  # [a], near the indices of a notional reliability
+
+
+def _write_heights(
+    row: WinterRow,
+    winters: Sequence[Mapping[str, Any]],
+    run: WinterRun,
+) -> dict[str, Any] | None:
+    """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
+    heights = [
+        row.height_factor * one["height_max_m"] for one in winters if one["complete"]
+    ]
+    fit = fit_gumbel(heights)
+    if fit is None or fit.deviation == 0.0:
+        return None
+    variation = fit.find_predictive_variation(RELIABILITY_PERIOD)
+    typed = next(one for one in run.site.rows if one.id == row.id)
+    ratio = fit.mean * math.cos(typed.slope_angle) / typed.snow_thickness
+    text = say(
+        "winter.heights",
+        row=row.id,
+        count=fit.count,
+        station=_name_source(run),
+        variation=variation,
+        ratio=ratio,
+        sheet=say("sheet.Uncertainty"),
+    )
+    return {
+        "winters": fit.count,
+        "mean_m": fit.mean,
+        "variation": fit.variation,
+        "predictive_variation": variation,
+        "mean_ratio": ratio,
+        "text": str(text),
+    }
+
+
+def _name_source(run: WinterRun) -> str:
+    """Station and file of the heights; the site's file only where no name is known."""
+    named = [one for one in (run.winter.station, run.winter.file) if one]
+    return ", ".join(named) or run.site.file_name
+
+
+def _explain(winter: Mapping[str, Any], maximum: AnnualMaximum) -> Message:
+    """Reason why that day governs, or why no maximum is proven."""
+    if maximum.ending == "overtopped":
+        return say("winter.why_overtopped")
+    if maximum.ending == "doubtful":
+        reason, bound = maximum.reason or "-", winter["uniform_at_most_kN_per_m"]
+        if bound is None:
+            return say("winter.why_doubtful", reason=reason)
+        return say("winter.why_bounded", reason=reason, bound=bound)
+    if winter["governing_date"] is None:
+        return say("winter.why_no_snow")
+    share = winter["governing_height_m"] / winter["height_max_m"]
+    return say(
+        _choose_reason(winter["basis"], share),
+        share=share,
+        density=winter["governing_density_kg_m3"],
+        before=winter["height_max_density_kg_m3"],
+        day=winter["governing_date"],
+        highest=winter["height_max_date"],
+    )
+
+
+def _choose_reason(basis: str, share: float) -> str:
+    """Word of why a day governs; uniform snow pulls more, whether ripe or not."""
+    if basis == "uniform":
+        return "winter.why_uniform"
+    return "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high"
+
+
+_NEARLY_HIGHEST = 0.98

@@ -1,0 +1,594 @@
+"""Annual maximum of a row: uniform snow of each day's mass and height.
+
+Of many winters through a table. Theory: addons/winter/THEORY.md, sections 2, 3 and 8.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from netdesign.addons.winter.day import LEAST_DENSITY, DaySolver, RowDay
+from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.envelope.panel_forces import spread_out
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.words.message import Message
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RectBivariateSpline
+
+_THICKNESSES, _DENSITIES = 9, 7  # of a table
+_DEGREE = 2  # of its splines
+_EDGE = 1.005  # how far a table reaches beyond what it was asked for
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class UniformTable:
+    """Pulls of uniform snow at the nodes of a grid, as logarithms.
+
+    Attributes
+    ----------
+    thicknesses : ndarray, shape (n_thicknesses,)
+        ln d, ascending [d in m].
+    densities : ndarray, shape (n_densities,)
+        ln rho, ascending [rho in kg/m3].
+    foot, head : ndarray, shape (n_thicknesses, n_densities)
+        ln of the net's pulls [in N/m].
+    error : float
+        Of a pull that is read, relative: the largest of those that were solved [-].
+    """
+
+    thicknesses: Floats
+    densities: Floats
+    foot: Floats
+    head: Floats
+    error: float
+
+    def find_pulls(self, thickness: Floats, density: Floats) -> tuple[Floats, Floats]:
+        """Foot and head pulls [N/m], both (n_days,); NaN outside the table.
+
+        Parameters
+        ----------
+        thickness : ndarray, shape (n_days,)
+            d [m], above 0.
+        density : ndarray, shape (n_days,)
+            [kg/m3], above 0.
+        """
+        x, y = np.log(thickness), np.log(density)
+        is_inside = (
+            (x >= self.thicknesses[0])
+            & (x <= self.thicknesses[-1])
+            & (y >= self.densities[0])
+            & (y <= self.densities[-1])
+        )
+        foot, head = (
+            np.where(is_inside, np.exp(spline(x, y, grid=False)), np.nan)
+            for spline in self._splines
+        )
+        return foot, head
+
+    def read_days(self, days: Sequence[RowDay]) -> tuple[RowDay, ...]:
+        """Days with their pulls, as if they were solved; without those outside.
+
+        Parameters
+        ----------
+        days : sequence of RowDay
+            Prepared.
+        """
+        foot, head = self.find_pulls(
+            np.array([day.thickness for day in days]),
+            np.array([day.density for day in days]),
+        )
+        return tuple(
+            replace(
+                day,
+                ending="solved",
+                foot=spread_out(float(at_foot), self.error * float(at_foot)),
+                head=spread_out(float(at_head), self.error * float(at_head)),
+            )
+            for day, at_foot, at_head in zip(days, foot, head, strict=True)
+            if np.isfinite(at_foot)
+        )
+
+    def find_density(self, thickness: float, foot: float) -> float | None:
+        """Density of uniform snow that pulls so much [kg/m3]; None outside the table.
+
+        Parameters
+        ----------
+        thickness : float
+            d [m].
+        foot : float
+            Pull [N/m].
+        """
+        densities = np.exp(np.linspace(self.densities[0], self.densities[-1], 400))
+        pulls, _ = self.find_pulls(np.full(densities.size, thickness), densities)
+        if not np.isfinite(pulls).all() or not pulls[0] <= foot <= pulls[-1]:
+            return None
+        return float(np.interp(foot, pulls, densities))
+
+    @cached_property
+    def _splines(self) -> tuple[RectBivariateSpline, RectBivariateSpline]:
+        """Splines of the pulls at foot and head; many winters ask one table."""
+        from scipy.interpolate import RectBivariateSpline
+
+        foot, head = (
+            RectBivariateSpline(
+                self.thicknesses, self.densities, values, kx=_DEGREE, ky=_DEGREE
+            )
+            for values in (self.foot, self.head)
+        )
+        return foot, head
+
+
+def build_table(
+    solver: DaySolver,
+    thicknesses: tuple[float, float],
+    densities: tuple[float, float],
+) -> UniformTable | None:
+    """Table of a row between two thicknesses and two densities.
+
+    Thin snow that fails is left out from below. None if other nodes fail.
+
+    Parameters
+    ----------
+    solver : DaySolver
+        Of the row.
+    thicknesses, densities : (float, float)
+        Least and largest [m], [kg/m3].
+    """
+    top = solver.row.scene.net.height_normal
+    high = min(thicknesses[1] * _EDGE, top)
+    d = np.geomspace(min(thicknesses[0] / _EDGE, 0.9 * high), high, _THICKNESSES)
+    rho = np.geomspace(densities[0] / _EDGE, densities[1] * _EDGE, _DENSITIES)
+    d[-1] = high  # not above the net by rounding
+    days = solver.solve(
+        [
+            RowDay(index=k, thickness=float(a), density=float(b), ending="open")
+            for k, (a, b) in enumerate((a, b) for a in d for b in rho)
+        ]
+    )
+    foot, head = (_collect(days, name).reshape(d.size, rho.size) for name in _PULLS)
+    usable: Mask = np.all(np.isfinite(foot), axis=1)
+    first = int(np.argmax(usable))
+    if not usable[first:].all() or usable.sum() <= _DEGREE:
+        return None
+    return UniformTable(
+        thicknesses=np.log(d[first:]),
+        densities=np.log(rho),
+        foot=foot[first:],
+        head=head[first:],
+        error=max(
+            pull.high / pull.value - 1.0
+            for day in days[first * rho.size :]
+            for pull in (day.foot, day.head)
+            if pull
+        ),
+    )
+
+
+_PULLS = ("foot", "head")
+
+
+def _collect(days: Sequence[RowDay], name: str) -> Floats:
+    """Logarithm of one pull of each day; NaN of those that failed."""
+    pulls = [getattr(day, name) for day in days]
+    return np.array([np.log(pull.value) if pull else np.nan for pull in pulls])
+
+
+# Powers of density and thickness that rank the days (fitted; no force follows).
+_RANKS = {"free": (0.95, 1.15), "no-slip": (1.2, 1.9), "sliding": (1.2, 1.9)}
+RANKED = 0.7  # of the best rank: days below it are not solved for the maximum
+# Within one winter pulls over ranks differ by less than this factor (section 2).
+RANK_SPREAD = 1.2
+_FEW = 2  # days that are solved at once
+# A failed day above this share of the best day's rank may be the one that governs.
+DOUBTED = 0.8
+_SECANT_STEPS = 3
+
+MaximumEnding = Literal["solved", "overtopped", "doubtful", "no snow"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnnualMaximum:
+    """Largest pull of a winter.
+
+    Attributes
+    ----------
+    winter : str
+        As "1999/2000".
+    ending : str
+        ``solved``; ``overtopped`` and ``doubtful`` prove no maximum: snow stood above
+        the net, or a day that may govern has no force. ``no snow``: on no day it
+        reached the least thickness, and the maximum is 0.
+    index : int or None
+        Place of its day in the series.
+    thickness, density : float
+        Of that day [m], [kg/m3]; 0 without one.
+    foot, head : float
+        Pulls of that day [N/m].
+    equivalent_density : float or None
+        Of uniform snow of the winter's largest height that pulls as much [kg/m3].
+    bound : float or None
+        The foot pulls at most that in a ``doubtful`` winter [N/m]; None without one.
+    reason : Message or None
+        Why a day of a ``doubtful`` winter has no force.
+    """
+
+    winter: str
+    ending: MaximumEnding
+    index: int | None = None
+    thickness: float = 0.0
+    density: float = 0.0
+    foot: float = 0.0
+    head: float = 0.0
+    equivalent_density: float | None = None
+    bound: float | None = None
+    reason: Message | None = None
+
+    @property
+    def has_pull(self) -> bool:
+        """Its pulls are those of a day, or 0 of a winter without snow."""
+        return self.index is not None or self.is_proven
+
+    @property
+    def is_proven(self) -> bool:
+        """The winter's maximum is known."""
+        return self.ending in ("solved", "no snow")
+
+
+def find_annual_maximum(
+    winter: str,
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+    *,
+    is_alone: bool = False,
+    table: UniformTable | None = None,
+) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
+    """Annual maximum, and the days among which it was found.
+
+    Parameters
+    ----------
+    winter : str
+        Its name.
+    packs : mapping of int to DayPack
+        Snowpack of each day by its place in the series.
+    solver : DaySolver
+        Of the row.
+    is_alone : bool, optional
+        Nothing but the maximum is wanted: days that pull less by (Y19) are left out.
+    table : UniformTable, optional
+        Of the row; days outside are solved.
+    """
+    days = solver.prepare(_list_snow(packs), layered=False)
+    return _find_maximum(winter, days, solver, is_alone=is_alone, table=table)
+
+
+def _find_maximum(
+    winter: str,
+    days: Sequence[RowDay],
+    solver: DaySolver,
+    *,
+    is_alone: bool,
+    table: UniformTable | None,
+) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
+    """Annual maximum of days that are prepared."""
+    chosen = choose_days(days, solver)
+    read = table.read_days(chosen) if table else ()
+    inside = {day.index for day in read}
+    outside = [day for day in chosen if day.index not in inside]
+    if is_alone:
+        solved = _solve_heaviest(outside, solver, read)
+    else:
+        solved = (*read, *solver.solve(outside))
+    best = find_largest(solved)
+    known = _judge(winter, days, solved, solver)
+    if best is None or best.foot is None or best.head is None:
+        return known, solved
+    top = max(day.thickness for day in days)
+    maximum = replace(
+        known,
+        index=best.index,
+        thickness=best.thickness,
+        density=best.density,
+        foot=best.foot.value,
+        head=best.head.value,
+        equivalent_density=_find_equivalent(top, best, solver, table),
+    )
+    return maximum, solved
+
+
+def _find_equivalent(
+    top: float, best: RowDay, solver: DaySolver, table: UniformTable | None
+) -> float | None:
+    """Equivalent density by the table, where both days are inside, else by solves."""
+    found = table.find_density(top, best.pull or 0.0) if table else None
+    return found or find_equivalent(top, best, solver)
+
+
+def _list_snow(packs: Mapping[int, DayPack]) -> dict[int, DayPack]:
+    """Packs of the days with snow."""
+    return {k: pack for k, pack in packs.items() if pack.heights.size}
+
+
+def find_maximum_alone(
+    winter: str, packs: Mapping[int, DayPack], solver: DaySolver
+) -> AnnualMaximum:
+    """Annual maximum by as few solves as do, as of `find_annual_maximum`."""
+    return find_annual_maximum(winter, packs, solver, is_alone=True)[0]
+
+
+def _solve_heaviest(
+    days: Sequence[RowDay], solver: DaySolver, read: Sequence[RowDay] = ()
+) -> tuple[RowDay, ...]:
+    """Days solved by descending rank, while one that is left may pull most.
+
+    They are solved coarsely, and the largest again to the full accuracy. None is solved
+    that another outdoes in thickness and density, (Y19), unless that one has no force.
+    Days that were ``read`` from a table are as accurate as they can be.
+    """
+    found = list(read)
+    left = _list_uncovered(days, found)
+    while batch := _choose_next(_list_heaviest(left), found, solver):
+        found += solver.coarse.solve(batch)
+        tried = {day.index for day in batch}
+        left = _list_uncovered([day for day in left if day.index not in tried], found)
+    best = find_largest(found)
+    if any(day is best for day in read):
+        return tuple(found)
+    return tuple(
+        solver.solve([one.reopen()])[0] if one is best else one for one in found
+    )
+
+
+def _list_uncovered(days: Sequence[RowDay], solved: Sequence[RowDay]) -> list[RowDay]:
+    """Days that no solved one outdoes in thickness and density."""
+    known = _list_heaviest([one for one in solved if one.foot])
+    return [day for day in days if not any(_covers(one, day) for one in known)]
+
+
+def _choose_next(
+    days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> list[RowDay]:
+    """Few days of the best ranks, of those that may pull more than what is solved."""
+    ground = solver.row.scene.ground.kind
+    known = [day for day in solved if day.foot]
+    pulls = np.array([day.pull for day in known])
+    least = 0.0
+    if known:
+        most = float(np.max(pulls / rank_days(known, ground)))
+        least = float(pulls.max()) / (RANK_SPREAD * most)
+    ranks = rank_days(days, ground)
+    order = [k for k in np.argsort(-ranks, kind="stable") if ranks[k] >= least]
+    return [days[k] for k in order[:_FEW]]
+
+
+def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
+    """Days of which no other is as thick and as dense; one of those that are alike."""
+    order = sorted(days, key=lambda day: (-day.thickness, -day.density))
+    found: list[RowDay] = []
+    for day in order:  # only what is denser than all that is thicker
+        if not found or day.density > found[-1].density:
+            found.append(day)
+    return found
+
+
+def find_many_maxima(
+    groups: Mapping[str, Mapping[str, Mapping[int, DayPack]]], solver: DaySolver
+) -> tuple[dict[str, tuple[AnnualMaximum, ...]], UniformTable | None]:
+    """Annual maxima of many winters, and the table that they are read from.
+
+    By solves where there is none.
+
+    Parameters
+    ----------
+    groups : mapping of str to mapping
+        Packs of each winter by its name, for each settling model.
+    solver : DaySolver
+        Of the row.
+    """
+    days = {
+        (model, winter): solver.prepare(_list_snow(packs), layered=False)
+        for model, winters in groups.items()
+        for winter, packs in winters.items()
+    }
+    chosen = [day for one in days.values() for day in choose_days(one, solver)]
+    table = _build_table(chosen, days.values(), solver) if chosen else None
+    found: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
+    for (model, winter), one in days.items():
+        maximum, _ = _find_maximum(winter, one, solver, is_alone=True, table=table)
+        found[model].append(maximum)
+    return {model: tuple(maxima) for model, maxima in found.items()}, table
+
+
+def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
+    """Days whose uniform snow may pull most: those near the best rank.
+
+    Parameters
+    ----------
+    days : sequence of RowDay
+        Prepared.
+    solver : DaySolver
+        Of the row.
+    """
+    waiting = [day for day in days if day.is_open]
+    ranks = rank_days(waiting, solver.row.scene.ground.kind)
+    least = RANKED * float(ranks.max(initial=0.0))
+    return tuple(day for day, rank in zip(waiting, ranks, strict=True) if rank >= least)
+
+
+def rank_days(days: Sequence[RowDay], ground: str) -> Floats:
+    """Order of the pulls to be expected, eq. (Y3); no force follows. Shape (n_days,).
+
+    Parameters
+    ----------
+    days : sequence of RowDay
+        Thickness and density of each.
+    ground : str
+        Kind of ground.
+    """
+    p, q = _RANKS[ground]
+    densities = np.array([day.density for day in days])
+    thicknesses = np.array([day.thickness for day in days])
+    return np.asarray(densities**p * thicknesses**q)
+
+
+def find_largest(days: Iterable[RowDay]) -> RowDay | None:
+    """Day of the largest foot pull; None if no day has one.
+
+    Parameters
+    ----------
+    days : iterable of RowDay
+        Any.
+    """
+    solved = [day for day in days if day.foot is not None]
+    return max(solved, key=lambda day: day.pull or 0.0, default=None)
+
+
+def find_equivalent(
+    thickness: float, governing: RowDay, solver: DaySolver
+) -> float | None:
+    """Equivalent density [kg/m3], eq. (Y4), by secants in logarithms.
+
+    Parameters
+    ----------
+    thickness : float
+        Largest of the winter [m].
+    governing : RowDay
+        Day whose foot pull it is to have.
+    solver : DaySolver
+        Of the row.
+
+    Returns
+    -------
+    float or None
+        None where snow of that thickness cannot be solved, or stands above the net.
+    """
+    if not governing.pull or not solver.row.holds(thickness):
+        return None
+    target, power = np.log(governing.pull), _RANKS["no-slip"][0]
+    x, known = float(np.log(governing.density)), []
+    for _ in range(_SECANT_STEPS):
+        uniform = replace(
+            governing,
+            thickness=thickness,
+            density=float(np.exp(x)),
+            layers=(),
+            ending="open",
+        )
+        (day,) = solver.solve([uniform])
+        if not day.pull:
+            return None
+        known.append((x, float(np.log(day.pull))))
+        if len(known) > 1 and abs(known[-1][0] - known[-2][0]) > 1e-3:
+            (x0, y0), (x1, y1) = known[-2:]
+            power = (y1 - y0) / (x1 - x0)
+        x = known[-1][0] + (target - known[-1][1]) / power
+    return float(np.exp(x))
+
+
+def _judge(
+    winter: str, days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> AnnualMaximum:
+    """Ending of a winter, with its bound where a day that may govern has no force."""
+    best = find_largest(solved)
+    if any(day.ending == "overtopped" for day in days):
+        return AnnualMaximum(winter=winter, ending="overtopped")
+    doubted = _list_doubted(solved, best, solver)
+    if not doubted:
+        return AnnualMaximum(winter=winter, ending="solved" if best else "no snow")
+    bound = find_bound(doubted, solved, solver)
+    largest = best.foot.high if best and best.foot else 0.0
+    if bound is not None and bound <= largest:
+        return AnnualMaximum(winter=winter, ending="solved")
+    return AnnualMaximum(
+        winter=winter, ending="doubtful", bound=bound, reason=doubted[0].reason
+    )
+
+
+def _list_doubted(
+    solved: Sequence[RowDay], best: RowDay | None, solver: DaySolver
+) -> list[RowDay]:
+    """Failed days that may govern, those that may pull most first."""
+    failed = [day for day in solved if day.ending == "failed"]
+    every = [best, *failed] if best else failed
+    ranks = rank_days(every, solver.row.scene.ground.kind)
+    least = DOUBTED * float(ranks[0]) if best else 0.0
+    order = np.argsort(-ranks, kind="stable")
+    return [every[k] for k in order if every[k] is not best and ranks[k] > least]
+
+
+_THICKER = 1.1  # from one snow to the next that is tried for a bound
+
+
+def find_bound(
+    failed: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
+) -> float | None:
+    """Upper bound of the pulls of failed days [N/m], eq. (Y19).
+
+    Parameters
+    ----------
+    failed : sequence of RowDay
+        At least one.
+    solved : sequence of RowDay
+        Uniform snow of the same row; those that failed do not count.
+    solver : DaySolver
+        Of the row.
+
+    Returns
+    -------
+    float or None
+        None where no thicker snow of a day's density has a force, up to the head.
+    """
+    known = [day for day in solved if day.foot]
+    bound = 0.0
+    for day in sorted(failed, key=lambda one: -one.density):
+        above = [one.foot.high for one in known if one.foot and _covers(one, day)]
+        if not above:
+            thicker = _solve_thicker(day, solver)
+            if thicker is None or thicker.foot is None:
+                return None
+            known.append(thicker)
+            above = [thicker.foot.high]
+        bound = max(bound, min(above))
+    return bound
+
+
+def _covers(one: RowDay, other: RowDay) -> bool:
+    """The snow is neither thinner nor lighter than the other."""
+    return one.thickness >= other.thickness and one.density >= other.density
+
+
+def _solve_thicker(day: RowDay, solver: DaySolver) -> RowDay | None:
+    """Least thick snow of a day's density that has a force; None without any."""
+    top = solver.row.scene.net.height_normal
+    steps = math.ceil(math.log(top / day.thickness) / math.log(_THICKER))
+    density = max(day.density, LEAST_DENSITY)
+    for thickness in np.geomspace(day.thickness, top, max(steps, 1) + 1)[1:]:
+        snow = replace(
+            day, thickness=float(thickness), density=density, layers=(), ending="open"
+        )
+        (found,) = solver.solve([snow])
+        if found.foot:
+            return found
+    return None
+
+
+def _build_table(
+    chosen: Sequence[RowDay],
+    days: Iterable[Sequence[RowDay]],
+    solver: DaySolver,
+) -> UniformTable | None:
+    """Table over the days that may govern, and over the largest heights."""
+    tops = [max(day.thickness for day in one) for one in days if one]
+    held = [top for top in tops if solver.row.holds(top)]
+    thicknesses = [*(day.thickness for day in chosen), *held]
+    densities = [day.density for day in chosen]
+    least = min(day.thickness for day in chosen)
+    return build_table(
+        solver, (least, max(thicknesses)), (min(densities), max(densities))
+    )

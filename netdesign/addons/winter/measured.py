@@ -1,0 +1,309 @@
+"""Measured forces beside the chain of a winter: readings, swing by temperature, ratios.
+
+Theory: addons/winter/THEORY.md, section 6.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+
+import numpy as np
+
+from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
+from netdesign.addons.winter.season import Season
+from netdesign.cable.net import Net
+from netdesign.checks.result import Band
+from netdesign.coupling.scene import Scene
+from netdesign.numerics.arrays import Floats
+from netdesign.snowpack.series import HeightSeries
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredPulls:
+    """Readings at one member of a row.
+
+    Attributes
+    ----------
+    member : str
+        As in ``RowDay.member_forces``.
+    moments : tuple of datetime, shape (n,)
+        Ascending, local time.
+    forces : tuple of float, shape (n,)
+        Per anchor [N].
+    source : str
+        First cell; "" of pulls made up.
+    air_temperatures : tuple of (datetime, float)
+        Read beside them [K].
+    """
+
+    member: str
+    moments: tuple[datetime, ...]
+    forces: tuple[float, ...]
+    source: str = ""
+    air_temperatures: tuple[tuple[datetime, float], ...] = ()
+
+    def average_days(self, series: HeightSeries) -> Mapping[int, float]:
+        """Mean force of each day [N], by its place in a station's series.
+
+        Days outside the series are left out.
+
+        Parameters
+        ----------
+        series : HeightSeries
+            Of the station.
+        """
+        groups: dict[int, list[float]] = {}
+        for moment, force in zip(self.moments, self.forces, strict=True):
+            place = (moment.date() - series.first_day).days
+            if 0 <= place < len(series.heights):
+                groups.setdefault(place, []).append(force)
+        return {k: sum(forces) / len(forces) for k, forces in groups.items()}
+
+
+EXPANSION = 1.2e-5  # of steel [1/K]
+ASSUMED_AMPLITUDE = 5.0  # [K]; a clear day in spring, where no temperature is known
+_DAY_RATE = 2.0 * math.pi / 86400.0  # [1/s]
+_WINDOW = 1.0  # days before and after, whose temperatures count
+# Fits of (Y8) to histories of uniform snow, 0.3 and more of D* / d as measured.
+_HALVING, _BY_SLIP, _FREE_HALVING = 10.0, 2.0, 0.1
+
+
+def find_half_time(scene: Scene) -> float:
+    """Time in which snow takes back half of a sudden pull [s], eq. (Y8).
+
+    Parameters
+    ----------
+    scene : Scene
+        Net with the snow of a day.
+    """
+    ground, pack = scene.ground, scene.snowpack
+    if ground.kind == "free":
+        factor = _FREE_HALVING
+    else:
+        slip = ground.slip_length / pack.thickness
+        factor = _HALVING / (1.0 + _BY_SLIP * math.sqrt(slip))
+    return factor * scene.force_scale / _read_stiffness(scene) * scene.time_scale
+
+
+def find_swing(scene: Scene, amplitude: float) -> float:
+    """Amplitude of the pull on a net's ends through a day [N/m], eq. (Y9).
+
+    Parameters
+    ----------
+    scene : Scene
+        Net with the snow of a day.
+    amplitude : float
+        Of the day's wave of temperature [K].
+    """
+    turns = _DAY_RATE * find_half_time(scene) / math.log(2.0)
+    at_once = _read_stiffness(scene) * EXPANSION * amplitude
+    return at_once * turns / math.hypot(1.0, turns)
+
+
+def find_amplitude(
+    temperatures: Sequence[tuple[float, float]], day: float
+) -> float | None:
+    """Half the range of the temperatures near a day [K]; None of fewer than two.
+
+    Parameters
+    ----------
+    temperatures : sequence of (float, float)
+        Time [d] and temperature [K], in any order.
+    day : float
+        [d].
+    """
+    near = [kelvin for time, kelvin in temperatures if abs(time - day) <= _WINDOW]
+    return (max(near) - min(near)) / 2.0 if len(near) > 1 else None
+
+
+def _read_stiffness(scene: Scene) -> float:
+    """ES [N/m]; a wall has no rope that could swing."""
+    return scene.net.stiffness_per_m if isinstance(scene.net, Net) else 0.0
+
+
+_NOON = 0.5  # time of a day's own value [d]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComputedForce:
+    """Force of a member on one day of the chain, with the swing by temperature.
+
+    Attributes
+    ----------
+    index : int
+        Day in the series of heights.
+    force : Band
+        Of the steady state, with its numerical band [N].
+    swing : float
+        Amplitude by which the ropes' temperature moves it [N].
+    amplitude : float
+        Of the temperature [K].
+    is_assumed : bool
+        No temperature is known near that day.
+    """
+
+    index: int
+    force: Band
+    swing: float
+    amplitude: float
+    is_assumed: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Comparison:
+    """Measured and computed force of one member through one winter.
+
+    Attributes
+    ----------
+    winter, member : str
+        Which.
+    pulls : MeasuredPulls
+        Its readings in this winter.
+    computed : tuple of ComputedForce
+        Of the days of the curve that have a force, ascending.
+    ratios : ndarray, shape (n_days,)
+        Computed over measured mean of each day with readings within the curve [-].
+    inside : float or None
+        Share of the readings within the band [-]; None where none can be compared.
+    """
+
+    winter: str
+    member: str
+    pulls: MeasuredPulls
+    computed: tuple[ComputedForce, ...]
+    ratios: Floats
+    inside: float | None
+
+    @property
+    def mean_ratio(self) -> float | None:
+        """Mean of computed over measured [-]; None where no day can be compared."""
+        return float(self.ratios.mean()) if self.ratios.size else None
+
+    @property
+    def scatter(self) -> float | None:
+        """Standard deviation of its logarithm [-]; None of fewer than two days."""
+        known = self.ratios[self.ratios > 0.0]
+        return float(np.log(known).std()) if known.size > 1 else None
+
+
+def compare_season(
+    pulls: MeasuredPulls, season: Season, row: WinterRow, series: HeightSeries
+) -> Comparison | None:
+    """Readings of a member beside the season's curve; None without any in its days.
+
+    Parameters
+    ----------
+    pulls : MeasuredPulls
+        Of one member.
+    season : Season
+        With its curve.
+    row : WinterRow
+        Of both.
+    series : HeightSeries
+        Of the station, with its air temperatures.
+    """
+    first, last = season.days.start, season.days.stop
+    within = _cut(pulls, series, first, last)
+    warmth = [
+        (place + _NOON, kelvin)
+        for place, kelvin in enumerate(series.air_temperatures)
+        if kelvin is not None
+    ]
+    warmth += [(series.place(moment), one) for moment, one in within.air_temperatures]
+    computed = tuple(
+        one
+        for day in season.curve
+        if (one := _compute(day, pulls.member, row, warmth)) is not None
+    )
+    if not within.forces:
+        return None
+    return Comparison(
+        winter=season.name,
+        member=pulls.member,
+        pulls=within,
+        computed=computed,
+        ratios=_compare_days(within.average_days(series), computed),
+        inside=_count_inside(within, computed, series),
+    )
+
+
+def _cut(
+    pulls: MeasuredPulls, series: HeightSeries, first: int, last: int
+) -> MeasuredPulls:
+    """Readings on the days from first to before last."""
+
+    def holds(moment: datetime) -> bool:
+        return first <= series.place(moment) < last
+
+    chosen = [k for k, moment in enumerate(pulls.moments) if holds(moment)]
+    air = tuple(one for one in pulls.air_temperatures if holds(one[0]))
+    return replace(
+        pulls,
+        moments=tuple(pulls.moments[k] for k in chosen),
+        forces=tuple(pulls.forces[k] for k in chosen),
+        air_temperatures=air,
+    )
+
+
+def _compute(
+    day: RowDay, member: str, row: WinterRow, warmth: Sequence[tuple[float, float]]
+) -> ComputedForce | None:
+    """Force of a member, and its swing in proportion to the pull that it follows."""
+    if day.ending in ("bare", "thin"):
+        nothing = Band(low=0.0, value=0.0, high=0.0)
+        return ComputedForce(
+            index=day.index, force=nothing, swing=0.0, amplitude=0.0, is_assumed=False
+        )
+    force, pull = day.member_forces.get(member), day.head
+    if member == "foot_anchor":
+        pull = day.foot
+    if force is None or pull is None:
+        return None
+    found = find_amplitude(warmth, day.index + _NOON)
+    amplitude = ASSUMED_AMPLITUDE if found is None else found
+    scene = build_day_scene(row.scene, replace(day, layers=()))
+    share = find_swing(scene, amplitude) / pull.value if pull.value else 0.0
+    return ComputedForce(
+        index=day.index,
+        force=force,
+        swing=share * force.value,
+        amplitude=amplitude,
+        is_assumed=found is None,
+    )
+
+
+def _compare_days(
+    measured: Mapping[int, float], computed: Sequence[ComputedForce]
+) -> Floats:
+    """Computed over measured of each day within the curve, between its days linear."""
+    if not computed:
+        return np.empty(0)
+    places = np.array([one.index for one in computed])
+    values = np.array([one.force.value for one in computed])
+    within = {
+        day: force
+        for day, force in measured.items()
+        if places[0] <= day <= places[-1] and force > 0.0
+    }
+    forces = np.array(list(within.values()))
+    return np.asarray(np.interp(np.array(list(within)), places, values) / forces)
+
+
+def _count_inside(
+    pulls: MeasuredPulls, computed: Sequence[ComputedForce], series: HeightSeries
+) -> float | None:
+    """Share of the readings between force less swing and force plus swing."""
+    if not computed:
+        return None
+    times = np.array([series.place(moment) for moment in pulls.moments])
+    places = np.array([one.index + _NOON for one in computed])
+    known = (times >= places[0]) & (times <= places[-1])
+    if not known.any():
+        return None
+    low = np.interp(times, places, [one.force.low - one.swing for one in computed])
+    high = np.interp(times, places, [one.force.high + one.swing for one in computed])
+    forces = np.array(pulls.forces)
+    return float(((low <= forces) & (forces <= high))[known].mean())

@@ -1,0 +1,383 @@
+"""Winter document -> folder: page without script, and JSON.
+
+All numbers shown are the document's.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from netdesign.addons.winter.figure import draw_winter
+from netdesign.addons.winter.measured_figure import draw_measured, find_detail
+from netdesign.report.blocks import (
+    Block,
+    Cell,
+    Figure,
+    Heading,
+    Paragraph,
+    Part,
+    Table,
+    fixed_cell,
+    force_cell,
+    key_columns,
+    masthead,
+    name_columns,
+    notes,
+    section,
+    text_cell,
+)
+from netdesign.report.page.render import render_page
+from netdesign.report.words import ENGLISH, MISSING, Words, show_member, show_text
+
+PAGE_FILE, DOCUMENT_FILE = "winter.html", "winter.json"
+
+
+def render_winter(document: Mapping[str, Any]) -> dict[str, bytes]:
+    """Contents of both files by name.
+
+    Parameters
+    ----------
+    document : mapping
+        As ``files.winter.write_winter_document`` gives it.
+    """
+    words = ENGLISH
+    site = show_text(document["site"]["name"] or document["site"]["file"])
+    kind = words("winter_page.title")
+    told = (show_text(note) for note in document["notes"])
+    station = Part(
+        id="station",
+        blocks=(
+            *(Paragraph(text=one) for one in _describe_station(document, words)),
+            notes(words("winter_page.chain"), words("winter_page.law"), *told),
+        ),
+    )
+    blocks = (
+        masthead("netdesign winter", words("show.label", label=kind, text=site)),
+        station,
+        *(
+            section(
+                f"row-{place}",
+                words("winter_page.row", row=show_text(row["id"])),
+                *_show_row(row, document, words),
+            )
+            for place, row in enumerate(document["rows"], 1)
+        ),
+    )
+    text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
+    return {
+        DOCUMENT_FILE: text.encode(),
+        PAGE_FILE: render_page(blocks, f"{site} - {kind}", "en").encode(),
+    }
+
+
+def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
+    """Sentences on where the heights come from, and how they reach the rows."""
+    station = document["station"]
+    altitude = station["altitude_m"]
+    named = station["name"] or words("winter_page.unnamed")
+    if altitude is not None:
+        named = words("winter_page.at_altitude", station=named, altitude=altitude)
+    if station["file"] != document["site"]["file"]:
+        named = f"{named} ({station['file']})"
+    found = [
+        words(
+            "winter_page.station",
+            station=named,
+            first=station["first_day"],
+            last=station["last_day"],
+        ),
+        words("winter_page.model", model=document["model"]),
+    ]
+    if station["is_smoothed"]:
+        found.append(words("winter_page.smoothed"))
+    return [show_text(text) for text in found]
+
+
+def _show_row(
+    row: Mapping[str, Any], document: Mapping[str, Any], words: Words
+) -> Iterator[Block]:
+    shown = [winter for winter in row["winters"] if winter["curve"]]
+    air = document["air_temperatures_C"]
+    yield from _describe_row(row, words)
+    yield _tabulate_winters(row, words).shown("study winters")
+    if unproven := _list_unproven(row, words):
+        yield notes(*unproven, look="notes open")
+    for winter in shown:
+        drawn = draw_winter(winter, air, words)
+        yield Figure(svg=drawn, caption=_label(winter, words), look="plate")
+        if failed := _list_failed(winter, words):
+            yield notes(*failed)
+    if row["measured"] or row["not_compared"]:
+        yield Heading(text=words("winter_measured.heading"), level=3)
+    for one in row["measured"]:
+        yield from _show_measured(one, air, words)
+    for text in row["not_compared"]:
+        yield Paragraph(text=show_text(text), look="notes open")
+    members = _tabulate_members(shown, words)
+    if members.rows:
+        yield members.shown("study winters")
+    yield _tabulate_models(row, document["model"], words).shown("study winters")
+    yield from _show_statistics(row, words)
+    yield Heading(text=words("winter_page.density_heading"), level=3)
+    for text in _describe_range(row, document, words):
+        yield Paragraph(text=text)
+
+
+def _describe_row(row: Mapping[str, Any], words: Words) -> list[Paragraph]:
+    is_given = row["height_factor_given"]
+    factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
+    scene = words(
+        "winter_page.scene",
+        friction=row["friction_deg"],
+        inclination=row["inclination_deg"],
+        height=row["net_height_m"],
+        slope=row["slope_deg"],
+    )
+    told = (scene, words(factor, factor=row["height_factor"]))
+    return [Paragraph(text=text, look="small") for text in told]
+
+
+def _label(winter: Mapping[str, Any], words: Words) -> str:
+    return words("show.label", label=winter["name"], text=show_text(winter["why"]))
+
+
+def _list_unproven(row: Mapping[str, Any], words: Words) -> list[str]:
+    """Winters that may have the largest force, those of one reason together."""
+    found: dict[str, list[str]] = {}
+    for winter in row["winters"]:
+        if not (winter["is_proven"] or winter["is_below_largest"]):
+            found.setdefault(show_text(winter["why"]), []).append(winter["name"])
+    return [
+        words("show.label", label=", ".join(names), text=why)
+        for why, names in found.items()
+    ]
+
+
+def _show_measured(
+    one: Mapping[str, Any], air: Mapping[str, float], words: Words
+) -> Iterator[Figure]:
+    """Figure of a member's readings, and a detail where they are dense."""
+    whole = draw_measured(one, air, words)
+    yield Figure(svg=whole, caption=_describe_measured(one, words), look="plate")
+    detail = find_detail(one)
+    if detail is None:
+        return
+    first, last = (moment.date().isoformat() for moment in detail)
+    caption = words("winter_measured.detail", first=first, last=last)
+    svg = draw_measured(one, air, words, detail)
+    yield Figure(svg=svg, caption=caption, look="plate")
+
+
+def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
+    """Distance of measured and computed forces, and what the band is."""
+    found = [
+        words(
+            "winter_measured.caption",
+            member=show_member(words, one["member"]),
+            winter=one["winter"],
+            source=show_text(one["source"]),
+        )
+    ]
+    if one["computed_over_measured"] is not None:
+        apart = {
+            "count": one["days_compared"],
+            "ratio": one["computed_over_measured"],
+            "inside": one["readings_in_band"] or 0.0,
+        }
+        found.append(words("winter_measured.apart", **apart))
+    found.append(words("winter_measured.swing"))
+    if one["temperature_amplitude_assumed"]:
+        found.append(words("winter_measured.assumed"))
+    return " ".join(found)
+
+
+def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
+    keys = (
+        *("winter", "height_max", "on", "swe_max", "foot", "head", "governing"),
+        *("at_height_max", "uniform", "equivalent", "days_90", "outcome"),
+    )
+    numbers = [keys[k] for k in (1, 3, 4, 5, 7, 8, 9, 10)]
+    rows = tuple(
+        (
+            _unbroken(one["name"]),
+            fixed_cell(words, one["height_max_m"], 2),
+            _unbroken(one["height_max_date"]),
+            fixed_cell(words, one["swe_max_kg_m2"], 0),
+            # none where no day has a force, though snow pulls
+            *(force_cell(words, one[f"{x}_peak_kN_per_m"]) for x in ("foot", "head")),
+            _unbroken(one["governing_date"] or MISSING),
+            force_cell(words, one["foot_at_height_max_kN_per_m"]),
+            _show_uniform(one, words),
+            fixed_cell(words, one["equivalent_density_kg_m3"], 0),
+            fixed_cell(words, one["days_above_90_percent"], 0),
+            text_cell(words(f"winter_outcome.{_name_outcome(one)}")),
+        )
+        for one in row["winters"]
+    )
+    return Table(
+        caption=words("winter_page.summary_caption"),
+        columns=key_columns(words, "winter_column.", keys, numbers=numbers),
+        rows=rows,
+    )
+
+
+def _show_uniform(winter: Mapping[str, Any], words: Words) -> Cell:
+    """Annual maximum of uniform snow, or what it is at most."""
+    bound = winter.get("uniform_at_most_kN_per_m")
+    if bound is None:
+        return force_cell(words, winter.get("uniform_peak_kN_per_m"))
+    return text_cell(words("winter_page.at_most", bound=bound))
+
+
+def _name_outcome(winter: Mapping[str, Any]) -> str:
+    is_bounded = winter["uniform_at_most_kN_per_m"] is not None
+    return "bounded" if is_bounded else str(winter["outcome"])
+
+
+def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
+    """Largest characteristic force of each member, per support."""
+    members = list(dict.fromkeys(m for one in shown for m in one["members_peak_kN"]))
+    headings = [words("winter_column.winter")]
+    headings += [show_member(words, member) + " [kN]" for member in members]
+    return Table(
+        caption=words("winter_page.members_caption"),
+        columns=name_columns(headings, numbers=headings[1:]),
+        rows=tuple(
+            (
+                _unbroken(one["name"]),
+                *(force_cell(words, one["members_peak_kN"].get(m)) for m in members),
+            )
+            for one in shown
+            if members
+        ),
+    )
+
+
+def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
+    """Annual maximum of uniform snow by each settling model."""
+    others = list(row["winters"][0]["models"]) if row["winters"] else []
+    names = [model, *others]
+    headings = [words("winter_column.winter")]
+    headings += [words("winter_page.pull_by", model=name) for name in names]
+    headings += [words("winter_page.density_by", model=name) for name in names]
+    rows = []
+    for one in row["winters"]:
+        every = [one, *(one["models"][name] or {} for name in others)]
+        rows.append(
+            (
+                _unbroken(one["name"]),
+                *(_show_uniform(part, words) for part in every),
+                *(
+                    fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
+                    for part in every
+                ),
+            )
+        )
+    return Table(
+        caption=words("winter_page.models_caption"),
+        columns=name_columns(headings, numbers=headings[1:]),
+        rows=tuple(rows),
+    )
+
+
+def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
+    """Return values, winters that count by a bound or not at all, trend."""
+    statistics = row["statistics"]
+    if statistics:
+        yield _tabulate_statistics(statistics, words).shown("study")
+    if told := [show_text(one) for one in row["statistics_notes"]]:
+        yield notes(*told, look="notes open")
+    yield from _compare_tails(statistics or {"return_values": ()}, words)
+    yield _show_trend(row["trend"])
+    if row["snow_heights"]:
+        yield Paragraph(text=show_text(row["snow_heights"]["text"]))
+
+
+def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
+    keys = ("period", "return_value", "interval", "error", "gev", "interval")
+    is_limited = statistics["limit_kN_per_m"] is not None
+    moments, limited = "winter_page.statistics_caption", "winter_page.limited_caption"
+    return Table(
+        caption=words(
+            limited if is_limited else moments,
+            count=statistics["winters"],
+            mean=statistics["mean_kN_per_m"],
+            variation=statistics["variation"],
+        ),
+        columns=key_columns(words, "winter_column.", keys, numbers=keys),
+        rows=tuple(
+            (
+                fixed_cell(words, one["period_a"], 0),
+                force_cell(words, one["foot_kN_per_m"]),
+                _show_interval(one, "", words),
+                force_cell(words, one["standard_error_kN_per_m"]),
+                force_cell(words, one.get("gev_kN_per_m")),
+                _show_interval(one, "gev_", words),
+            )
+            for one in statistics["return_values"]
+        ),
+    )
+
+
+def _show_interval(value: Mapping[str, Any], of: str, words: Words) -> Cell:
+    ends = [value.get(f"{of}{end}_kN_per_m") for end in ("low", "high")]
+    return text_cell(words.show_band("max_kN", *ends))
+
+
+def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Block]:
+    """Sentence on a value that both distributions do not agree on."""
+    for one in statistics["return_values"]:
+        if one.get("is_gev_far"):
+            gev = one["gev_kN_per_m"]
+            told = words("winter_page.gev_far", period=one["period_a"], gev=gev)
+            yield notes(told, look="notes open")
+
+
+def _show_trend(trend: Mapping[str, Any]) -> Block:
+    """Sentence on the trend of the maxima, set off where there is one."""
+    told = show_text(trend["why"])
+    return notes(told, look="notes open") if trend["is_shown"] else Paragraph(text=told)
+
+
+def _describe_range(
+    row: Mapping[str, Any], document: Mapping[str, Any], words: Words
+) -> list[str]:
+    """Density range of the winters beside that of the check."""
+    low, high = document["check_density_kg_m3"]
+    found = [words("winter_page.check_range", low=low, high=high)]
+    if row["equivalent_density"]:
+        found.insert(0, show_text(row["equivalent_density"]["justification"]))
+        found.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
+    return found
+
+
+def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
+    """Days without a force or without layers, those of one reason together."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for day in winter["curve"]:
+        if day["outcome"] in ("failed", "overtopped") or day["reason"]:
+            key = day["outcome"], day["reason"]
+            found.setdefault(key, []).append(day["date"])
+    return [
+        words(
+            "winter_page.failed_day",
+            count=len(dates),
+            day=tuple(dates),
+            outcome=_explain(words(f"day_outcome.{outcome}"), reason, words),
+        )
+        for (outcome, reason), dates in found.items()
+    ]
+
+
+def _explain(outcome: str, reason: str, words: Words) -> str:
+    """Outcome of a day, with its reason where it has one."""
+    if not reason:
+        return outcome
+    return words("show.with_note", text=outcome, note=show_text(reason))
+
+
+def _unbroken(text: str) -> Cell:
+    """Date, or name of a winter, that stays on one line."""
+    return text_cell(text.replace("-", "\u2011").replace("/", "\u2060/\u2060"))

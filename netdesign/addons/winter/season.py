@@ -1,0 +1,421 @@
+"""Winters of a row: maxima, curves with their governing days, what they tell together.
+
+Theory: addons/winter/THEORY.md, section 2.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import date
+
+import numpy as np
+
+from netdesign.addons.winter.day import DaySolver, RowDay
+from netdesign.addons.winter.maxima import (
+    AnnualMaximum,
+    UniformTable,
+    find_annual_maximum,
+    find_equivalent,
+    find_largest,
+    find_many_maxima,
+    find_maximum_alone,
+)
+from netdesign.addons.winter.sample import Sample, choose_sample
+from netdesign.addons.winter.settling.follow import SettlingModel, follow_heights
+from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.statistics import (
+    ExtremeValue,
+    Trend,
+    find_trend,
+    fit_extreme_values,
+)
+from netdesign.snowpack.series import HeightSeries, split_winters
+
+HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
+CURVE_STEP = 4  # days between those of the curve
+# Layers pull at most so many times what uniform snow of their mass does (seen: 1.13).
+LAYERED_GAIN = 1.15
+# Between two solved days so near to each other [d], and as dense as that, it is at most
+# so much above theirs.
+_NEAR, _AS_DENSE, _BETWEEN = 8, 0.1, 0.1
+_BATCH = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Season:
+    """Winter of a row, day by day with its layers.
+
+    Attributes
+    ----------
+    name : str
+        As "1999/2000".
+    maximum : AnnualMaximum
+        By uniform snow of each day, which usually pulls more than layers.
+    curve : tuple of RowDay
+        Ascending: those of the curve, and those that may govern.
+    highest : RowDay
+        Day of the largest snow height.
+    days : slice
+        Of the winter in the series of heights.
+    equivalent_density : float or None
+        Of uniform snow of the largest height that pulls as much as the governing day
+        [kg/m3]; None where there is none.
+    """
+
+    name: str
+    maximum: AnnualMaximum
+    curve: tuple[RowDay, ...]
+    highest: RowDay
+    days: slice
+    equivalent_density: float | None
+
+    @property
+    def governing(self) -> RowDay | None:
+        """Day of the largest foot pull; None if no day has one."""
+        return find_largest(self.curve)
+
+    @property
+    def failed(self) -> tuple[RowDay, ...]:
+        """Days of the curve without a force, failed or overtopped."""
+        return tuple(day for day in self.curve if day.pull is None)
+
+    @property
+    def high_days(self) -> int:
+        """Days above ``HIGH_SHARE`` of the largest pull, read from the curve."""
+        known = [(day.index, day.pull) for day in self.curve if day.pull is not None]
+        if not known:
+            return 0
+        places, pulls = np.array(known).T
+        every = np.arange(places[0], places[-1] + 1)
+        curve = np.interp(every, places, pulls)
+        return int((curve > HIGH_SHARE * pulls.max()).sum())
+
+
+def follow_season(
+    name: str,
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+    table: UniformTable | None = None,
+) -> Season:
+    """Season of a row: its annual maximum, and the curve of its forces.
+
+    Parameters
+    ----------
+    name : str
+        Of the winter.
+    packs : mapping of int to DayPack
+        Snowpack of each day by its place in the series, ascending; at least one.
+    solver : DaySolver
+        Of the row.
+    step : int
+        Days between those of the curve; 0 for the days near the maximum alone.
+    table : UniformTable, optional
+        Of the row: days of uniform snow are read from it.
+    """
+    maximum, uniform = find_annual_maximum(name, packs, solver, table=table)
+    highest = max(packs, key=lambda k: packs[k].height)
+    heaviest = max(packs, key=lambda k: packs[k].mass)
+    evenly = set(list(packs)[::step]) if step else set()
+    wanted = sorted(evenly | {highest, heaviest})
+    curve = _solve_coarsely({k: packs[k] for k in wanted}, solver)
+    curve = _sharpen(_solve_near(uniform, curve, packs, solver), solver)
+    governing = find_largest(curve.values())
+    top = curve[highest].thickness
+    return Season(
+        name=name,
+        maximum=maximum,
+        curve=tuple(curve[k] for k in sorted(curve)),
+        highest=curve[highest],
+        days=slice(min(packs), max(packs) + 1),
+        equivalent_density=(
+            find_equivalent(top, governing, solver) if governing else None
+        ),
+    )
+
+
+def _solve_near(
+    uniform: Sequence[RowDay],
+    curve: Mapping[int, RowDay],
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+) -> dict[int, RowDay]:
+    """Curve with all days that may govern, the likeliest first."""
+    pulls = {day.index: day.foot.value for day in uniform if day.foot}
+    prepared = solver.prepare({k: packs[k] for k in pulls}, layered=True)
+    found = dict(curve)
+    left = {
+        day.index: day
+        for day in prepared
+        if day.index not in curve or curve[day.index].reason is not None
+    }
+    while left:
+        best = find_largest(found.values())
+        gains = {
+            k: day.foot.value / pulls[k]
+            for k, day in sorted(found.items())
+            if k in pulls and day.foot
+        }
+        most = {
+            k: pulls[k] * (_find_gain(day, found, gains) if day.layers else 1.0)
+            for k, day in left.items()
+        }
+        least = best.foot.low if best and best.foot else 0.0
+        order = sorted(left, key=lambda k: -most[k])
+        batch = [k for k in order[:_BATCH] if most[k] >= least]
+        if not batch:
+            break
+        near = {k: packs[k] for k in batch}
+        left = {k: day for k, day in left.items() if k not in near}
+        found |= _solve_coarsely(near, solver)
+        # what may govern is not given up for a coarse accuracy
+        failed = {k: pack for k, pack in near.items() if found[k].reason}
+        again = solver.solve(solver.prepare(failed, layered=True))
+        found |= {day.index: day for day in again}
+    return found
+
+
+def _find_gain(
+    day: RowDay, solved: Mapping[int, RowDay], gains: Mapping[int, float]
+) -> float:
+    """Most by which the layers of a day may pull more than its uniform snow.
+
+    Told by the gains of the nearest solved days, where their snow is like that day's;
+    ``gains`` ascends.
+    """
+    places = list(gains)
+    after = bisect(places, day.index)
+    around = places[max(after - 1, 0) : after + 1]
+    is_alike = (
+        len(around) == 2
+        and around[1] - around[0] <= _NEAR
+        and all(abs(solved[k].density / day.density - 1.0) <= _AS_DENSE for k in around)
+    )
+    if not is_alike:
+        return LAYERED_GAIN
+    return min(LAYERED_GAIN, (1.0 + _BETWEEN) * max(gains[k] for k in around))
+
+
+def _solve_coarsely(
+    packs: Mapping[int, DayPack], solver: DaySolver
+) -> dict[int, RowDay]:
+    """Layered days to the accuracy of a curve."""
+    solved = solver.coarse.solve(solver.prepare(packs, layered=True))
+    return {day.index: day for day in solved}
+
+
+def _sharpen(curve: Mapping[int, RowDay], solver: DaySolver) -> dict[int, RowDay]:
+    """Curve whose largest forces, of the net and of each member, are accurate.
+
+    Days are solved again while one that was not may have the largest of some force.
+    """
+    found = dict(curve)
+    left = {k: day for k, day in curve.items() if day.ending == "solved"}
+    while doubtful := _list_doubtful(found, left.keys()):
+        days = solver.solve([left.pop(k).reopen() for k in sorted(doubtful)])
+        found |= {day.index: day for day in days}
+    return found
+
+
+def _list_doubtful(days: Mapping[int, RowDay], left: Collection[int]) -> set[int]:
+    """Days that may have the largest of some force: of each force the likeliest.
+
+    Of those ``left`` whose band reaches above that of all accurate days, and above the
+    largest value, the one with the highest: once it is accurate, others may no longer
+    be in doubt.
+    """
+    tops: dict[str, float] = {}
+    for place, day in days.items():
+        for name, band in day.bands.items():
+            top = band.value if place in left else band.high
+            tops[name] = max(top, tops.get(name, 0.0))
+    likeliest: dict[str, tuple[float, int]] = {}
+    for place in left:
+        for name, band in days[place].bands.items():
+            if band.high > tops[name]:
+                best = likeliest.get(name, (0.0, place))
+                likeliest[name] = max(best, (band.high, place))
+    return {place for _, place in likeliest.values()}
+
+
+FIRST_DENSITY = 300.0  # of snow that lies on the first day of a series [kg/m3]; assumed
+MANY = 4  # more winters than these go through a table
+SHOWN = 3  # largest winters of a table that are solved with their layers
+# A winter counts in statistics if its series covers these months and days (assumed).
+_COVERED = ((12, 1), (4, 30))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StationPacks:
+    """Snowpacks of a station's winters, the same for all rows.
+
+    Attributes
+    ----------
+    series : HeightSeries
+        Of the station.
+    packs : mapping of str to mapping
+        By settling model, then by winter, then by place in the series; the first model
+        is that of the curves.
+    """
+
+    series: HeightSeries
+    packs: Mapping[str, Mapping[str, Mapping[int, DayPack]]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowWinters:
+    """Winters of one row by one settling model.
+
+    Attributes
+    ----------
+    row_id, model : str
+        Row, and name of the settling model.
+    maxima : tuple of AnnualMaximum
+        One of each winter, in their order.
+    seasons : tuple of Season
+        Winters with their layers: all of a few, else the largest.
+    others : mapping of str to tuple of AnnualMaximum
+        The same winters by the other settling models.
+    sample : Sample
+        Complete winters, with the distribution of their maxima.
+    extreme_values : ExtremeValue or None
+        Of the same winters [N/m]; None where one of them has no proven maximum, of
+        fewer than ``statistics.LEAST_WINTERS``, or where all maxima are the same.
+    trend : Trend or None
+        Likewise; None of fewer than ``statistics.LEAST_FOR_TREND``.
+    """
+
+    row_id: str
+    model: str
+    maxima: tuple[AnnualMaximum, ...]
+    seasons: tuple[Season, ...]
+    others: Mapping[str, tuple[AnnualMaximum, ...]]
+    sample: Sample
+    extreme_values: ExtremeValue | None
+    trend: Trend | None
+
+    @property
+    def density_range(self) -> tuple[float, float] | None:
+        """Least and largest equivalent density of all winters and models [kg/m3]."""
+        every = [
+            *self.maxima,
+            *(one for group in self.others.values() for one in group),
+        ]
+        found = [one.equivalent_density for one in every if one.equivalent_density]
+        return (min(found), max(found)) if found else None
+
+
+def split_packs(
+    series: HeightSeries, model: SettlingModel
+) -> dict[str, dict[int, DayPack]]:
+    """Packs of each winter with snow, by its name and by their place in the series.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    model : SettlingModel
+        Followed over the whole series: snow of last winter goes on settling.
+    """
+    packs = follow_heights(series.heights, model, FIRST_DENSITY)
+    winters = {
+        name: {k: packs[k] for k in range(days.start, days.stop)}
+        for name, days in split_winters(series).items()
+    }
+    return {
+        name: days
+        for name, days in winters.items()
+        if any(pack.heights.size for pack in days.values())
+    }
+
+
+def list_complete(series: HeightSeries) -> tuple[str, ...]:
+    """Names of the winters whose months with snow the series covers.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    """
+    first, last = series.first_day, series.day(len(series.heights) - 1)
+    found = []
+    for name in split_winters(series):
+        year = int(name[:4])
+        start, end = date(year, *_COVERED[0]), date(year + 1, *_COVERED[1])
+        if first <= start and end <= last:
+            found.append(name)
+    return tuple(found)
+
+
+def follow_station(
+    series: HeightSeries, models: Sequence[SettlingModel]
+) -> StationPacks:
+    """Packs of a station's winters by some settling models.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    models : sequence of SettlingModel
+        At least one; the first is that of the curves.
+    """
+    return StationPacks(
+        series=series, packs={one.name: split_packs(series, one) for one in models}
+    )
+
+
+def follow_winters(
+    station: StationPacks,
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+    measured: Collection[str] = (),
+) -> RowWinters:
+    """Winters of a row: by the first model with layers, by the others their maxima.
+
+    Parameters
+    ----------
+    station : StationPacks
+        By at least one model.
+    solver : DaySolver
+        Of the row.
+    step : int
+        Days between those of a curve.
+    measured : collection of str
+        Winters that have a curve in any case.
+    """
+    chosen, *rest = station.packs
+    packs = station.packs[chosen]
+    maxima: dict[str, tuple[AnnualMaximum, ...]] = {}
+    table: UniformTable | None = None
+    names = list(packs)
+    if len(packs) > MANY:
+        maxima, table = find_many_maxima(station.packs, solver)
+        ranked = sorted(maxima[chosen], key=lambda one: -one.foot)[:SHOWN]
+        largest = {one.winter for one in ranked if one.index is not None}
+        names = sorted(largest | (set(measured) & packs.keys()))
+    seasons = tuple(
+        follow_season(name, packs[name], solver, step, table) for name in names
+    )
+    if not maxima:
+        maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
+        maxima[chosen] = tuple(season.maximum for season in seasons)
+    sample = choose_sample(maxima[chosen], list_complete(station.series))
+    pulls = [one.foot for one in sample.proven]
+    return RowWinters(
+        row_id=solver.row.id,
+        model=chosen,
+        maxima=maxima[chosen],
+        seasons=seasons,
+        others={one: maxima[one] for one in rest},
+        sample=sample,
+        extreme_values=fit_extreme_values(pulls),
+        trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
+    )
+
+
+def _find_maxima(
+    packs: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
+) -> tuple[AnnualMaximum, ...]:
+    return tuple(find_maximum_alone(name, one, solver) for name, one in packs.items())

@@ -1,0 +1,1 @@
+"""Settling of snow: layers, masses and densities from daily snow heights."""

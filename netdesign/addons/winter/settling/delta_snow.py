@@ -1,0 +1,207 @@
+"""Settling model delta-snow: Newtonian snow, layer by layer, from heights alone.
+
+Theory: addons/winter/settling/THEORY.md, section 1. Constants of two published fits.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.addons.winter.settling.pack import (
+    DAY,
+    DayPack,
+    build_first_layer,
+    sum_overlying,
+)
+from netdesign.numerics.arrays import Floats, Ints
+from netdesign.snowpack.model_code import GRAVITY
+
+# A layer this close to its largest density is no longer pressed by new snow, and one
+# this far beyond it hands mass on [kg/m3].
+_AT_LIMIT = 1e-10
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ageing:
+    """Largest density that grows with the age of a layer, eq. (D5).
+
+    Attributes
+    ----------
+    low, high : float
+        Bounds of the density [kg/m3].
+    slope : float
+        Steepness at the middle [1/d].
+    middle : float
+        Age there [d].
+    """
+
+    low: float
+    high: float
+    slope: float
+    middle: float
+
+    def find_largest(self, ages: Ints) -> Floats:
+        """Largest density of each layer [kg/m3], (n_layers,).
+
+        Parameters
+        ----------
+        ages : ndarray of int, shape (n_layers,)
+            [d].
+        """
+        turn = np.arctan(self.slope * (ages - self.middle)) / math.pi
+        return np.asarray((self.low + self.high) / 2 + (self.high - self.low) * turn)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeltaSnow:
+    """Delta-snow with its constants.
+
+    Attributes
+    ----------
+    name, source : str
+        Of the set of constants.
+    new_density : float
+        rho_0 of new snow [kg/m3].
+    largest_density : float or Ageing
+        rho_max [kg/m3].
+    viscosity : float
+        eta_0 of snow without density [Pa s].
+    stiffening : float
+        k [m3/kg]; viscosity grows with exp(k rho).
+    tolerance : float
+        tau [m]; a difference of heights within it is no event.
+    overburden : float
+        c_ov [1/Pa]; what new snow presses at once.
+    overburden_decay : float
+        k_ov [-].
+    """
+
+    name: str
+    source: str
+    new_density: float
+    largest_density: float | Ageing
+    viscosity: float
+    stiffening: float
+    tolerance: float
+    overburden: float
+    overburden_decay: float
+
+    def step(self, before: DayPack, height: float) -> DayPack:
+        """Snowpack a day later, whose layers add up to the height observed.
+
+        Parameters
+        ----------
+        before : DayPack
+            Of yesterday.
+        height : float
+            Observed today [m], above 0.
+        """
+        if not before.heights.size:
+            return build_first_layer(height, self.new_density)
+        ages = before.ages + 1
+        limits = self._find_limits(ages)
+        settled = self._settle(before, limits)
+        gap = height - float(settled.sum())
+        if gap > self.tolerance:
+            return self._snow(before, settled, limits, height)
+        if gap < -self.tolerance:
+            return _drench(before, settled, limits, height)
+        return _scale(before, limits, height)
+
+    def _find_limits(self, ages: Ints) -> Floats:
+        if isinstance(self.largest_density, Ageing):
+            return self.largest_density.find_largest(ages)
+        return np.full(ages.size, self.largest_density)
+
+    def _settle(self, pack: DayPack, limits: Floats) -> Floats:
+        """Heights [m] after a day of dry settling, eq. (D1)."""
+        stress = GRAVITY * sum_overlying(pack.masses)
+        viscosity = self.viscosity * np.exp(self.stiffening * pack.densities)
+        settled = pack.heights / (1.0 + DAY * stress / viscosity)
+        return np.asarray(np.maximum(settled, pack.masses / limits))
+
+    def _snow(
+        self, before: DayPack, settled: Floats, limits: Floats, height: float
+    ) -> DayPack:
+        """Snowfall that presses what lies below it, eq. (D2)."""
+        densities = before.masses / settled
+        room = limits - densities
+        soft = room > _AT_LIMIT
+        decay = np.full(room.size, np.inf)
+        decay[soft] = self.overburden_decay * densities[soft] / room[soft]
+        load = self.new_density * GRAVITY * (height - float(settled.sum()))
+        pressed = settled * (1.0 - self.overburden * load * np.exp(-decay))
+        heights = np.maximum(pressed, before.masses / limits)
+        top = height - float(heights.sum())
+        new_mass = self.new_density * top
+        return DayPack(
+            heights=np.append(heights, top),
+            masses=np.append(before.masses, new_mass),
+            ages=np.append(before.ages + 1, 0),
+            new_mass=new_mass,
+        )
+
+
+def _scale(before: DayPack, limits: Floats, height: float) -> DayPack:
+    """Yesterday's layers in proportion to the height, eq. (D3).
+
+    Mass beyond the largest density goes to layers with room, from the top down.
+    """
+    heights = before.heights * (height / before.height)
+    room = heights * limits - before.masses
+    excess = np.where(room < -_AT_LIMIT * heights, -room, 0.0)
+    left = float(excess.sum())
+    masses = before.masses - excess
+    if left > 0.0:
+        for layer in range(masses.size - 1, -1, -1):
+            if excess[layer] == 0.0:
+                taken = min(max(float(room[layer]), 0.0), left)
+                masses[layer] += taken
+                left -= taken
+    return DayPack(heights=heights, masses=masses, ages=before.ages + 1, runoff=left)
+
+
+def _drench(before: DayPack, settled: Floats, limits: Floats, height: float) -> DayPack:
+    """Wet snow at its largest density, from the top down, eq. (D4)."""
+    heights, dense = settled.copy(), before.masses / limits
+    surplus = float(settled.sum()) - height
+    for layer in range(heights.size - 1, -1, -1):
+        lowered = min(float(settled[layer] - dense[layer]), surplus)
+        heights[layer] -= lowered
+        surplus -= lowered
+        if surplus <= 0.0:
+            return DayPack(heights=heights, masses=before.masses, ages=before.ages + 1)
+    share = height / float(dense.sum())
+    return DayPack(
+        heights=dense * share,
+        masses=before.masses * share,
+        ages=before.ages + 1,
+        runoff=float(before.masses.sum()) * (1.0 - share),
+    )
+
+
+DELTA_SNOW = DeltaSnow(
+    name="delta-snow",
+    source="Winkler et al. (2021)",
+    new_density=81.19417,
+    largest_density=401.2588,
+    viscosity=8523356.0,
+    stiffening=0.02993175,
+    tolerance=0.02362476,
+    overburden=5.104722e-4,
+    overburden_decay=0.37856737,
+)
+DELTA_SNOW_AGEING = DeltaSnow(
+    name="delta-snow-ageing",
+    source="Schroeder et al. (2024); constants as in nixmass 1.3.1",
+    new_density=80.73706,
+    largest_density=Ageing(low=380.0, high=600.0, slope=0.03, middle=80.0),
+    viscosity=8543502.0,
+    stiffening=0.029297,
+    tolerance=0.02356521,
+    overburden=5.170964e-4,
+    overburden_decay=0.3782312,
+)

@@ -1,0 +1,143 @@
+"""Annual maxima: which days are solved, what proves no maximum, the table."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from netdesign.addons.winter.day import RowDay
+from netdesign.addons.winter.maxima import (
+    build_table,
+    choose_days,
+    find_annual_maximum,
+    find_equivalent,
+    find_many_maxima,
+)
+from netdesign.addons.winter.settling.delta_snow import DELTA_SNOW
+from netdesign.addons.winter.settling.follow import follow_heights
+from tests.addons.winter.made_up_row import FormulaSolver, a_solver
+from tests.each import each
+
+QUICK = {"accuracy": 0.03}
+
+
+def follow(heights):
+    return dict(enumerate(follow_heights(heights, DELTA_SNOW)))
+
+
+def test_days_far_below_the_best_rank_are_not_solved():
+    solver = a_solver(**QUICK)
+    sizes = [(2.0, 300.0), (1.7, 300.0), (2.0, 220.0), (1.0, 400.0)]
+    days = [
+        RowDay(index=k, thickness=d, density=rho, ending="open")
+        for k, (d, rho) in enumerate(sizes)
+    ]
+    assert [day.index for day in choose_days(days, solver)] == [0, 1]
+    assert choose_days([], solver) == ()
+
+
+def test_equivalent_density_pulls_as_much():
+    solver = a_solver(accuracy=0.005)
+    spring = RowDay(index=0, thickness=1.6, density=401.0, ending="open")
+    (governing,) = solver.solve([spring])
+    density = find_equivalent(2.2, governing, solver)
+    highest = RowDay(index=1, thickness=2.2, density=density, ending="open")
+    (alike,) = solver.solve([highest])
+    assert density < 300.0
+    assert alike.foot.value == pytest.approx(governing.foot.value, rel=2e-3)
+
+
+def test_winter_above_the_net_proves_no_maximum():
+    packs = follow([0.0, 0.9, 1.9, 1.6, 4.2, 1.5])
+    maximum, solved = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
+    assert maximum.ending == "overtopped"
+    assert not maximum.is_proven
+    assert maximum.foot > 0.0
+    assert all(day.ending == "solved" for day in solved)
+
+
+def test_winter_without_a_solved_day_proves_no_maximum():
+    """New snow alone is lighter than the creep law allows; denser snow bounds it."""
+    packs = follow([0.0, 0.9])
+    maximum, _ = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
+    assert (maximum.ending, maximum.foot) == ("doubtful", 0.0)
+    assert 100.0 < maximum.bound < 2000.0
+    assert maximum.reason
+
+
+def test_table_is_the_solves_themselves():
+    """Twenty drawn states; the solver's own noise is half a percent."""
+    solver = a_solver(accuracy=0.01)
+    table = build_table(solver, (1.0, 2.6), (190.0, 500.0))
+    rng = np.random.default_rng(3)
+    d, rho = rng.uniform(1.0, 2.6, 20), rng.uniform(190.0, 500.0, 20)
+    foot, head = table.find_pulls(d, rho)
+    days = solver.solve(
+        [
+            RowDay(index=k, thickness=float(a), density=float(b), ending="open")
+            for k, (a, b) in enumerate(zip(d, rho, strict=True))
+        ]
+    )
+    assert foot == pytest.approx([day.foot.value for day in days], rel=0.01)
+    assert head == pytest.approx([day.head.value for day in days], rel=0.01)
+    outside, _ = table.find_pulls(np.array([0.9, 1.5]), np.array([300.0, 520.0]))
+    assert np.isnan(outside).all()
+    pull = table.find_pulls(np.array([2.1]), np.array([307.0]))[0][0]
+    assert table.find_density(2.1, pull) == pytest.approx(307.0, rel=1e-3)
+    assert table.find_density(2.1, 1e9) is None
+
+
+def test_maxima_through_the_table_are_those_of_solves():
+    heights = [0.0, 0.8, 1.3, 1.9, 2.3, 2.2, 2.1, 2.4, 2.3, 2.2]
+    winters = {
+        "2000/2001": follow(heights),
+        "2001/2002": follow([0.8 * h for h in heights]),
+        "2002/2003": follow([2.0 * h for h in heights]),
+        "2003/2004": follow([0.05 * h for h in heights]),
+    }
+    solver = a_solver(accuracy=0.02)
+    found = find_many_maxima({"delta-snow": winters}, solver)[0]["delta-snow"]
+    assert [one.ending for one in found] == [
+        "solved",
+        "solved",
+        "overtopped",
+        "no snow",
+    ]
+    alone, _ = find_annual_maximum("2000/2001", winters["2000/2001"], solver)
+    assert found[0].index == alone.index
+    assert found[0].foot == pytest.approx(alone.foot, rel=0.02)
+    assert found[0].equivalent_density == pytest.approx(
+        alone.equivalent_density, rel=0.02
+    )
+
+
+@each("number", range(8))
+def test_days_outside_a_table_are_solved_beside_those_read(number):
+    """Drawn winters and tables that hold some of their days, all of them, or none."""
+    draw = Random(50 + number)
+    heights = [0.0, *(round(draw.uniform(0.4, 2.6), 2) for _ in range(40))]
+    packs = follow(heights)
+    solver = FormulaSolver(row=a_solver().row, settings=a_solver().settings)
+    low, high = sorted(draw.uniform(0.5, 2.4) for _ in range(2))
+    table = build_table(solver, (low, high + 0.05), (150.0, draw.uniform(200.0, 520.0)))
+    for is_alone in (True, False):
+        solved, read = (
+            find_annual_maximum(
+                "2000/2001", packs, solver, is_alone=is_alone, table=one
+            )
+            for one in (None, table)
+        )
+        assert read[0].index == solved[0].index
+        assert read[0].foot == pytest.approx(solved[0].foot, rel=1e-3)
+        assert read[0].equivalent_density == pytest.approx(
+            solved[0].equivalent_density, rel=2e-3
+        )
+        assert {day.ending for day in read[1]} == {"solved"}
+    assert {day.index for day in read[1]} == {day.index for day in solved[1]}
+    inside = {day.index for day in table.read_days(solved[1])}
+    bands = {
+        day.index: day.foot.high / day.foot.value - 1.0
+        for day in read[1]
+        if day.index in inside
+    }
+    assert list(bands.values()) == pytest.approx([0.01] * len(bands))

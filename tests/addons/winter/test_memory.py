@@ -1,0 +1,35 @@
+"""Past of the net: a chain that keeps the net's curve against states at rest.
+
+Spoilt: a net that is given no time to follow (a creep time of 1e-7) fails this file.
+"""
+
+import numpy as np
+import pytest
+
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from tests.addons.winter.made_up_row import loaded
+from tests.addons.winter.memory import follow_scenes, solve_alone
+
+UP_AND_BACK = (150.0, 250.0, 350.0, 450.0, 300.0, 150.0)
+# Creep times in which the snow of each ground has followed, by (Y8) and more.
+GROUNDS = {
+    "no slip": (GroundLaw(kind="no-slip"), 0.2),
+    "N 2.4": (build_ground_from_glide_factor(2.4, 3.0), 0.02),
+    "free": (GroundLaw(), 0.002),
+}
+
+
+@pytest.mark.parametrize("name", GROUNDS)
+def test_density_up_and_back_leaves_no_force_behind(name):
+    ground, creep_time = GROUNDS[name]
+    scenes = [loaded(density, 3.0, ground) for density in UP_AND_BACK]
+    chain = follow_scenes(scenes, [creep_time] * len(scenes))
+    at_rest = solve_alone(scenes[:5])
+    np.testing.assert_allclose(chain, [*at_rest, at_rest[0]], rtol=0.015)
+
+
+def test_a_net_without_time_remembers():
+    """The check above can fail: without creep the net keeps the old snow's curve."""
+    scenes = [loaded(density, 3.0, GROUNDS["no slip"][0]) for density in (450.0, 200.0)]
+    chain = follow_scenes(scenes, [0.2, 1e-7], steps=6)
+    assert chain[1, 0] > 1.1 * solve_alone(scenes[1:])[0, 0]
