@@ -1,0 +1,103 @@
+"""The core works without the folder of the add-ons, and says what is missing."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from netdesign.addon_table import COMMANDS, NAMES
+from tests.sources import PACKAGE
+
+SCENE = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+[net]
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+[solve]
+accuracy = 0.1
+"""
+
+
+@pytest.fixture(scope="module")
+def core(tmp_path_factory):
+    """Folder with the package, without its add-ons."""
+    folder = tmp_path_factory.mktemp("core")
+    left_out = shutil.ignore_patterns("addons", "__pycache__")
+    shutil.copytree(PACKAGE, folder / "netdesign", ignore=left_out)
+    for name in ("standards", "templates"):
+        shutil.copytree(PACKAGE.parent / name, folder / "netdesign" / "_data" / name)
+    (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
+    return folder
+
+
+def run(core: Path, *words: str, code: int = 0) -> subprocess.CompletedProcess[str]:
+    """A run of Python in the folder, with the core that stands there."""
+    ended = subprocess.run(
+        [sys.executable, *words],
+        cwd=core,
+        env={**os.environ, "PYTHONPATH": str(core)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == code, ended.stderr + ended.stdout
+    return ended
+
+
+def call(core: Path, *words: str, code: int = 0) -> subprocess.CompletedProcess[str]:
+    return run(core, "-m", "netdesign", *words, code=code)
+
+
+def test_the_core_stands_alone(core):
+    told = run(core, "-c", "import netdesign; print(netdesign.__file__)").stdout
+    assert Path(told.strip()).parent == core / "netdesign"
+    assert not (core / "netdesign" / "addons").exists()
+
+
+def test_help_shows_the_commands_of_the_core_alone(core):
+    shown = call(core, "--help").stdout
+    assert "\n  check " in shown
+    assert [name for name in COMMANDS if f"\n  {name} " in shown] == []
+
+
+def test_a_site_is_checked_and_a_scene_solved(core):
+    call(core, "init", "site.xlsx", "--example")
+    call(core, "check", "--example", "--out", "out", "--quiet", "--docx", code=1)
+    made = {path.suffix for path in (core / "out").iterdir()}
+    assert {".html", ".xlsx", ".docx", ".json"} <= made
+    call(core, "report", "out/study.json", "--out", "again", code=1)
+    assert "balance" in call(core, "solve", "scene.toml").stdout
+
+
+def test_a_missing_add_on_is_one_sentence(core):
+    for words, name in (
+        (["winter", "site.xlsx", "--out", "x"], "winter"),
+        (["verify"], "evidence"),
+        (["terrain", "--example"], "terrain"),
+        (["solve", "scene.toml", "--method", "transient"], "history"),
+        (["check", "--example", "--out", "r", "--reliability"], "reliability"),
+    ):
+        told = call(core, *words, code=2).stderr
+        assert f"needs the add-on {name}, which is not installed" in told
+        assert len(told.strip().splitlines()) == 1
+    name = next(iter(NAMES))
+    told = run(core, "-c", f"from netdesign import {name}", code=1).stderr
+    assert told.splitlines()[-1].startswith("netdesign.outcome.AddonError: ")
+
+
+@pytest.mark.long
+def test_tests_of_the_core_pass_alone(core):
+    """Physics and checks: none of their tests needs an add-on."""
+    shutil.copytree(PACKAGE.parent / "tests", core / "tests")
+    shutil.copy(PACKAGE.parent / "pyproject.toml", core / "pyproject.toml")
+    rooms = ("calculation", "checks", "resistance", "structure", "snow", "guideline")
+    run(core, "-m", "pytest", "-q", "-x", *(f"tests/{room}" for room in rooms))
