@@ -168,10 +168,6 @@ def _write_bound(
         "case": show_case(extreme.governing.case.values),
         "coincident": _list_coincident(extreme),
         "confirmation": confirmation,
-        "sensitivity": {
-            "unexplained": drawn.unexplained,
-            "drivers": [_per_metre(asdict(driver)) for driver in drawn.drivers],
-        },
     }
 
 

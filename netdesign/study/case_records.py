@@ -20,19 +20,6 @@ class AxisRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DriverRecord:
-    """Answer of one force to one quantity that ranges."""
-
-    key: str
-    at_low_kN: float  # the others as in the governing case
-    at_high_kN: float
-    least_kN: float
-    most_kN: float
-    first_order: float  # Sobol index
-    total: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class LineRecord:
     """Force along one quantity through the governing case."""
 
@@ -88,8 +75,6 @@ class DrawnForce:
     """What a drawing shows of one force over the ranges."""
 
     quantity: str
-    unexplained: float | None  # error of the Sobol indices: share of the variance
-    drivers: Items[DriverRecord]
     lines: Items[LineRecord]
     maps: Items[MapRecord]
 

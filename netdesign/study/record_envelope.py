@@ -14,12 +14,7 @@ from netdesign.envelope.ranges import PARAMETERS, Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.search.maxima import RESOLVED_SHARE
-from netdesign.search.sensitivity import (
-    Sensitivity,
-    follow_axis,
-    measure_sensitivity,
-    measure_unexplained,
-)
+from netdesign.search.surrogate import follow_axis
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
@@ -28,7 +23,6 @@ from netdesign.study.case_records import (
     CaseRecord,
     ConfirmationRecord,
     DrawnForce,
-    DriverRecord,
     EnvelopeRecord,
     LargestForce,
     LineRecord,
@@ -141,7 +135,6 @@ def record_envelope(
     """
     maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
     shown = [one for one in members if one in extremes and drawn in (None, one)]
-    answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
         axes=[
             AxisRecord(
@@ -160,41 +153,17 @@ def record_envelope(
         skipped=envelope.skipped,
         skips_tested=envelope.skips_tested,
         failed=sum(not result.is_converged for result in envelope.results),
-        drawn=[
-            _record_drawn(envelope, member, found)
-            for member, found in zip(shown, answers, strict=True)
-        ],
+        drawn=[_record_drawn(envelope, member) for member in shown],
     )
 
 
-def _record_drawn(
-    envelope: RowEnvelope, member: str, answers: Sequence[Sensitivity]
-) -> DrawnForce:
+def _record_drawn(envelope: RowEnvelope, member: str) -> DrawnForce:
     place = envelope.members.index(member)
     return DrawnForce(
         quantity=member,
-        unexplained=measure_unexplained(envelope.maxima, place),
-        drivers=_record_drivers(envelope.task.ranges.axes, answers),
         lines=_record_lines(envelope, place),
         maps=_record_maps(envelope, place),
     )
-
-
-def _record_drivers(
-    axes: Sequence[str], answers: Sequence[Sensitivity]
-) -> list[DriverRecord]:
-    return [
-        DriverRecord(
-            key=PARAMETERS[axes[one.axis]].key,
-            at_low_kN=kilonewton_from_newton(one.at_low),
-            at_high_kN=kilonewton_from_newton(one.at_high),
-            least_kN=kilonewton_from_newton(one.low),
-            most_kN=kilonewton_from_newton(one.high),
-            first_order=one.first_order,
-            total=one.total,
-        )
-        for one in answers
-    ]
 
 
 def _show_place(ranges: Ranges, name: str, share: float) -> float:

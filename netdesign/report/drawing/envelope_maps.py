@@ -69,9 +69,7 @@ def view_envelope(row: RowStudy) -> list[EnvelopeView]:
 def _view_grid(row: RowStudy, force: LargestForce) -> EnvelopeView:
     """Map of a member over the cases; the force of one without a result is NaN."""
     maps = list(_list_maps(row, force))
-    drawn = DrawnForce(
-        quantity=force.quantity, unexplained=None, drivers=[], lines=[], maps=maps
-    )
+    drawn = DrawnForce(quantity=force.quantity, lines=[], maps=maps)
     return EnvelopeView(force=force, drawn=drawn)
 
 

@@ -29,13 +29,12 @@ from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
-    name_heading,
     show_check,
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import CaseRecord, DriverRecord, LargestForce
-from netdesign.study.governing import find_shown, find_shown_member, list_failed
+from netdesign.study.case_records import CaseRecord, LargestForce
+from netdesign.study.governing import find_shown, list_failed
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -52,7 +51,6 @@ def show_quality(study: Study, words: Words) -> Part:
     )
     rows: tuple[Table, ...] = (
         stack_rows(words("caption.bounds"), study, build_bounds, words),
-        stack_rows(words("caption.driver_table"), study, _build_drivers, words),
         _build_spreads(study, words),
     )
     return section(
@@ -282,36 +280,6 @@ def _bound_row(force: LargestForce, words: Words) -> tuple[Cell, ...]:
         text_cell(by),
         text_cell(case),
     )
-
-
-def _build_drivers(row: RowStudy, words: Words) -> Table:
-    """Force of the member that is shown at both ends of each range; Sobol indices."""
-    member = find_shown_member(row.checks)
-    bounded = [one.quantity for one in _list_bounds(row)]
-    drawn = row.envelope.drawn if row.envelope and member in bounded else []
-    shown = [one for one in drawn if one.quantity == member and one.drivers]
-    drivers = [driver for one in shown for driver in one.drivers]
-    return Table(
-        caption=words("caption.driver_table"),
-        columns=(
-            Column(heading=words("heading.member")),
-            *(Column(heading=name_heading(words, one.key)) for one in drivers),
-        ),
-        rows=tuple(
-            (
-                text_cell(show_member(words, one.quantity)),
-                *(text_cell(_show_driver(driver, words)) for driver in one.drivers),
-            )
-            for one in shown
-        ),
-        empty=words("heading.grid_without_bound"),
-    )
-
-
-def _show_driver(driver: DriverRecord, words: Words) -> str:
-    ends = words.show_band("max_kN", driver.at_low_kN, driver.at_high_kN)
-    indices = f"{driver.first_order:.2f} / {driver.total:.2f}"
-    return f"{ends} kN ({words.write(indices)})"
 
 
 def _build_spreads(study: Study, words: Words) -> Table:

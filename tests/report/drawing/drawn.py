@@ -22,7 +22,6 @@ from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.study.case_records import (
     DrawnForce,
-    DriverRecord,
     LargestForce,
     LineRecord,
     MapRecord,
@@ -179,14 +178,6 @@ def _build_bound(rng, keys, size):
     )
     drawn = DrawnForce(
         quantity=force.quantity,
-        unexplained=0.001,
-        drivers=[
-            DriverRecord(
-                key=key, at_low_kN=0.5 * size, at_high_kN=size, least_kN=0.5 * size,
-                most_kN=size, first_order=0.3, total=0.4,
-            )
-            for key in keys
-        ],
         lines=[
             LineRecord(
                 key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=line,

@@ -14,7 +14,6 @@ from netdesign.report.drawing.envelope_maps import (
 from netdesign.report.drawing.plain_svg import Frame
 from netdesign.study.case_records import (
     DrawnForce,
-    DriverRecord,
     LargestForce,
     LineRecord,
     MapRecord,
@@ -40,13 +39,6 @@ def build_bound(quantity, *, size=100.0):
     )
     drawn = DrawnForce(
         quantity=force.quantity,
-        unexplained=0.001,
-        drivers=[
-            DriverRecord(
-                key="density_kg_m3", at_low_kN=0.5 * size, at_high_kN=size,
-                least_kN=0.5 * size, most_kN=size, first_order=0.9, total=0.95,
-            )
-        ],
         lines=[
             LineRecord(
                 key="density_kg_m3", values=densities,
