@@ -15,8 +15,7 @@ from dataclasses import replace
 from netdesign.envelope.rows import RowTask, build_point_task, roughen_settings
 from netdesign.envelope.run import CaseResult, resolve_case
 from netdesign.search.surrogate import Point
-from netdesign.solving.solve import Settings
-from netdesign.solving.state import CaseEnd, SolvedState
+from netdesign.solving.solve import CaseEnd, Settings, SolvedState
 from netdesign.solving.workers import Batch, Ends
 
 _AXIS = "friction_angle"

@@ -21,7 +21,7 @@ from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
 from netdesign.panel.solve import solve_strips
 from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
-from netdesign.solving.state import SolvedState
+from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (
     AnchorForces,
     compute_anchor_forces,

@@ -21,8 +21,7 @@ from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import Settings, describe_case
-from netdesign.solving.state import CaseEnd, SolvedState
+from netdesign.solving.solve import CaseEnd, Settings, SolvedState, describe_case
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport

@@ -23,8 +23,7 @@ from netdesign.files.scene import GivenSupport
 from netdesign.panel.solution import EndForces, RopeForces, compute_end_forces
 from netdesign.search.maxima import Addition
 from netdesign.solving.runner import Counts
-from netdesign.solving.solve import Settings
-from netdesign.solving.state import keep_state
+from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support

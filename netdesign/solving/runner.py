@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Fault
-from netdesign.solving.state import CaseEnd, is_stuck
+from netdesign.solving.solve import CaseEnd, is_stuck
 from netdesign.solving.store import FORGOTTEN, CaseStore, StoreError, name_case
 from netdesign.solving.workers import (
     Batch,

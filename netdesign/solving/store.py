@@ -26,7 +26,7 @@ from netdesign.edge.causes import explain
 from netdesign.edge.json_text import MAX_JSON_BYTES
 from netdesign.outcome import NetDesignError, Outcome
 from netdesign.solving.identity import identify_solver
-from netdesign.solving.state import CaseEnd, decode_end, encode_end
+from netdesign.solving.solve import CaseEnd, decode_end, encode_end
 from netdesign.words.message import Message, say
 
 _LAYOUT = 7  # of the tables

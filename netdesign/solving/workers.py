@@ -36,12 +36,17 @@ from netdesign.outcome import (
     catch_fault,
 )
 from netdesign.snow.triangulation import load_delaunay
-from netdesign.solving.solve import Settings, describe_case, solve_scene
-from netdesign.solving.state import CaseEnd, is_stuck, keep_state
+from netdesign.solving.solve import (
+    CaseEnd,
+    Settings,
+    describe_case,
+    is_stuck,
+    keep_state,
+    solve_scene,
+)
 from netdesign.words.message import say
 
-DIED = say("worker.died")
-NO_MEMORY = say("worker.no_memory")
+DIED, NO_MEMORY = say("worker.died"), say("worker.no_memory")
 _AHEAD = 2  # batches in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
@@ -408,9 +413,8 @@ def _require_answer(address: str) -> None:
 
 
 def _name_silence(address: str, error: Exception) -> ClusterError:
-    return ClusterError(
-        say("cluster.silent", address=address, kind=type(error).__name__)
-    )
+    kind = type(error).__name__
+    return ClusterError(say("cluster.silent", address=address, kind=kind))
 
 
 def _refuse_versions(

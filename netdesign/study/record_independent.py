@@ -14,7 +14,7 @@ from netdesign.cable.net import (
     compute_turning_angles,
 )
 from netdesign.envelope.run import CaseResult
-from netdesign.solving.state import SolvedState
+from netdesign.solving.solve import SolvedState
 from netdesign.study.records import IndependentRecord
 from netdesign.study.support_records import HeadForce
 

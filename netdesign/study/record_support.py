@@ -16,7 +16,7 @@ from netdesign.panel.inputs import Rope
 from netdesign.panel.solution import FailedPanel
 from netdesign.panel.strips import ROPE_POINTS
 from netdesign.site.model import NetRow, Resistance
-from netdesign.solving.state import SolvedState
+from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, NetPart, RopeForce

@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.solving.runner import Runner
-from netdesign.solving.state import encode_end
+from netdesign.solving.solve import encode_end
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import solve_batch
 from tests.solving.made_up_workers import Recording

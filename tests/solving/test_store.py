@@ -12,7 +12,7 @@ from netdesign.envelope.ranges import Case
 from netdesign.outcome import Outcome
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner
-from netdesign.solving.state import CaseEnd, SolvedState, decode_end, encode_end
+from netdesign.solving.solve import CaseEnd, SolvedState, decode_end, encode_end
 from netdesign.solving.store import CaseStore, name_case
 from netdesign.solving.workers import Job, solve_job
 from netdesign.words.message import say

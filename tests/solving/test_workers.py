@@ -15,7 +15,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import SENTENCE, Outcome
-from netdesign.solving.state import encode_end
+from netdesign.solving.solve import encode_end
 from netdesign.solving.workers import (
     DIED,
     ClusterError,
