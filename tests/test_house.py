@@ -10,7 +10,7 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 360, 43_610
+MODULES, LINES = 356, 43_140
 CORE_MODULES, CORE_LINES = 279, 34_520
 # Above the limits; nothing may be added.
 LONG_FUNCTIONS = {"study/dependent.py:_find_ground_resistance"}
