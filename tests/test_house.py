@@ -10,15 +10,11 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 356, 43_140
-CORE_MODULES, CORE_LINES = 279, 34_520
+MODULES, LINES = 357, 43_000
+CORE_MODULES, CORE_LINES = 261, 31_950
 # Above the limits; nothing may be added.
 LONG_FUNCTIONS = {"study/dependent.py:_find_ground_resistance"}
-LONG_MODULES = {
-    "report/difference.py",
-    "report/sections/quality.py",
-    "winter/maxima.py",
-}
+LONG_MODULES = {"addons/winter/document.py", "addons/winter/maxima.py"}
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef
