@@ -10,8 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 357, 43_000
-CORE_MODULES, CORE_LINES = 261, 31_950
+MODULES, LINES = 358, 42_930
+CORE_MODULES, CORE_LINES = 261, 31_740
 # Above the limits; nothing may be added.
 LONG_FUNCTIONS = {"study/dependent.py:_find_ground_resistance"}
 LONG_MODULES = {"addons/winter/document.py", "addons/winter/maxima.py"}

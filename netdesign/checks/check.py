@@ -140,16 +140,6 @@ class CasePoint:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spread:
-    """One part of the interval of a utilisation."""
-
-    source: Text  # "numerical error", "between the cases"
-    low: float | None  # None where there is no number; ``note`` says why
-    high: float | None
-    note: Text | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
 class Change:
     """The smallest change of one quantity that flips a check."""
 
@@ -220,7 +210,6 @@ class Check:
     resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestSeries | None = None  # of a pull-out resistance that is from them
-    spreads: Items[Spread] = field(default_factory=list)
     changes: Items[Change] = field(default_factory=list)
 
     @cached_property

@@ -35,6 +35,12 @@ def find_highest(checks: Sequence[Check]) -> Check | None:
     return max(known, key=_ratio, default=None)
 
 
+def find_worst(checks: Sequence[Check]) -> Check | None:
+    """Check of the largest utilisation by a solved case; None without any."""
+    rated = [check for check in checks if check.used is not None and check.case]
+    return max(rated, key=lambda check: check.used or 0.0, default=None)
+
+
 def find_shown(checks: Sequence[Check]) -> Check | None:
     """Check of which most is shown: the governing one, or the most used one."""
     governing = find_governing(checks)

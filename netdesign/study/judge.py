@@ -20,7 +20,7 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects
-from netdesign.study.governing import find_shown_member
+from netdesign.study.governing import find_shown_member, find_worst
 from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
@@ -56,9 +56,7 @@ from netdesign.study.records import (
 from netdesign.study.row_checks import (
     RowChecks,
     check_row,
-    detail_shown,
     distrust,
-    find_check_by_case,
 )
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.sideways import find_held_sideways, find_tilt
@@ -187,14 +185,9 @@ def _find_reliability(
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
-    worst = find_worst(found.checks)
-    judged = found.judged.get(worst.id) if worst else None
-    by_case = None
-    if judged is not None:
-        by_case = find_check_by_case(task, known, judged, found.judged.values())
     solver = CaseSolver(run.settings, run.creep_law)
     record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
-    made: ReliabilityRecord = record(task.site, found.checks, worst, by_case, solver)
+    made: ReliabilityRecord = record(task, known, found, solver)
     return made
 
 
@@ -205,7 +198,7 @@ def _check_row(
 
     Where the program fails in one of those, it is not trusted in the checks either.
     """
-    found = detail_shown(task, check_row(task, known))
+    found = check_row(task, known)
     worst = find_worst(found.checks)
     before = task.count_faults()
     form = _find_model_form(task, worst)
@@ -241,12 +234,6 @@ def _name_largest(check: Check) -> str:
     if check.member in ROPE_OF:
         return ROPE_OF[check.member]
     return name_in_panel(check.member) if check.is_by_panel else check.member
-
-
-def find_worst(checks: Sequence[Check]) -> Check | None:
-    """Check of the largest utilisation by a solved case; None without any."""
-    rated = [check for check in checks if check.used is not None and check.case]
-    return max(rated, key=lambda check: check.used or 0.0, default=None)
 
 
 def _governing_result(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
@@ -91,12 +91,6 @@ class MemberCheck:
         """Upper end of the utilisation [-]; below 0 without one."""
         high = self.check.utilisation_band[1]
         return -1.0 if high is None else high
-
-
-def is_worst(one: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
-    """No other support uses the member more."""
-    rivals = [other for other in judged if other.name == one.name]
-    return one is max(rivals, key=lambda other: other.ratio)
 
 
 def judge_members(known: RowForces) -> list[MemberCheck]:

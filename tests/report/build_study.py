@@ -11,7 +11,7 @@ from itertools import pairwise, product
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
-from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind, Spread
+from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind
 from netdesign.checks.forces import (
     MemberLoad,
     bring_floor_to_support,
@@ -495,19 +495,6 @@ def build_check(
         load_case="load_case_1",
         load_inclination_deg=35.0,
         steps=list_steps(used),
-        spreads=[
-            Spread(
-                source=say("spread.numerical_error"),
-                low=0.9,
-                high=0.95,
-            ),
-            Spread(
-                source=say("spread.between_cases"),
-                low=None,
-                high=None,
-                note=as_given(f"refused {SCRIPT}"),
-            ),
-        ],
         changes=[
             Change(
                 quantity=say("change.type_of_workbook", type=FORMULA),

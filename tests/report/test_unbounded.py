@@ -17,8 +17,12 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
-from netdesign.study.governing import find_governing, find_highest, rank_check
-from netdesign.study.judge import find_worst
+from netdesign.study.governing import (
+    find_governing,
+    find_highest,
+    find_worst,
+    rank_check,
+)
 from netdesign.words.catalogue import LANGUAGES
 from tests.checks.given_pulls import POST, study_row
 from tests.report.build_study import build_row

@@ -192,7 +192,7 @@ def test_forces_of_an_overtopped_net_are_those_of_snow_up_to_its_head(judge):
     buried = judge(build_row("R1", net_height=2.2)).rows[0]
     level = judge(build_row("R1", net_height=2.2, snow_thickness=2.2)).rows[0]
     assert {case.outcome for case in buried.cases} == {Outcome.CONVERGED}
-    assert buried.extremes == level.extremes
+    assert buried.forces == level.forces
     assert level.verdict is Verdict.PASS
     assert buried.verdict is Verdict.FAIL
     assert buried.drawing.snow_thickness_m == 2.2

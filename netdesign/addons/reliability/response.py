@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from netdesign.addons.reliability.check_by_case import TRIED_DENSITIES, CheckByCase
 from netdesign.envelope.ranges import Case, Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
@@ -23,7 +24,6 @@ from netdesign.search.surrogate import (
     fit_surrogate,
     supports_model,
 )
-from netdesign.study.check_by_case import TRIED_DENSITIES, CheckByCase
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 

@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 
+from netdesign.addons.reliability.check_by_case import CheckByCase, find_check_by_case
 from netdesign.addons.reliability.form import (
     DesignPoint,
     NotAvailable,
@@ -41,10 +42,12 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.site.model import Site
 from netdesign.snowpack.model_code import compare_densities
-from netdesign.study.check_by_case import CheckByCase
+from netdesign.study.governing import find_worst
+from netdesign.study.member_force import RowForces
 from netdesign.study.record_envelope import record_point
 from netdesign.study.records import ReliabilityRecord, VariableRecord
-from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.row_checks import RowChecks
+from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
@@ -56,11 +59,7 @@ _HEIGHTS = ("thickness", "snow_height")
 
 
 def record_reliability(
-    site: Site,
-    checks: Sequence[Check],
-    check: Check | None,
-    by_case: CheckByCase | None,
-    solver: CaseSolver,
+    task: RowToCheck, known: RowForces, found: RowChecks, solver: CaseSolver
 ) -> ReliabilityRecord:
     """Reliability of a row's governing check, or the reason why there is none.
 
@@ -68,17 +67,26 @@ def record_reliability(
 
     Parameters
     ----------
-    site : Site
-        What is known of the variables.
-    checks : sequence of Check
-        All of the row.
-    check : Check or None
-        The governing check.
-    by_case : CheckByCase or None
-        The same as a function of a solved case, where it follows from one.
+    task, known, found : RowToCheck, RowForces, RowChecks
+        The row, its forces and its checks.
     solver : CaseSolver
         One of its own: what fails here is no fault of the checks.
     """
+    check, by_case = find_worst(found.checks), None
+    judged = found.judged.get(check.id) if check else None
+    if judged is not None:
+        by_case = find_check_by_case(task, known, judged, found.judged.values())
+    return rate_reliability(task.site, found.checks, check, by_case, solver)
+
+
+def rate_reliability(
+    site: Site,
+    checks: Sequence[Check],
+    check: Check | None,
+    by_case: CheckByCase | None,
+    solver: CaseSolver,
+) -> ReliabilityRecord:
+    """Reliability of the governing ``check`` as a function of a solved case."""
     reason = _find_open(checks) or _find_lack(check, by_case)
     if check is None or by_case is None or reason is not None:
         return ReliabilityRecord(check=check.id if check else "", reason=reason)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 from importlib.resources import files
 
+from netdesign.addons.reliability.check_by_case import CheckByCase
 from netdesign.addons.reliability.limit_state import (
     DistributionKind,
     Variable,
@@ -27,7 +28,6 @@ from netdesign.outcome import ModelError
 from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.study.check_by_case import CheckByCase
 from netdesign.words.message import Message, say
 
 

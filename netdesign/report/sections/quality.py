@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from netdesign.checks.check import CasePoint, Check
+from netdesign.checks.check import CasePoint
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
@@ -29,12 +29,11 @@ from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
-    show_check,
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord, LargestForce
-from netdesign.study.governing import find_shown, list_failed
+from netdesign.study.governing import list_failed
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -51,7 +50,6 @@ def show_quality(study: Study, words: Words) -> Part:
     )
     rows: tuple[Table, ...] = (
         stack_rows(words("caption.bounds"), study, build_bounds, words),
-        _build_spreads(study, words),
     )
     return section(
         "annex-quality",
@@ -280,35 +278,6 @@ def _bound_row(force: LargestForce, words: Words) -> tuple[Cell, ...]:
         text_cell(by),
         text_cell(case),
     )
-
-
-def _build_spreads(study: Study, words: Words) -> Table:
-    """Uncertainty of the check that is shown of each row, part by part."""
-    keys = ("net_row", "check", "in_the_verdict")
-    shown = [(row, check) for row in study.rows if (check := find_shown(row.checks))]
-    return Table(
-        caption=words("caption.spreads"),
-        columns=key_columns(words, "heading.", keys),
-        rows=tuple(
-            (
-                text_cell(row.id),
-                text_cell(show_check(words, check)),
-                _list_spreads(check, words),
-            )
-            for row, check in shown
-        ),
-        empty=words("heading.no_utilisation"),
-    )
-
-
-def _list_spreads(check: Check, words: Words) -> Cell:
-    told = []
-    for one in check.spreads:
-        band = words.show_band("utilisation", one.low, one.high)
-        text = band if band != MISSING else words.show(one.note)
-        label = words.show(one.source)
-        told.append(words("show.label", label=label, text=text))
-    return text_cell(words.join(told) or MISSING)
 
 
 def _list_refused(study: Study, words: Words) -> Iterator[Block]:

@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.addons.reliability.form import follow_design_point
 from netdesign.addons.reliability.response import Line
-from netdesign.addons.reliability.row_reliability import record_reliability
+from netdesign.addons.reliability.row_reliability import rate_reliability
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.further_sheets import UncertainQuantity
@@ -18,7 +18,8 @@ from netdesign.snowpack.model_code import compare_densities
 from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import read_document, write_document
-from netdesign.study.judge import find_worst, judge_site
+from netdesign.study.governing import find_worst
+from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import name_rows
@@ -89,11 +90,11 @@ def test_a_row_with_an_open_check_has_none_however_safe_the_others_are(study, ve
     for number in range(0, len(row.checks), 7):
         checks = list(row.checks)
         checks[number] = turn(checks[number], verdict)
-        found = record_reliability(None, checks, find_worst(checks), None, None)
+        found = rate_reliability(None, checks, find_worst(checks), None, None)
         assert found.reason.key == "reliability.open_check"
         assert found.beta is None
     failing = turn(row.checks[3], Verdict.FAIL, utilisation=math.inf, reason="none")
-    found = record_reliability(None, [*row.checks, failing], None, None, None)
+    found = rate_reliability(None, [*row.checks, failing], None, None, None)
     assert found.reason.key == "reliability.open_check"
 
 

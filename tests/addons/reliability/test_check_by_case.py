@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.addons.reliability.check_by_case import CheckByCase
 from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.study.check_by_case import CheckByCase
 from netdesign.study.effects import find_effects
 from netdesign.study.record_guideline import find_row_floor
 from tests.each import each

@@ -1,0 +1,228 @@
+"""One check as a function of a solved case: a limit state follows it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property, partial
+
+from netdesign.checks import OpenKind
+from netdesign.envelope.extremes import find_extreme
+from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.site.model import NetRow
+from netdesign.structure.members import RopeForce, name_in_panel
+from netdesign.study.case_records import LargestForce
+from netdesign.study.effects import find_effects
+from netdesign.study.judgement import MemberCheck
+from netdesign.study.member_force import MemberForce, RowForces, find_force
+from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.sideways import find_tilt
+from netdesign.units import kilonewton_from_newton
+
+TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Push:
+    """A rope's pull along the row that adds to a force, by the guy of its end.
+
+    Attributes
+    ----------
+    force, rope : str
+        What it adds to, and whose pull it is.
+    ratio : float
+        Of what it adds to the rope's pull [-].
+    """
+
+    force: str
+    rope: str
+    ratio: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckByCase:
+    """One check as a function of a solved case.
+
+    Attributes
+    ----------
+    row, ranges : NetRow, Ranges
+        What is checked, and over what.
+    member : str
+        Whose force.
+    scale : float
+        Utilisation for each N of the upper end of the solved force [1/N].
+    added, rise : float
+        Utilisation by what is added to the largest force [-], and what that grows by
+        for each such force more. Another force brings it: it is taken to stay where
+        the member's falls, and to grow as the member's does.
+    beside : tuple of (str, float)
+        Another force of the same member, by the section or by the panel between posts,
+        with its ``scale``: the larger utilisation counts.
+    governing : Case
+        Case of the largest force.
+    results : sequence of CaseResult
+        Of the whole grid, or of the search.
+    widen : callable
+        Load of the support over some ranges of the row, in any unit: the end effect
+        grows with the glide factor, the force along a base with the tilt of its post.
+    push : Push or None
+        What a rope adds to one of the forces.
+    """
+
+    row: NetRow
+    ranges: Ranges
+    member: str
+    scale: float
+    governing: Case
+    results: Sequence[CaseResult]
+    widen: Callable[[Ranges], float] = lambda _: 1.0
+    added: float = 0.0
+    rise: float = 0.0
+    beside: tuple[tuple[str, float], ...] = ()
+    push: Push | None = None
+
+    @cached_property
+    def largest(self) -> float:
+        """Largest force of the member over the solved cases [N]."""
+        return max(self.force(one) for one in self.results if self.has_result(one))
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        """Names of all forces that the check follows."""
+        beside = tuple(name for name, _ in self.beside)
+        rope = (self.push.rope,) if self.push is not None else ()
+        return (self.member, *beside, *rope)
+
+    def has_result(self, result: CaseResult) -> bool:
+        """All forces are known that the check follows."""
+        return all(name in result.member_forces for name in self._names)
+
+    def force(self, result: CaseResult) -> float:
+        """Upper end of the member's force in a case [N]."""
+        return self._read(result, self.member)
+
+    def _read(self, result: CaseResult, name: str) -> float:
+        """Upper end of a force in a case, with what a rope adds to it [N]."""
+        force, push = result.member_forces[name].high, self.push
+        if push is None or push.force != name:
+            return force
+        return force + push.ratio * result.member_forces[push.rope].high
+
+    def utilisation(self, result: CaseResult) -> float | None:
+        """Upper end of the utilisation in a case [-]; None if it has no result."""
+        if not self.has_result(result):
+            return None
+        used = self.use(self.force(result))
+        for name, scale in self.beside:
+            used = max(used, scale * self._read(result, name) + self.added)
+        return used
+
+    def use(self, force: float) -> float:
+        """Utilisation by a force of the member [-]."""
+        added = self.added
+        if self.rise and self.largest:
+            added += self.rise * max(0.0, force / self.largest - 1.0)
+        return self.scale * force + added
+
+
+def find_check_by_case(
+    task: RowToCheck, known: RowForces, one: MemberCheck, judged: Iterable[MemberCheck]
+) -> CheckByCase | None:
+    """The check as a function of a solved case; None of one that no solve may turn.
+
+    What the ropes load has to be known as a whole.
+    """
+    if task.solver is None or task.solved.gap or task.row.is_overtopped:
+        return None
+    is_followed = _follows_cases(one) and is_worst(one, judged)
+    return _build_check(task, known, one) if is_followed else None
+
+
+def _follows_cases(one: MemberCheck) -> bool:
+    """The check follows from the member's force by numbers that stay as they are.
+
+    A resistance that follows the snow does not, nor what is added to no force at all,
+    nor an anchor of two guys: what these add may grow while its own force falls.
+    """
+    force = one.force
+    if force is not None and force.on.load.across is not None:
+        return False
+    if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
+        return False
+    if one.is_of_end and one.check.has_open(OpenKind.UNSOLVED, OpenKind.OUTSIDE_LAW):
+        return False
+    return force.largest.high_kN > 0.0 or force.added_high == 0.0
+
+
+def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckByCase:
+    """The check as a function of a solved case and of the row.
+
+    Of section and panel that one which is larger is followed, the other beside it.
+    """
+    force, use = one.force, one.use
+    if force is None or use is None:
+        raise ValueError("a check without a force has no target")
+    results = task.solved.results
+    scales = {
+        record.quantity: use * force.share * _widen(record, results) / 1e3
+        for record in force.solved
+    }
+    followed = force.largest.quantity
+    return CheckByCase(
+        row=task.row,
+        ranges=task.site.ranges,
+        member=followed,
+        scale=scales.pop(followed),
+        beside=tuple(scales.items()),
+        added=use * force.added_high,
+        rise=use * force.rise,
+        governing=task.extremes[followed].governing.case,
+        results=results,
+        widen=cache(partial(_find_load, known, one, force)),
+        push=_find_push(task, one, force),
+    )
+
+
+def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
+    """Part of the panel's force that the end guy brings; None of any other member."""
+    if force.on.push is None or not force.on.push.high:
+        return None
+    name, rope = name_in_panel(one.given.member), RopeForce.UPPER_ALONG
+    results = task.solved.results
+    panel = next(record for record in force.solved if record.quantity == name)
+    inside = force.on_support * force.share * _widen(panel, results)
+    pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
+    return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
+
+
+def _find_load(
+    known: RowForces,
+    one: MemberCheck,
+    now: MemberForce,
+    ranges: Ranges,
+) -> float:
+    """Load of a support over ranges in which something was moved, over that now [-].
+
+    Where a base would slide, times the tangent of its post's tilt, which is largest at
+    an end of the inclinations.
+    """
+    effects = find_effects(known.row, known.standard, ranges)
+    width = effects.find_support(one.width.position)
+    moved = find_force(known, one.given, width) or now
+    load, span = moved.compare_load(now), ranges["inclination"]
+    if one.given.mode != "sliding":
+        return load
+    return load * find_tilt(known.row, (span.low, span.high))
+
+
+def _widen(force: LargestForce, results: Sequence[CaseResult]) -> float:
+    """Upper end with what may hide, over the largest one of the solved cases [-]."""
+    at_cases = kilonewton_from_newton(find_extreme(force.quantity, results).force.high)
+    return force.high_kN / at_cases if at_cases else 1.0
+
+
+def is_worst(one: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
+    """No other support uses the member more."""
+    rivals = [other for other in judged if other.name == one.name]
+    return one is max(rivals, key=lambda other: other.ratio)
