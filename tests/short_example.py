@@ -7,8 +7,8 @@ from netdesign.site.template import workbook as template
 from tests.site_lines import write_lines
 
 
-def write_short_example(path, rows, *, is_grid=True, leans=True):
-    """Write these net rows; as a grid of three densities and friction angles.
+def write_short_example(path, rows, *, leans=False):
+    """Write these net rows.
 
     A net that does not lean over a range keeps to its least inclination.
     """
@@ -18,11 +18,6 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
     lines["Ends"] = [line for line in lines["Ends"] if line["row"] in rows]
     lines["Declared"] = [line for line in lines["Declared"] if line["row"] in rows]
     lines["Declared"] += confirmed
-    if is_grid:
-        for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
-            line["samples"] = samples
-            if samples == 1:
-                line["high"] = line["low"]
     if not leans:
         lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
     write_lines(path, lines)

@@ -38,9 +38,9 @@ RUN = CheckRun(
     started="2026-01-02T03:04:05+00:00",
 )
 RANGES = Ranges.of(
-    density=Interval(low=270.0, high=400.0, count=3),
-    friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=3),
-    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
+    inclination=Interval(low=math.radians(30), high=math.radians(30)),
 )
 
 

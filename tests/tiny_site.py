@@ -46,10 +46,10 @@ SHEETS = {
         ],
     ],
     "Ranges": [
-        ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 270, 400, 3],
-        ["friction angle [deg]", 30, 30, 1],
-        ["net inclination [deg]", 30, 30, 1],
+        ["quantity", "low", "high"],
+        ["density [kg/m3]", 270, 400],
+        ["friction angle [deg]", 30, 30],
+        ["net inclination [deg]", 30, 30],
     ],
     "Anchors": [
         [

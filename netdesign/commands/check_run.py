@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -299,8 +299,7 @@ def announce(site: Site, run: CheckRun, profiles: int, *, as_json: bool) -> int:
         plan = {
             "schema": "netdesign.plan/1",
             "net_rows": len(site.rows),
-            "cases": phases[0].cases,
-            "is_searched": not site.ranges.is_grid,  # then about so many
+            "cases": phases[0].cases,  # about
             "further_solves": _count_further(phases),  # about
             "jobs": run.jobs,
             "predicted_s": seconds,
@@ -325,7 +324,7 @@ def announce(site: Site, run: CheckRun, profiles: int, *, as_json: bool) -> int:
 
 def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) -> None:
     summary = say(
-        "plan.summary" if site.ranges.is_grid else "plan.summary_about",
+        "plan.summary",
         file=site.file_name,
         rows=len(site.rows),
         cases=phases[0].cases,
@@ -370,20 +369,16 @@ def _count_further(phases: Sequence[Phase]) -> int:
 
 def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
     """Seconds of one case on this machine: the middle of the ranges, for some rows."""
-    from netdesign.envelope.ranges import Interval, Ranges
-    from netdesign.study.cases import solve_site
+    from netdesign.envelope.ranges import Case
+    from netdesign.envelope.run import run_cases
+    from netdesign.study.row_to_check import build_row_task
 
-    def middle(interval: Interval) -> Interval:
-        value = (interval.low + interval.high) / 2
-        return Interval(low=value, high=value, count=1)
-
-    ranges = Ranges(
-        intervals=tuple((name, middle(one)) for name, one in site.ranges.intervals)
-    )
+    spans = site.ranges.intervals
+    case = Case.of({name: (span.low + span.high) / 2 for name, span in spans})
     rows = site.rows[:: max(1, len(site.rows) // _TIMED_ROWS)]
-    alone = replace(run, jobs=1)
+    tasks = [build_row_task(row, case, run.creep_law, run.settings) for row in rows]
     # the first solve also loads what the solver needs, which happens only once
-    solve_site(replace(site, rows=rows[:1], ranges=ranges), alone, runner)
+    run_cases(tasks[:1], runner)
     start = time.perf_counter()
-    solve_site(replace(site, rows=rows, ranges=ranges), alone, runner)
+    run_cases(tasks, runner)
     return (time.perf_counter() - start) / len(rows)

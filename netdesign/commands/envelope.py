@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
 _USUAL_CASES = 18  # of a search, for each range
+_MOST_GRID_CASES = 100_000
 _DOCUMENT = "envelope.json"
 
 
@@ -59,7 +60,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     refuse_jobs(asked["executor"])
     ranging = [one.name or "" for one in _list_options()]
     given = {name: asked[name] for name in ranging if asked[name] is not None}
-    counted = _require_usable(given)
+    counts = _read_counts(given)
     read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
@@ -67,9 +68,8 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
-    with open_phases(_list_phases(given), asked) as (runner, progress):
+    with open_phases(_list_phases(counts, len(given)), asked) as (runner, progress):
         task = _build_task(read.scene, confirm, spans, asked["accuracy"])
-        counts = {name: one.count for name, one in given.items()} if counted else {}
         document = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
@@ -89,10 +89,8 @@ def _list_options() -> list[click.Parameter]:
     return [one for one in command.params if one.type is RANGE]
 
 
-def _require_usable(given: dict[str, GivenRange]) -> bool:
-    """Refuse ranges that make no envelope; True if they ask for a grid."""
-    from netdesign.envelope.ranges import MOST_GRID_CASES
-
+def _read_counts(given: dict[str, GivenRange]) -> dict[str, int]:
+    """Samples of a grid's ranges, none of a search; refuses what makes no envelope."""
     if not given:
         flags = tuple(one.opts[0] for one in _list_options())
         raise UsageRefusal(say("usage.no_range", flags=flags))
@@ -100,21 +98,20 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
         raise UsageRefusal(
             say("usage.many_ranges", count=len(given), most=_MOST_RANGES)
         )
-    counts = [one.count is not None for one in given.values()]
-    if any(counts) and not all(counts):
+    counts = {name: one.count for name, one in given.items() if one.count is not None}
+    if counts and len(counts) < len(given):
         raise UsageRefusal(say("usage.mixed_ranges"))
-    cases = math.prod(one.count or 1 for one in given.values())
-    if cases > MOST_GRID_CASES:
-        raise UsageRefusal(say("usage.large_grid", cases=cases, most=MOST_GRID_CASES))
-    return all(counts)
+    cases = math.prod(counts.values())
+    if cases > _MOST_GRID_CASES:
+        raise UsageRefusal(say("usage.large_grid", cases=cases, most=_MOST_GRID_CASES))
+    return counts
 
 
-def _list_phases(given: dict[str, GivenRange]) -> list[Phase]:
+def _list_phases(counts: dict[str, int], ranging: int) -> list[Phase]:
     """Phases with about so many cases; confirmations are part of a search."""
     from netdesign.edge.progress import Phase
 
-    counts = [one.count for one in given.values() if one.count]
-    number = math.prod(counts) if counts else _USUAL_CASES * len(given)
+    number = math.prod(counts.values()) if counts else _USUAL_CASES * ranging
     phases = [
         Phase(
             key="envelope",
@@ -135,7 +132,6 @@ def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
                 Interval(
                     low=PARAMETERS[name].read(one.low),
                     high=PARAMETERS[name].read(one.high),
-                    count=one.count or 2,
                 ),
             )
             for name, one in given.items()
@@ -161,7 +157,7 @@ def _build_task(scene: Scene, confirm: str, ranges: Ranges, accuracy: float) -> 
 
 def _solve(
     task: RowTask,
-    counts: dict[str, int | None],
+    counts: dict[str, int],
     runner: Runner,
     progress: RunProgress,
     start: float,
@@ -171,9 +167,9 @@ def _solve(
     from netdesign.files.cases import write_envelope_document, write_grid_document
 
     if counts:
-        grid = run_grid(task, counts, runner)
+        results, skipped = run_grid(task, counts, runner)
         elapsed = time.perf_counter() - start
-        return write_grid_document(grid, runner.counts, elapsed, speak())
+        return write_grid_document(results, skipped, runner.counts, elapsed, speak())
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, speak())

@@ -23,7 +23,6 @@ from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
-from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -179,17 +178,13 @@ _SHOWN = 20  # cases of one fault
 TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
 
 
-def print_faults(
-    faults: Mapping[Fault, Collection[str]], language: Language | None = None
-) -> int:
+def print_faults(faults: Mapping[Fault, Collection[str]]) -> int:
     """Tell each fault with its cases and their net rows, on stderr.
 
     Parameters
     ----------
     faults : mapping of Fault to collection of str
         What failed, and the ids of the net rows that it befell.
-    language : str, optional
-        Of what is told, that of the command; a fault's own words are the program's.
 
     Returns
     -------
@@ -200,17 +195,15 @@ def print_faults(
     for fault, rows in faults.items():
         alike.setdefault(str(fault), {})[fault] = rows
     for cases in alike.values():
-        _describe_alike(cases, language or speak())
+        _describe_alike(cases)
     if not faults:
         return 0
     if not os.environ.get(TRACEBACK):
-        tell(say("cli.fault_trace", variable=TRACEBACK), language, err=True)
+        tell(say("cli.fault_trace", variable=TRACEBACK), err=True)
     return EXIT_CODE
 
 
-def _describe_alike(
-    faults: Mapping[Fault, Collection[str]], language: Language
-) -> None:
+def _describe_alike(faults: Mapping[Fault, Collection[str]]) -> None:
     """The same fault in some cases: its text once, and the way to the first."""
     first = next(iter(faults))
     lines: list[Message | str] = [say("cli.fault", fault=str(first))]
@@ -224,7 +217,7 @@ def _describe_alike(
         lines.append(say("cli.fault_cases", count=len(cases) - _SHOWN))
     if os.environ.get(TRACEBACK):
         lines.append(first.trace)
-    tell(say("text.lines", lines=tuple(lines)), language, err=True)
+    tell(say("text.lines", lines=tuple(lines)), err=True)
 
 
 def _name_case(rows: tuple[str, ...], case: str) -> Message:

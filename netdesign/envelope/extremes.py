@@ -25,19 +25,12 @@ class Extreme:
         The case of the largest value; carries the coincident forces.
     hidden : float
         How much larger it may be between the cases than at them [N].
-    is_bounded : bool
-        A search has bounded what is hidden; of a grid it is an estimate for smooth
-        forces, or nothing is known yet.
-    unknown : tuple of str
-        Axes along which nothing is known of it.
     """
 
     member: str
     force: Band
     governing: CaseResult
     hidden: float = 0.0
-    is_bounded: bool = False
-    unknown: tuple[str, ...] = ()
 
     @property
     def widened(self) -> Band:
@@ -48,12 +41,9 @@ class Extreme:
         return replace(self.force, high=self.force.high + self.hidden)
 
     @property
-    def upper_bound(self) -> float | None:
-        """Largest force with what may hide, without the numerical error [N].
-
-        None where nothing bounds it.
-        """
-        return self.force.value + self.hidden if self.is_bounded else None
+    def upper_bound(self) -> float:
+        """Largest force with what may hide, without the numerical error [N]."""
+        return self.force.value + self.hidden
 
 
 def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:

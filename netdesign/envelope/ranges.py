@@ -1,4 +1,4 @@
-"""Ranges of the uncertain quantities, and the cases that sample them.
+"""Ranges of the uncertain quantities, and cases in them.
 
 The quantities that can range, and how each enters a scene, stand first.
 """
@@ -10,8 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from types import MappingProxyType
-
-import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
@@ -178,38 +176,19 @@ def place_scene(scene: Scene, values: Mapping[str, float]) -> Scene:
 
 # What every case has; the other parameters only where they range.
 USUAL = ("density", "friction_angle", "inclination")
-_USUAL_COUNT = 3  # of a range without a count, beside one with a count
-# Of one grid, over all net rows of a site. A search takes some 50 a row, with a bound.
-MOST_GRID_CASES = 100_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interval:
-    """Closed range of an uncertain quantity, in SI units, with sample count.
-
-    Without a count the range is searched, not sampled.
-    """
+    """Closed range of an uncertain quantity, in SI units."""
 
     low: float
     high: float
-    count: int | None = None
 
     def __post_init__(self) -> None:
-        """Refuse reversed and endless ranges, and samples that leave an end out."""
+        """Refuse reversed and endless ranges."""
         if not -math.inf < self.low <= self.high < math.inf:
             raise ModelError(say("envelope.range_ends", low=self.low, high=self.high))
-        if self.count is None:
-            return
-        if self.count < 1 or (self.count == 1 and self.low != self.high):
-            raise ModelError(say("envelope.range_samples", count=self.count))
-
-    @property
-    def samples(self) -> tuple[float, ...]:
-        """Equally spaced values, both ends included."""
-        if self.low == self.high:
-            return (self.low,)
-        count = self.count or _USUAL_COUNT
-        return tuple(float(v) for v in np.linspace(self.low, self.high, count))
 
 
 def _list_twins(name: str) -> set[str]:
@@ -266,19 +245,6 @@ class Ranges:
     def further(self) -> tuple[str, ...]:
         """Names of the parameters that not every case has, in their order."""
         return tuple(name for name, _ in self.intervals if name not in USUAL)
-
-    @property
-    def is_grid(self) -> bool:
-        """Some range has a sample count, or none of them is a range at all."""
-        counts = [self[name].count for name in self.axes]
-        return not counts or any(count is not None for count in counts)
-
-    @property
-    def grid_cases(self) -> int:
-        """Number of cases of the grid; 0 for ranges that are searched."""
-        if not self.is_grid:
-            return 0
-        return math.prod(self[name].count or _USUAL_COUNT for name in self.axes)
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -343,18 +309,6 @@ def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
         "inclination": net.inclination,
     }
     return Case.of({**base, **values})
-
-
-def build_cases(ranges: Ranges) -> tuple[Case, ...]:
-    """All cases of the tensor grid, the first parameter varying slowest.
-
-    Density, friction angle and inclination are among the ranges.
-    """
-    names = [name for name, _ in ranges.intervals]
-    samples = [span.samples for _, span in ranges.intervals]
-    return tuple(
-        Case.of(dict(zip(names, values, strict=True))) for values in product(*samples)
-    )
 
 
 def require_valid(scene: Scene, ranges: Ranges) -> None:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from itertools import product
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import (
@@ -86,82 +85,6 @@ class Confirmation:
         return confirmed / screened - 1.0 if screened > 0.0 else 0.0
 
 
-def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
-    """Extreme with the largest rise of a parabola over its samples.
-
-    Through three neighbouring samples with second difference D a parabola rises at
-    most |D| / 8 above the larger of two neighbours; the rises along the axes are added.
-    With two samples only, or a failed neighbour, nothing is known along an axis.
-
-    Parameters
-    ----------
-    extreme : Extreme
-        Largest force of one member.
-    results : sequence of CaseResult
-        All cases of the grid.
-
-    Returns
-    -------
-    Extreme
-        With what may hide about its governing case.
-    """
-    forces = {
-        result.case: result.member_forces[extreme.member].value
-        for result in results
-        if extreme.member in result.member_forces
-    }
-    cases = [result.case.values for result in results]
-    size, unknown = 0.0, []
-    for axis in extreme.governing.case.values:
-        samples = sorted({values[axis] for values in cases})
-        if len(samples) == 1:
-            continue
-        difference = _second_difference(extreme.governing.case, axis, samples, forces)
-        if difference is None:
-            unknown.append(axis)
-        else:
-            size += abs(difference) / 8.0
-    return replace(extreme, hidden=size, unknown=tuple(unknown))
-
-
-def _second_difference(
-    case: Case, axis: str, samples: Sequence[float], forces: Mapping[Case, float]
-) -> float | None:
-    """Second difference of the force beside a case along an axis, or None."""
-    if len(samples) < 3:
-        return None
-    place = samples.index(case.values[axis])
-    middle = min(max(place, 1), len(samples) - 2)
-    values = [
-        forces.get(case.with_value(axis, samples[middle + step])) for step in (-1, 0, 1)
-    ]
-    before, at, after = values
-    if before is None or at is None or after is None:
-        return None
-    return before - 2.0 * at + after
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RowGrid:
-    """All cases of a row's grid, and how many of them needed no solve."""
-
-    results: Sequence[CaseResult]
-    skipped: int = 0
-
-    @property
-    def gap(self) -> Message | None:
-        """Why the extremes do not cover every case; None if they do."""
-        return describe_gap(self.results)
-
-    @property
-    def extremes(self) -> dict[str, Extreme]:
-        """Largest forces by member, with an estimate of what hides between them."""
-        found = find_extremes(self.results)
-        return {
-            member: estimate_hidden(one, self.results) for member, one in found.items()
-        }
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RowEnvelope:
     """End of a row's search. Forces in N per anchor, or N/m without a layout.
@@ -238,7 +161,7 @@ class RowEnvelope:
             if member in one.confirmed.member_forces
         ]
         force = replace(extreme.force, high=max([extreme.force.high, *confirmed]))
-        return replace(extreme, force=force, hidden=hidden, is_bounded=True)
+        return replace(extreme, force=force, hidden=hidden)
 
 
 def refine_settings(settings: SolverSettings) -> SolverSettings:
@@ -273,8 +196,3 @@ def build_point_task(
         settings or task.settings,
         task.panels,
     )
-
-
-def list_grid(counts: Sequence[int]) -> list[Point]:
-    """All points of a grid with so many samples of each axis, at least two."""
-    return list(product(*([k / (count - 1) for k in range(count)] for count in counts)))

@@ -7,18 +7,12 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import islice
+from itertools import islice, product
 
 from netdesign.edge.progress import Wave
 from netdesign.envelope.cases import Cases, FirstCases, FrictionSkip
 from netdesign.envelope.result_reader import ResultReader, bound_lifted
-from netdesign.envelope.rows import (
-    Confirmation,
-    RowEnvelope,
-    RowGrid,
-    RowTask,
-    list_grid,
-)
+from netdesign.envelope.rows import Confirmation, RowEnvelope, RowTask
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import Maxima, MaximaSearch
@@ -198,12 +192,13 @@ def _describe_wave(asked: _Asked) -> Wave:
 
 
 def run_grid(
-    task: RowTask, counts: Mapping[str, int | None], runner: Runner
-) -> RowGrid:
-    """Solve a tensor grid with so many samples of each axis."""
-    points = list_grid([counts[name] or 2 for name in task.ranges.axes])
+    task: RowTask, counts: Mapping[str, int], runner: Runner
+) -> tuple[list[CaseResult], int]:
+    """Cases of a grid with so many samples of each axis, and how many took no solve."""
+    sizes = [counts[name] for name in task.ranges.axes]
+    points = list(product(*([k / (n - 1) for k in range(n)] for n in sizes)))
     skip = FrictionSkip(task.ranges.axes)
     cases = Cases(task, points, skip)
     while batches := cases.ask():
         cases.tell(runner.solve_batches(batches))
-    return RowGrid(results=cases.finish(), skipped=skip.skipped)
+    return cases.finish(), skip.skipped

@@ -14,10 +14,10 @@ from typing import Any
 from netdesign import __version__
 from netdesign.core.library import name_core
 from netdesign.coupling.solution import Solution
-from netdesign.envelope.extremes import Extreme, find_extremes
+from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import build_case
-from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.scene import GivenSupport
 from netdesign.panel.solution import EndForces, RopeForces, compute_end_forces
@@ -97,14 +97,20 @@ def write_envelope_document(
 
 
 def write_grid_document(
-    grid: RowGrid, counts: Counts, wall_s: float, language: Language = "en"
+    results: Sequence[CaseResult],
+    skipped: int,
+    counts: Counts,
+    wall_s: float,
+    language: Language = "en",
 ) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
     Parameters
     ----------
-    grid : RowGrid
+    results : sequence of CaseResult
         All cases.
+    skipped : int
+        How many of them took no solve.
     counts : Counts
         Of the run.
     wall_s : float
@@ -112,8 +118,7 @@ def write_grid_document(
     language : str
         Of the reason.
     """
-    results = grid.results
-    reason = grid.gap
+    reason = describe_gap(results)
     extremes = find_extremes(results)
     return {
         "schema": SCHEMA,
@@ -138,7 +143,7 @@ def write_grid_document(
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
-            "skipped": grid.skipped,
+            "skipped": skipped,
             "failed": sum(not result.is_converged for result in results),
             "asked": len(results),
         },
@@ -152,7 +157,7 @@ def _write_bound(
 ) -> dict[str, Any]:
     extreme = envelope.extremes[drawn.quantity]
     force = record_largest(extreme, envelope, tuple(QUANTITY_KEYS))
-    confirmation, bound = None, force.bound_kN or 0.0
+    confirmation, bound = None, force.bound_kN
     if force.confirmed is not None:
         told = render(force.confirmed.reason or "", language)
         plain = asdict(replace(force.confirmed, reason=None))

@@ -190,16 +190,16 @@ class MaximaSearch:
         Parameters
         ----------
         dimension : int
-            Number of parameters, 1 to 6.
+            Number of parameters, 0 to 6.
         settings : SearchSettings
             When to end.
 
         Raises
         ------
         ModelError
-            For a number of parameters that is not within 1 to 6.
+            For more than 6 parameters.
         """
-        if not 1 <= dimension <= MOST_PARAMETERS:
+        if dimension > MOST_PARAMETERS:
             raise ModelError(
                 say("envelope.parameters", count=dimension, most=MOST_PARAMETERS)
             )
@@ -365,6 +365,8 @@ class MaximaSearch:
 
         They do so too where no case is left that could test them, unless cases ran out.
         """
+        if not self._lattice.shape[1]:  # nothing hides beside a single case
+            return True
         is_closed = self._bounds is not None and self._bounds.is_closed
         has_room = len(self.points) < self.settings.max_cases
         return is_closed and (self._is_tested or has_room)

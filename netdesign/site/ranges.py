@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as of_dataclass
 
-from netdesign.envelope.ranges import MOST_GRID_CASES, ONE_QUANTITY, Interval, Ranges
+from netdesign.envelope.ranges import ONE_QUANTITY, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, quote
@@ -36,7 +36,6 @@ from netdesign.site.tables import match_item, read_field
 from netdesign.site.titles import list_meant
 from netdesign.words.message import Message, say
 
-SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 _DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
 STIFFNESS = "net_stiffness"
 _Ends = tuple[Cell | None, Cell | None]
@@ -59,7 +58,7 @@ class RangesSheet:
     ranges : Ranges or None
         SI units; None where a line has a fault.
     inputs : tuple of InputEcho
-        Both ends and the samples of each range, in the units of the edge.
+        Both ends of each range, in the units of the edge.
     ends : mapping of str to tuple of Reading, or None
         Low and high end of what ranges beside the usual three; None where its line
         has a fault.
@@ -162,30 +161,6 @@ def assume_stiffness(sheet: RangesSheet) -> RangesSheet:
     )
 
 
-def refuse_large_grid(
-    table: Table, ranges: Ranges, n_rows: int, findings: list[Finding]
-) -> None:
-    """Refuse a grid of more cases than anybody waits for, or a study holds.
-
-    Parameters
-    ----------
-    table : Table
-        Sheet Ranges.
-    ranges : Ranges
-        As read from it.
-    n_rows : int
-        Net rows, each of which has the whole grid.
-    findings : list of Finding
-        Appended to.
-    """
-    count = n_rows * ranges.grid_cases
-    if count > MOST_GRID_CASES:
-        accepted = say("range.most_cases", most=MOST_GRID_CASES)
-        findings.append(
-            table.sheet.finding(say("range.large_grid", count=count), accepted)
-        )
-
-
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
     """Names of lines that give one quantity twice; the later of two is refused."""
     order = list(names)
@@ -228,7 +203,9 @@ def _read_line(
 ) -> None:
     name = read_field(table, "quantity", row, findings)
     unit = read_field(table, "unit", row, findings)
-    samples = read_field(table, "samples", row, findings)
+    counted = read_field(table, "samples", row, findings)
+    if counted.state == "given":  # a grid of cases, once
+        refuse(counted, say("range.samples"), say("range.left_empty"), findings)
     why = read_field(table, "justification", row, findings)
     if name.state != "given":
         return
@@ -254,7 +231,7 @@ def _read_line(
     if field in FURTHER_QUANTITIES and low.state == high.state == "blank":
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        built = _read_range(field, low, high, samples, settled, findings)
+        built = _read_range(field, low, high, settled, findings)
         if built and why.state == "given":
             named = say("column.justification_of", name=field.name)
             built = replace(built, inputs=(*built.inputs, why.echo(named)))
@@ -315,11 +292,10 @@ def _read_range(
     field: Field,
     low: Reading,
     high: Reading,
-    samples: Reading,
     unit: str,
     findings: list[Finding],
 ) -> _Range | None:
-    if "faulty" in (low.state, high.state, samples.state):
+    if "faulty" in (low.state, high.state):
         return None
     if low.state == high.state == "blank":
         return _make_default(field, _DEFAULT_INCLINATION)
@@ -328,10 +304,11 @@ def _read_range(
             rule = say("range.empty_beside", place=other.place)
             refuse(reading, rule, say("range.both_ends"), findings, unit=unit)
             return None
-    samples = _settle_samples(low, high, samples, unit, findings)
-    if samples.state == "faulty":
+    if low.number > high.number:
+        rule = say("range.below_low", place=low.place)
+        refuse(high, rule, say("range.low_to_high"), findings, unit=unit)
         return None
-    return _build_range(field, low, high, samples)
+    return _build_range(low, high)
 
 
 def _read_end(
@@ -358,26 +335,6 @@ def _name_end(field: Field, key: str) -> Field:
     return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
-def _settle_samples(
-    low: Reading, high: Reading, samples: Reading, unit: str, findings: list[Finding]
-) -> Reading:
-    """Check order and count of a range; an empty count means a search."""
-    is_single = low.number == high.number
-    if low.number > high.number:
-        rule = say("range.below_low", place=low.place)
-        refuse(high, rule, say("range.low_to_high"), findings, unit=unit)
-    elif samples.state == "blank":
-        value = 1.0 if is_single else SEARCHED
-        return replace(samples, state="default", value=value)
-    elif is_single and samples.number != 1:
-        refuse(samples, say("range.many_for_single"), "1", findings)
-    elif samples.number == 1 and not is_single:
-        refuse(samples, say("range.few"), say("range.two_or_more"), findings)
-    else:
-        return samples
-    return replace(samples, state="faulty")
-
-
 def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
     low, high = (
         Reading(
@@ -387,17 +344,16 @@ def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
         )
         for key, value in zip(("low", "high"), ends, strict=True)
     )
-    samples_field = Field(key="samples", kind="count", table="Ranges")
-    samples = Reading(field=samples_field, state="default", value=SEARCHED)
-    return _build_range(field, low, high, samples)
+    return _build_range(low, high)
 
 
-def _build_range(field: Field, low: Reading, high: Reading, samples: Reading) -> _Range:
-    count = None if samples.value == SEARCHED else int(samples.number)
-    interval = Interval(low=low.si, high=high.si, count=count)
-    named = say("column.samples_of", name=field.name)
-    inputs = (low.echo(), high.echo(), samples.echo(named))
-    return _Range(interval=interval, inputs=inputs, low=low, high=high)
+def _build_range(low: Reading, high: Reading) -> _Range:
+    return _Range(
+        interval=Interval(low=low.si, high=high.si),
+        inputs=(low.echo(), high.echo()),
+        low=low,
+        high=high,
+    )
 
 
 Ends = Mapping[str, tuple[Reading, Reading] | None]  # as `ranges.RangesSheet` has them

@@ -55,7 +55,6 @@ from netdesign.site.ranges import (
     assume_stiffness,
     build_ranges,
     free_columns,
-    refuse_large_grid,
 )
 from netdesign.site.readings import Reading, Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import (
@@ -360,7 +359,6 @@ def _build_rows(
     rows = build_net_rows(nets[0], lines, findings) if nets else ()
     findings.extend(ranges.findings)
     if ranged and ranges.ranges:
-        refuse_large_grid(ranged, ranges.ranges, len(rows), findings)
         check_layers(rows, lines.snow, ranges.ranges, findings)
     return rows
 

@@ -55,18 +55,17 @@ class ConfirmationRecord:
 class LargestForce:
     """Largest value of one force anywhere in the ranges of a row, characteristic.
 
-    Per anchor; per metre of width where an envelope says so. The only place where such
-    a force leaves SI units.
+    Per anchor; per metre of width of a scene without a support. The only place where
+    such a force leaves SI units.
     """
 
     quantity: str  # "foot_anchor", "panel_post", "panel_upper_along", ...
     low_kN: float  # numerical band; its upper end has what may hide between the cases
     value_kN: float
     high_kN: float
-    bound_kN: float | None  # value with what may hide; None of a grid of cases
+    bound_kN: float  # value with what may hide
     case: CasePoint
     beside_kN: dict[str, float]  # the members' forces in that case
-    unknown: Items[str] = field(default_factory=list)  # axes nothing is known along
     confirmed: ConfirmationRecord | None = None
 
 
@@ -84,7 +83,6 @@ class EnvelopeRecord:
     """Search for the largest forces of a net row, and what may hide."""
 
     axes: Items[AxisRecord]
-    is_per_metre: bool
     is_closed: bool  # every gap is within the one asked for
     gap_asked_percent: float
     certainty: float  # standard errors in an upper bound

@@ -1,4 +1,4 @@
-"""The cases of a site: a grid of them, or a search of the worst."""
+"""The cases of a site: a search of the worst."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ from itertools import product
 
 from netdesign.coupling.scene import Scene
 from netdesign.edge.progress import Phase, Wave
-from netdesign.envelope.ranges import Case, Ranges, build_cases
-from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
-from netdesign.envelope.run import run_cases
+from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
@@ -20,11 +19,11 @@ from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import CONNECTED
 from netdesign.study.check_run import CheckRun
-from netdesign.study.row_to_check import build_row_task, build_scene
+from netdesign.study.row_to_check import build_scene
 from netdesign.words.message import Message, say
 
-# Solves of a row, usual and at most, as --dry-run and progress expect them. A search
-# has a limit of its own. Beside the envelope a row takes one for each other creep law.
+# Solves of a row, usual and at most, as --dry-run and progress expect them. Beside the
+# envelope a row takes one for each other creep law.
 _SEARCH, _BESIDE = (55, 265), len(CREEP_LAWS) - 1
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 _REPORTS_S = 1.5  # time that the reports of one profile take
@@ -33,11 +32,11 @@ _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each 
 
 
 def count_cases(site: Site) -> int:
-    """Number of cases of a grid; about that of a search, which nobody knows yet."""
-    if site.ranges.is_grid:
-        return len(site.rows) * len(build_cases(site.ranges))
+    """About the number of cases of a search, which nobody knows yet."""
+    if not site.ranges.axes:
+        return len(site.rows)
     # a search of many ranges takes its first cases, and some of its own
-    first = len(list_first_design(len(site.ranges.axes))) if site.ranges.axes else 0
+    first = len(list_first_design(len(site.ranges.axes)))
     return len(site.rows) * max(_SEARCH[0], first + _BEYOND_FIRST)
 
 
@@ -77,14 +76,14 @@ def _count_checks(row: NetRow) -> int:
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
-    """The grid, or the search with its confirmations."""
-    cases, cost = count_cases(site), 1.0 / run.jobs
-    if site.ranges.is_grid:
-        words, most = say("phase.grid_cases"), cases
-    else:
-        words = say("phase.search_cases")
-        most = len(site.rows) * _SEARCH[1]
-    return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
+    """The search with its confirmations."""
+    return Phase(
+        key="envelope",
+        words=say("phase.search_cases"),
+        cases=count_cases(site),
+        most=len(site.rows) * (_SEARCH[1] if site.ranges.axes else 1),
+        cost=1.0 / run.jobs,
+    )
 
 
 def search_site(
@@ -148,7 +147,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
             gap=max(run.settings.accuracy, CLOSEST_GAP),
             max_cases=_count_most_cases(ranges),
         ),
-        confirmed_by=refine_settings(run.settings),
+        confirmed_by=refine_settings(run.settings) if ranges.axes else None,
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panels=row.solved_panels,
         has_end=row.row_end is not None,
@@ -207,33 +206,3 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
             refused = say("study.net_row", row=row.id, reason=error.message)
             refusals.setdefault(refused)
     raise ModelError(say("text.lines", lines=tuple(refusals)))
-
-
-def solve_site(
-    site: Site, run: CheckRun, runner: Runner | None = None
-) -> list[RowGrid]:
-    """Solve all cases of all net rows; no limit profile is needed for it.
-
-    Parameters
-    ----------
-    site : Site
-        What the engineer gives.
-    run : CheckRun
-        Settings.
-    runner : Runner, optional
-        Where cases are solved and kept; this process unless told otherwise.
-
-    Returns
-    -------
-    list of RowGrid
-        For each row its cases in their order; failed ones are named.
-    """
-    cases = build_cases(site.ranges)
-    tasks = [
-        [build_row_task(row, case, run.creep_law, run.settings) for case in cases]
-        for row in site.rows
-    ]
-    results = run_cases([task for of_row in tasks for task in of_row], runner)
-    count = len(cases)
-    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
-    return [RowGrid(results=of_row) for of_row in by_row]

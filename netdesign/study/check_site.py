@@ -9,10 +9,10 @@ from functools import partial
 from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.edge.progress import Phase, RunProgress
-from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import have_same_forces, list_alike, search_site, solve_site
+from netdesign.study.cases import have_same_forces, list_alike, search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
@@ -37,7 +37,7 @@ class SolvedSite:
     """A site with the solved cases of its rows."""
 
     site: Site
-    rows: Sequence[RowGrid | RowEnvelope]
+    rows: Sequence[RowEnvelope]
 
 
 def check_site(
@@ -100,9 +100,7 @@ def _judge_new(
     """
     build = partial(_build_job, site, standards, run, runner)
     pool = runner.workers.pool
-    groups: list[tuple[NetRow, ...]] = []
-    if not site.ranges.is_grid and pool is not None:
-        groups = list_alike(site, run)
+    groups = list_alike(site, run) if pool is not None else []
     if pool is not None and len(groups) >= _ROWS_A_PROCESS * pool.processes:
         watch.enter("checks", say("phase.rows"))
         jobs = [build(rows) for rows in groups]
@@ -131,11 +129,7 @@ def solve_rows(
     """
     todo = [row for row in site.rows if known is None or _is_new(row, site, known, run)]
     part = replace(site, rows=tuple(todo))
-    found: Sequence[RowGrid | RowEnvelope] = ()
-    if todo and site.ranges.is_grid:
-        found = solve_site(part, run, runner)
-    elif todo:
-        found = search_site(part, run, runner, watch.report_wave)
+    found = search_site(part, run, runner, watch.report_wave)
     by_id = dict(zip((row.id for row in todo), found, strict=True))
     if known is not None:
         old = zip(known.site.rows, known.rows, strict=True)
@@ -177,7 +171,7 @@ def _build_job(
     run: CheckRun,
     runner: Runner,
     rows: tuple[NetRow, ...],
-    solved: tuple[RowGrid | RowEnvelope, ...] | None = None,
+    solved: tuple[RowEnvelope, ...] | None = None,
 ) -> RowsJob:
     return RowsJob(
         site=replace(site, rows=rows),

@@ -9,7 +9,7 @@ from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solution import FailedPanel
@@ -65,7 +65,7 @@ from netdesign.words.message import Message, say
 
 def judge_site(
     site: Site,
-    solved: Sequence[RowGrid | RowEnvelope],
+    solved: Sequence[RowEnvelope],
     standard: Standard,
     run: CheckRun,
     solver: CaseSolver | None = None,
@@ -76,8 +76,8 @@ def judge_site(
     ----------
     site : Site
         What the engineer gives.
-    solved : sequence of RowGrid or RowEnvelope
-        As ``solve_site`` or ``search_site`` returns them.
+    solved : sequence of RowEnvelope
+        As ``search_site`` returns them.
     standard : Standard
         Limit profile.
     run : CheckRun
@@ -118,7 +118,7 @@ def gather_study(
 def judge_row(
     site: Site,
     row: NetRow,
-    solved: RowGrid | RowEnvelope,
+    solved: RowEnvelope,
     standard: Standard,
     run: CheckRun,
     solver: CaseSolver | None = None,
@@ -208,12 +208,8 @@ def _check_row(
     return found, form
 
 
-def _record_search(
-    solved: RowGrid | RowEnvelope, checks: Sequence[Check]
-) -> EnvelopeRecord | None:
-    """The search, drawn for one member; None for a grid of cases."""
-    if not isinstance(solved, RowEnvelope):
-        return None
+def _record_search(solved: RowEnvelope, checks: Sequence[Check]) -> EnvelopeRecord:
+    """The search, drawn for one member."""
     return record_envelope(solved, REPORTED_MEMBERS, _choose_drawn(solved, checks))
 
 
@@ -258,7 +254,6 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
     """Knowledge of a row by its cases and the guideline's load."""
     site, row, standard = task.site, task.row, task.standard
     results, extremes = task.solved.results, task.extremes
-    envelope = task.solved if isinstance(task.solved, RowEnvelope) else None
     effects = find_effects(row, standard, site.ranges)
     head = floor.head if floor else None
     held = find_held_sideways(task, head)
@@ -268,7 +263,7 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
         standard=standard,
         law=task.law,
         effects=effects,
-        largest={k: record_largest(one, envelope) for k, one in extremes.items()},
+        largest={k: record_largest(one, task.solved) for k, one in extremes.items()},
         floor=record_floor(floor, row),
         held=held,
         tilt=find_tilt(

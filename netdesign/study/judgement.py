@@ -15,7 +15,6 @@ from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import CONNECTED, ROPE_OF, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import check_anchor_distance, check_cover
-from netdesign.study.case_records import LargestForce
 from netdesign.study.dependent import (
     connect,
     corrode,
@@ -44,7 +43,6 @@ from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
@@ -161,7 +159,6 @@ def _list_open(
     gaps = (
         known.gap,
         None if given.member in ROPE_OF else known.floor_gap,
-        _find_unseen(force.solved if force else ()),
         find_other_panel(known.row, given, width.position),
     )
     for gap in filter(None, gaps):
@@ -271,14 +268,6 @@ def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
         for one in (*force.solved, *adding)
     )
     return next((one for one in doubts if one is not None), None)
-
-
-def _find_unseen(forces: Sequence[LargestForce]) -> Message | None:
-    """Quantities between whose samples nothing is known of some largest force."""
-    unknown = dict.fromkeys(axis for one in forces for axis in one.unknown)
-    if not unknown:
-        return None
-    return say("check.unseen_between", axes=tuple(name("axis", one) for one in unknown))
 
 
 def doubt_ground(row: NetRow, given: Resistance) -> Message | None:

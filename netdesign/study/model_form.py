@@ -68,34 +68,19 @@ def record_model_form(
         _record(one, found, placed, case, member, own.value)
         for one, found in zip(variants, results, strict=True)
     ]
-    band = check.utilisation_band
-    record = ModelFormRecord(
+    ratios = [1.0, *(one.ratio for one in records if one.ratio is not None)]
+    low, high, used = min(ratios), max(ratios), check.utilisation
+    return ModelFormRecord(
         case=record_point(result.case),
         member=member,
         force_kN=kilonewton_from_newton(own.value),
-        low_ratio=1.0,
-        high_ratio=1.0,
-        utilisation=check.utilisation,
-        utilisation_low=None,
-        utilisation_high=None,
-        numerical_low=band[0],
-        numerical_high=band[1],
-        solves=solver.count - before,
-        variants=records,
-    )
-    return span_variants(record)
-
-
-def span_variants(record: ModelFormRecord) -> ModelFormRecord:
-    """Record with its ends, which follow from its variants."""
-    ratios = [1.0, *(one.ratio for one in record.variants if one.ratio is not None)]
-    low, high, used = min(ratios), max(ratios), record.utilisation
-    return replace(
-        record,
         low_ratio=low,
         high_ratio=high,
+        utilisation=used,
         utilisation_low=None if used is None else used * low,
         utilisation_high=None if used is None else used * high,
+        solves=solver.count - before,
+        variants=records,
     )
 
 

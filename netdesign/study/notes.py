@@ -53,7 +53,7 @@ def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]
 
 def _search_notes(site: Site, accuracy: float) -> list[Message]:
     """Say where a search ends before the accuracy that its cases have."""
-    if site.ranges.is_grid or accuracy >= CLOSEST_GAP:
+    if not site.ranges.axes or accuracy >= CLOSEST_GAP:
         return []
     asked, closest = 100.0 * accuracy, 100.0 * CLOSEST_GAP
     return [say("note.accuracy_of_cases", asked=asked, closest=closest)]

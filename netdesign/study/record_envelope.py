@@ -85,21 +85,20 @@ def _largest_error_percent(result: CaseResult) -> float | None:
 
 def record_largest(
     extreme: Extreme,
-    envelope: RowEnvelope | None = None,
+    envelope: RowEnvelope,
     members: Sequence[str] = REPORTED_MEMBERS,
 ) -> LargestForce:
-    """Largest force; of a search with what may hide between its cases."""
+    """Largest force, with what may hide between the cases."""
     force = extreme.widened
     return LargestForce(
         quantity=extreme.member,
         low_kN=kilonewton_from_newton(force.low),
         value_kN=kilonewton_from_newton(force.value),
         high_kN=kilonewton_from_newton(force.high),
-        bound_kN=kilonewton_if_known(extreme.upper_bound),
+        bound_kN=kilonewton_from_newton(extreme.upper_bound),
         case=record_point(extreme.governing.case),
         beside_kN=show_coincident(extreme, members),
-        unknown=list(extreme.unknown),
-        confirmed=_record_confirmation(envelope, extreme.member) if envelope else None,
+        confirmed=_record_confirmation(envelope, extreme.member),
     )
 
 
@@ -144,7 +143,6 @@ def record_envelope(
             )
             for name, span in task.ranges.intervals
         ],
-        is_per_metre=task.layout is None,
         is_closed=maxima.is_closed,
         gap_asked_percent=100.0 * task.search.gap,
         certainty=task.search.certainty,

@@ -83,12 +83,11 @@ def record_panel(
 
 def _draw(drawn: CaseResult) -> PanelDrawing | None:
     """Half a panel of a case; None where it has none."""
-    panel, anchors = drawn.panel, drawn.anchors
-    if not isinstance(panel, PanelForces) or anchors is None:
+    panel = drawn.panel
+    if not isinstance(panel, PanelForces):
         return None
     solved = panel.solution
     half = solved.panel.post_spacing / 2.0
-    foot = anchors.foot_anchor
     order = np.argsort(solved.stations)  # from the post to mid-panel
     lower, upper = (solved.curves[order][:, :, end] for end in (0, -1))
     head = drawn.solution.head_point if drawn.solution else (0.0, 0.0)
@@ -105,8 +104,6 @@ def _draw(drawn: CaseResult) -> PanelDrawing | None:
         foot_kN=_show_point(solved.foot),
         mid_foot_kN=_show_point(solved.mid_foot),
         head_kN=_show_point(solved.head),
-        section_foot_kN=_show_point((foot.x, foot.y)),
-        section_head_kN=_show_point(anchors.head_pull),
         lower_along_kN=kilonewton_from_newton(solved.lower.along),
         upper_along_kN=kilonewton_from_newton(solved.upper.along),
     )

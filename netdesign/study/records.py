@@ -72,8 +72,6 @@ class ModelFormRecord:
     utilisation: float | None  # of the governing check
     utilisation_low: float | None  # of the same, in proportion
     utilisation_high: float | None
-    numerical_low: float | None  # interval of the same check
-    numerical_high: float | None
     solves: int  # that this took
     variants: Items[VariantRecord]
 
@@ -172,7 +170,7 @@ class RowStudy:
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: Items[Text] = field(default_factory=list)
     independent: Items[IndependentRecord] = field(default_factory=list)
-    envelope: EnvelopeRecord | None = None  # None for a grid of cases
+    envelope: EnvelopeRecord
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across

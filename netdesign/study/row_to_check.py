@@ -10,7 +10,7 @@ from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -38,7 +38,7 @@ class RowToCheck(Basis):
     check of a force.
     """
 
-    solved: RowGrid | RowEnvelope
+    solved: RowEnvelope
     extremes: Mapping[str, Extreme]
     solver: CaseSolver | None
     on_check: Callable[[], None] = lambda: None

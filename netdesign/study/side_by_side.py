@@ -16,7 +16,7 @@ from pathlib import Path
 
 from netdesign.checks import Standard
 from netdesign.edge.json_text import JsonPart
-from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import Fault, catch_fault
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.solving.identity import identify_installation
@@ -156,7 +156,7 @@ class RowsJob:
     ----------
     site : Site
         With these rows alone: all rows of a large site take long to be sent.
-    solved : tuple of RowGrid or RowEnvelope, or None
+    solved : tuple of RowEnvelope, or None
         Cases of these rows; None where they are to be searched first.
     standards : tuple of Standard
         Limit profiles.
@@ -167,7 +167,7 @@ class RowsJob:
     """
 
     site: Site
-    solved: tuple[RowGrid | RowEnvelope, ...] | None
+    solved: tuple[RowEnvelope, ...] | None
     standards: tuple[Standard, ...]
     run: CheckRun
     store: Path | None
@@ -283,7 +283,7 @@ def _judge_away(job: RowsJob) -> JudgedRows:
 
 
 def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[Studies]:
-    solved: Sequence[RowGrid | RowEnvelope] | None = job.solved
+    solved: Sequence[RowEnvelope] | None = job.solved
     if solved is None:
         solved = search_site(job.site, job.run, runner)
     keep_faults(job.site.rows, solved, runner)
@@ -296,7 +296,7 @@ def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[S
 def _judge_row(
     job: RowsJob,
     row: NetRow,
-    solved: RowGrid | RowEnvelope,
+    solved: RowEnvelope,
     runner: Runner,
     on_check: Callable[[], None],
 ) -> Studies:
@@ -310,10 +310,10 @@ def _judge_row(
 
 
 def keep_faults(
-    rows: Sequence[NetRow], solved: Sequence[RowGrid | RowEnvelope], runner: Runner
+    rows: Sequence[NetRow], solved: Sequence[RowEnvelope], runner: Runner
 ) -> None:
     """Tell the runner which net rows the faults in their cases befell."""
     for row, of_row in zip(rows, solved, strict=True):
-        again = of_row.confirmations if isinstance(of_row, RowEnvelope) else ()
-        for result in (*of_row.results, *(one.confirmed for one in again)):
+        again = (one.confirmed for one in of_row.confirmations)
+        for result in (*of_row.results, *again):
             runner.keep_fault(result.fault, row.id)

@@ -155,8 +155,6 @@ class PanelDrawing:
     foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
     mid_foot_kN: tuple[float, float]
     head_kN: tuple[float, float]  # on a post head
-    section_foot_kN: tuple[float, float]  # the same by the section
-    section_head_kN: tuple[float, float]
     lower_along_kN: float
     upper_along_kN: float
 

@@ -8,8 +8,6 @@ import openpyxl
 
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
-from netdesign.envelope.ranges import build_cases
-from netdesign.envelope.rows import RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
@@ -18,6 +16,7 @@ from netdesign.structure.layout import place_support
 from netdesign.structure.members import NetPart
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from tests.grid import build_cases, wrap_results
 
 NETS = {
     "id": "R",
@@ -111,7 +110,9 @@ def study_row(
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
     standard = replace(load_standard(profile), floor=floor)
-    return judge_site(site, [RowGrid(results=[result])], standard, run)
+    return judge_site(
+        site, [wrap_results(site, site.rows[0], [result], run)], standard, run
+    )
 
 
 def write_row(
@@ -148,10 +149,10 @@ def write_row(
             sheet.append(["A", anchor.get("ground", "till"), *line])
     ranges = workbook.create_sheet("Ranges")
     for line in (
-        ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 380, 380, 1],
-        ["friction angle [deg]", 30, 30, 1],
-        ["net inclination [deg]", 30, 30, 1],
+        ["quantity", "low", "high"],
+        ["density [kg/m3]", 380, 380],
+        ["friction angle [deg]", 30, 30],
+        ["net inclination [deg]", 30, 30],
     ):
         ranges.append(line)
     path = tmp_path / "site.xlsx"

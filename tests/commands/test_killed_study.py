@@ -26,7 +26,7 @@ KILLS = 20
 def folder(tmp_path_factory):
     """Folder with a site of two net rows of the example."""
     place = tmp_path_factory.mktemp("killed")
-    write_short_example(place / "site.xlsx", ["R1", "R7"], is_grid=False)
+    write_short_example(place / "site.xlsx", ["R1", "R7"], leans=True)
     return place
 
 

@@ -2,13 +2,14 @@
 
 import math
 import random
+from itertools import product
 
 import numpy as np
 
 from netdesign.addons.evidence.scene import build_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.envelope.rows import RowTask, build_point_task, list_grid
+from netdesign.envelope.rows import RowTask, build_point_task
 from netdesign.envelope.run import run_cases
 from netdesign.search.maxima import SearchSettings
 from netdesign.snow.ground import GroundLaw
@@ -76,7 +77,8 @@ def measure_excess(task, found, samples):
 
 def _choose_points(found, samples):
     """Points of a grid near a maximum of the model, and every 40th of the others."""
-    grid = list_grid([samples] * len(found.task.ranges.axes))
+    shares = [k / (samples - 1) for k in range(samples)]
+    grid = list(product(shares, repeat=len(found.task.ranges.axes)))
     model, maxima = found.maxima.surrogate, found.maxima
     if model is None or len(grid) <= _WHOLE:
         return grid

@@ -255,9 +255,9 @@ def example_tables() -> dict[str, list[list[str]]]:
             ["R2", "35", "2.5", "15", "no-slip", "3", "8000", "4", "A2", "", ""],
         ],
         "Ranges": [
-            ["quantity", "unit", "low", "high", "samples"],
-            ["density", "kg/m3", "270", "400", "3"],
-            ["friction angle", "deg", "15", "45", "4"],
+            ["quantity", "unit", "low", "high"],
+            ["density", "kg/m3", "270", "400"],
+            ["friction angle", "deg", "15", "45"],
         ],
         "Anchors": [
             ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],

@@ -16,7 +16,6 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.solving import store as store_module
 from netdesign.solving import workers as workers_module
@@ -25,22 +24,19 @@ from netdesign.solving.solve import solve_scene
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
 from netdesign.structure.members import MEMBER_MODES
-from netdesign.study.cases import search_site, solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests import small_site
 from tests.each import each
+from tests.grid import solve_site
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist
 from tests.solving.made_up_workers import Spoiling
 
 PROFILE = "nf-p-95-304-style"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:3]))
-SEARCHED = Ranges.of(
-    inclination=GRID["inclination"],
-    density=Interval(low=270.0, high=400.0),
-    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
-)
+SEARCHED = replace(GRID)
 solve_once = lru_cache(maxsize=None)(solve_scene)
 
 
@@ -51,9 +47,9 @@ def build_site(ranges=GRID, *, strength=STRONG, **missing):
 
 
 def judge(site, runner=None, standard=None):
-    """Study of a site, searched or sampled as its ranges ask for."""
+    """Study of a site, searched or on a grid by its ranges."""
     standard = standard or load_standard(PROFILE)
-    solve = solve_site if site.ranges.is_grid else search_site
+    solve = search_site if site.ranges is SEARCHED else solve_site
     return judge_site(site, solve(site, RUN, runner), standard, RUN)
 
 

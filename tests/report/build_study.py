@@ -24,6 +24,7 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (
     CaseRecord,
+    EnvelopeRecord,
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
@@ -185,6 +186,23 @@ def build_row(
         notes=[as_given(f"no gap is given {SCRIPT}")],
         pulls=build_pulls(),
         held_sideways=build_held_sideways(),
+        envelope=build_envelope(len(cases)),
+    )
+
+
+def build_envelope(cases: int) -> EnvelopeRecord:
+    """Search of a row, of which nothing is drawn."""
+    return EnvelopeRecord(
+        axes=[],
+        is_closed=True,
+        gap_asked_percent=1.0,
+        certainty=3.0,
+        resolved_share=0.6,
+        cases=cases,
+        skipped=0,
+        skips_tested=0,
+        failed=0,
+        drawn=[],
     )
 
 
@@ -343,8 +361,6 @@ def build_model_form(extreme: LargestForce) -> ModelFormRecord:
         utilisation=0.78,
         utilisation_low=0.71,
         utilisation_high=0.83,
-        numerical_low=0.82,
-        numerical_high=0.84,
         solves=1,
         variants=[
             VariantRecord(
@@ -464,7 +480,7 @@ def build_extreme(member: str, cases: list[CaseRecord]) -> LargestForce:
         value_kN=largest,
         low_kN=largest * (1 - ERROR),
         high_kN=largest * (1 + ERROR),
-        bound_kN=None,
+        bound_kN=largest,
         case=worst.case,
         beside_kN={
             other: getattr(worst, f"{other}_kN") for other in MEMBERS if other != member

@@ -16,10 +16,10 @@ from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.model import InputEcho
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
-from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import say
+from tests.grid import solve_site
 from tests.report.reading import PageReader, read_checks, read_rows, read_workbook
 from tests.small_site import RUN, build_row, build_site, resist
 

@@ -35,9 +35,9 @@ SOUND = {
         ["R2", 35, 2.5, None, 15, "no-slip", None, None, 3, 8000, 4, "A2", None, None],
     ],
     "Ranges": [
-        ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 270, 400, 3],
-        ["friction angle [deg]", 15, 45, 4],
+        ["quantity", "low", "high"],
+        ["density [kg/m3]", 270, 400],
+        ["friction angle [deg]", 15, 45],
     ],
     "Anchors": [
         ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],

@@ -13,5 +13,5 @@ def test_justification_stands_beside_the_range_with_its_cell(sheets, save):
     site = read_site(save(sheets))
     (found,) = [one for one in site.range_inputs if "justification" in str(one.label)]
     assert str(found.label) == "density, justification"
-    assert (found.value, found.text, found.cell) == (REASON, REASON, "Ranges!E2")
+    assert (found.value, found.text, found.cell) == (REASON, REASON, "Ranges!D2")
     assert site.ranges["density"].high == 400.0

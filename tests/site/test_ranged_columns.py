@@ -22,9 +22,7 @@ COLUMNS = {"slack": None, "net stiffness": 9, "upslope length": 4, "snow thickne
 
 
 def give(sheets, *lines):
-    sheets["Ranges"] += [[*line, None] for line in lines]
-    for line in sheets["Ranges"][1:3]:
-        line[3] = None  # searched
+    sheets["Ranges"] += map(list, lines)
 
 
 def empty(sheets, column):

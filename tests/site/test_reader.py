@@ -58,12 +58,10 @@ def test_values_arrive_in_si_units(sheets, save):
 def test_ranges_are_read_and_inclination_has_a_default(sheets, save):
     site = read_site(save(sheets))
     density, friction = site.ranges["density"], site.ranges["friction_angle"]
-    assert (density.low, density.high, density.count) == (270.0, 400.0, 3)
+    assert (density.low, density.high) == (270.0, 400.0)
     assert (friction.low, friction.high) == (math.radians(15), math.radians(45))
-    assert friction.count == 4
     inclination = site.ranges["inclination"]
     assert (inclination.low, inclination.high) == (math.radians(25), math.radians(35))
-    assert inclination.count is None
     shown = {str(echo.label): echo for echo in site.range_inputs}
     assert shown["density, low"].cell == "Ranges!B2"
     assert shown["density, low"].unit == "kg/m3"
@@ -416,19 +414,6 @@ def test_more_net_rows_than_a_report_holds_are_refused(
     assert str(finding.accepted) == "at most 37 in one site: divide it"
 
 
-def test_a_grid_of_too_many_cases_is_refused(sheets, save, refused):
-    """Of 25 by 25 samples, and three of the inclination: 53 net rows may have it."""
-    first, (_, *lines) = sheets["Nets"][FIRST], sheets["Ranges"]
-    for line in lines:
-        line[-1] = 25
-    sheets["Nets"][FIRST:] = [[f"W{k}", *first[1:]] for k in range(53)]
-    assert read_site(save(sheets)).ranges.grid_cases == 1875
-    sheets["Nets"].append(["one more", *first[1:]])
-    (finding,) = refused(save(sheets))
-    assert (finding.sheet, str(finding.rule)) == ("Ranges", "asks for 101250 cases")
-    assert "at most 100000 cases over all net rows" in str(finding.accepted)
-
-
 def test_a_gap_before_a_whole_line_is_noted(sheets, save):
     sheets["Nets"][SECOND:SECOND] = [[None], [None]]
     site = read_site(save(sheets))
@@ -453,18 +438,14 @@ def test_merged_cells_are_refused_below_the_headings_only(sheets, save, refused)
 @pytest.mark.parametrize(
     ("line", "cell", "rule"),
     [
-        (["density", 270, 400, 3], "A2", "has no unit"),
-        (["density [lb]", 270, 400, 3], "A2", "has an unknown unit"),
-        (["wetness [-]", 1, 2, 3], "A2", "is no known quantity"),
-        (["friction angle [deg]", 1, 2, 3], "A3", "is given twice"),
-        (["density [kg/m3]", 99, 400, 3], "B2", "is out of range"),
-        (["density [kg/m3]", 270, 901, 3], "C2", "is out of range"),
-        (["density [kg/m3]", 270, None, 3], "C2", "is empty"),
-        (["density [kg/m3]", 400, 270, 3], "C2", "is below the low end in Ranges!B2"),
-        (["density [kg/m3]", 270, 400, 2.5], "D2", "is not a whole number"),
-        (["density [kg/m3]", 270, 400, 1], "D2", "is too few for a range"),
-        (["density [kg/m3]", 300, 300, 3], "D2", "is too many for a single value"),
-        (["density [kg/m3]", 270, 400, 26], "D2", "is out of range"),
+        (["density", 270, 400], "A2", "has no unit"),
+        (["density [lb]", 270, 400], "A2", "has an unknown unit"),
+        (["wetness [-]", 1, 2], "A2", "is no known quantity"),
+        (["friction angle [deg]", 1, 2], "A3", "is given twice"),
+        (["density [kg/m3]", 99, 400], "B2", "is out of range"),
+        (["density [kg/m3]", 270, 901], "C2", "is out of range"),
+        (["density [kg/m3]", 270, None], "C2", "is empty"),
+        (["density [kg/m3]", 400, 270], "C2", "is below the low end in Ranges!B2"),
     ],
 )
 def test_faults_of_a_range_are_refused(sheets, save, refused, line, cell, rule):
@@ -476,6 +457,18 @@ def test_faults_of_a_range_are_refused(sheets, save, refused, line, cell, rule):
         [],
         ['lacks the quantity "density [kg/m3]"'],
     )
+
+
+@pytest.mark.parametrize("count", [1, 3, "3"])
+def test_a_count_of_samples_is_refused_with_what_to_do(sheets, save, refused, count):
+    """A grid of cases is no way to a verdict; the column of old workbooks is read."""
+    sheets["Ranges"][HEADINGS].append("samples")
+    assert read_site(save(sheets)).ranges["density"].high == 400.0
+    sheets["Ranges"][FIRST].append(count)
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, finding.cell) == ("Ranges", "D2")
+    assert str(finding.rule) == "counts the cases of a grid, which is gone"
+    assert str(finding.accepted).startswith("an empty cell: the worst case is searched")
 
 
 # All at once

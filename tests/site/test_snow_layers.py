@@ -8,14 +8,14 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.rows import RowGrid
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import search_site, solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import build_scene
+from tests.grid import solve_site, wrap_results
 from tests.solving.made_up_workers import Recording
 
 SNOW = [
@@ -97,7 +97,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
 ):
     low, high = (bound * ICE_DENSITY for bound in BOUTILLIER_2004.calibrated)
     assert low < 400 < 480 < high  # the range itself is inside
-    layered["Ranges"][1][1:4] = [400, 480, 2]
+    layered["Ranges"][1][1:3] = [400, 480]
     for line, density in zip(layered["Snow"][1:], (500, 420, 300), strict=True):
         line[3] = density
     mean = (1.0 * 500 + 1.5 * 420 + 0.5 * 300) / 3.0
@@ -106,7 +106,9 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     site = read_site(save(layered))
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     standard = load_standard("nf-p-95-304-style")
-    study = judge_site(site, [RowGrid(results=[]) for _ in site.rows], standard, run)
+    study = judge_site(
+        site, [wrap_results(site, row, [], run) for row in site.rows], standard, run
+    )
     notes = [str(note) for note in study.notes if "the creep law" in str(note)]
     if not is_layered:
         assert notes == []
@@ -118,10 +120,10 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
 
 
 def test_layers_reach_the_solver_and_change_its_forces(layered, save):
-    for name, values in (("Ranges", [300, 360, 2]),):
-        layered[name][1][1:4] = values
-    layered["Ranges"][2][1:4] = [30, 30, 1]
-    layered["Ranges"].append(["net inclination [deg]", 30, 30, 1])
+    for name, values in (("Ranges", [300, 360]),):
+        layered[name][1][1:3] = values
+    layered["Ranges"][2][1:3] = [30, 30]
+    layered["Ranges"].append(["net inclination [deg]", 30, 30])
     layered["Nets"][2:] = []
     layered["Nets"][0].append("panel system")
     layered["Nets"][1].append("none")
@@ -151,15 +153,14 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
 
 
 def test_layers_follow_the_density_of_a_search_too(layered, save):
-    layered["Ranges"][1][1:4] = [300, 360, None]
-    layered["Ranges"][2][1:4] = [30, 30, None]
-    layered["Ranges"].append(["net inclination [deg]", 30, 30, None])
+    layered["Ranges"][1][1:3] = [300, 360]
+    layered["Ranges"][2][1:3] = [30, 30]
+    layered["Ranges"].append(["net inclination [deg]", 30, 30])
     layered["Nets"][2:] = []
     layered["Nets"][0].append("panel system")
     layered["Nets"][1].append("none")
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     site = read_site(save(layered))
-    assert not site.ranges.is_grid
     workers = Recording()
     (found,) = search_site(site, run, Runner(workers=workers))
     assert found.gap is None

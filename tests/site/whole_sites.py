@@ -54,9 +54,9 @@ def french_site() -> Sheets:
         ],
         "Filets": [["Inventaire des filets"], [], headings, *lines, *notes],
         "Plages": [
-            ["Grandeur", "Unité", "Minimum", "Maximum", "Nombre"],
-            ["masse volumique", "kg/m³", "270", "412,5", "3"],
-            ["angle de frottement", "°", "15", "45", "3"],
+            ["Grandeur", "Unité", "Minimum", "Maximum"],
+            ["masse volumique", "kg/m³", "270", "412,5"],
+            ["angle de frottement", "°", "15", "45"],
         ],
         "Ancrages": [
             [

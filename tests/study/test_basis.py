@@ -1,6 +1,5 @@
 """What a pass of a solved row may rest on: snow of the law, proofs, nets above snow."""
 
-import math
 from dataclasses import replace
 
 import pytest
@@ -10,9 +9,10 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import Project
 from netdesign.snow.snowpack import Layer
-from netdesign.study.cases import search_site, solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
+from tests.grid import solve_site
 from tests.small_site import (
     RANGES,
     RUN,
@@ -26,13 +26,9 @@ from tests.small_site import (
 
 LAW = RUN.creep_law.name
 LIGHT = Ranges.of(
-    **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0, count=3)}
+    **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0)}
 )
-SEARCHED = Ranges.of(
-    density=Interval(low=270.0, high=400.0),
-    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
-    inclination=Interval(low=math.radians(30), high=math.radians(30)),
-)
+SEARCHED = replace(RANGES)
 BEARING = Declaration(
     row_id="R2",
     member="post_base",
@@ -56,7 +52,7 @@ def standard():
 def judge(standard):
     def judge_rows(*rows, solver=None, **changes):
         site = build_site(*rows, **changes)
-        solve = solve_site if site.ranges.is_grid else search_site
+        solve = search_site if site.ranges is SEARCHED else solve_site
         return judge_site(site, solve(site, RUN), standard, RUN, solver)
 
     return judge_rows

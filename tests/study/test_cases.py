@@ -1,4 +1,4 @@
-"""A site searched instead of sampled, on two coarse meshes."""
+"""A site searched on two coarse meshes."""
 
 import math
 import random
@@ -12,10 +12,11 @@ from netdesign.outcome import Verdict
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
-from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
+from netdesign.study.cases import list_phases, search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
+from tests.grid import solve_site
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 
@@ -41,18 +42,6 @@ def judge(standard, envelopes, site=SITE):
     return judge_site(site, envelopes, standard, RUN)
 
 
-def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
-    assert not RANGES.is_grid
-    counted = Ranges.of(
-        **dict(RANGES.intervals) | {"density": replace(RANGES["density"], count=3)}
-    )
-    assert counted.is_grid
-    single = Interval(low=300.0, high=300.0)
-    fixed = Ranges.of(density=single, friction_angle=single, inclination=single)
-    assert fixed.is_grid
-    assert count_cases(build_site(*ROWS, ranges=counted)) == 2 * 3 * 3
-
-
 def test_the_study_holds_bounds_and_confirmations(standard, envelopes):
     study = judge(standard, envelopes)
     assert study.verdict is Verdict.PASS
@@ -67,6 +56,22 @@ def test_the_study_holds_bounds_and_confirmations(standard, envelopes):
                 assert force.confirmed.confirmed_kN <= force.high_kN
     again = read_document(write_document(study))
     assert replace(again, digest="") == study
+
+
+def test_ranges_of_one_value_each_are_one_case(standard):
+    """Nothing hides beside it: its force is its bound, and its demand is proven."""
+    spans = {
+        name: Interval(low=one.high, high=one.high) for name, one in RANGES.intervals
+    }
+    site, runner = build_site(*ROWS, ranges=Ranges.of(**spans)), Runner()
+    found, alone = search_site(site, RUN, runner), solve_site(site, RUN)
+    assert runner.counts.solved == list_phases(site, RUN)[0].cases == len(ROWS)
+    for one, other in zip(found, alone, strict=True):
+        assert one.gap is None
+        for member, extreme in other.extremes.items():
+            found_high = one.extremes[member].widened.high
+            assert found_high == pytest.approx(extreme.force.high, rel=1e-12)
+    assert judge(standard, found, site).verdict is Verdict.PASS
 
 
 def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
@@ -115,16 +120,13 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
 # --- what is promised beforehand -----------------------------------------------------
 
 
-def draw_site(seed, *, is_grid):
+def draw_site(seed):
     """One or two rows of any strength, over untidy ranges."""
     draw = random.Random(seed)
 
     def spread(low, high, widest):
         start = draw.uniform(low, high)
-        count = draw.randint(2, 3) if is_grid else None
-        return Interval(
-            low=start, high=start + draw.uniform(0.2, 1) * widest, count=count
-        )
+        return Interval(low=start, high=start + draw.uniform(0.2, 1) * widest)
 
     def row(name):
         thickness = draw.uniform(1.6, 3.9)
@@ -149,14 +151,13 @@ def draw_site(seed, *, is_grid):
 SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in (0, *range(2, 30))]
 
 
-@pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
 @pytest.mark.parametrize("seed", [1, *SLOW])
-def test_each_phase_solves_no_more_than_was_promised(standard, is_grid, seed):
+def test_each_phase_solves_no_more_than_was_promised(standard, seed):
     """Never more than the upper figure; of a row that passes not even the usual."""
-    site, runner, asked = draw_site(seed, is_grid=is_grid), Runner(), []
+    site, runner, asked = draw_site(seed), Runner(), []
     runner.on_ask = asked.extend
     promised = {one.key: one for one in list_phases(site, RUN)}
-    solved = (solve_site if is_grid else search_site)(site, RUN, runner)
+    solved = search_site(site, RUN, runner)
     of_envelope = runner.counts.solved
     solver = CaseSolver(RUN.settings, RUN.creep_law, runner)
     study = judge_site(site, solved, standard, RUN, solver)

@@ -15,10 +15,10 @@ from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.structure.members import Member
-from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests.each import each
+from tests.grid import solve_site
 from tests.site_lines import write_lines
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
@@ -33,10 +33,10 @@ def solved(tmp_path_factory):
     lines = load_example()
     for sheet, key in (("Nets", "id"), ("Ends", "row"), ("Declared", "row")):
         lines[sheet] = [one for one in lines[sheet] if one[key] == "R4"]
-    spans = {"density": (270, 400, 3), "friction angle": (30, 30, 1)}
+    spans = {"density": (270, 400)}
     for one in lines["Ranges"]:
-        low, high, count = spans.get(one["quantity"], (30, 30, 1))
-        one |= {"low": low, "high": high, "samples": count}
+        low, high = spans.get(one["quantity"], (30, 30))
+        one |= {"low": low, "high": high}
     path = tmp_path_factory.mktemp("chain") / "site.xlsx"
     write_lines(path, lines)
     site = read_site(path)

@@ -27,6 +27,7 @@ from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, RowStudy,
 from netdesign.study.support_records import Arrow, Drawing
 from netdesign.words.message import say
 from tests.each import each
+from tests.report.build_study import build_envelope
 
 POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)
 CHECK = Check(
@@ -64,6 +65,7 @@ DRAWING = Drawing(
 )
 ROW = RowStudy(
     id="Couloir n° 1 – “Ost”",
+    envelope=build_envelope(1),
     checks=[CHECK, GEOMETRY],
     forces=[
         LargestForce(

@@ -2,7 +2,6 @@
 
 import csv
 import json
-import math
 from dataclasses import replace
 
 import pytest
@@ -16,7 +15,7 @@ from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
-from netdesign.study.cases import search_site, solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point, record_point
@@ -135,21 +134,6 @@ def test_outputs_have_a_column_for_what_ranges(study):
     page = render_html(study)
     assert "Glide factor" in page
     assert "d 2.5 m, s 0.021, N 1.77" in page.replace("\N{NO-BREAK SPACE}", " ")
-
-
-def test_a_grid_estimates_what_hides_along_every_range():
-    ranges = Ranges.of(
-        density=Interval(low=371.0, high=371.0, count=1),
-        friction_angle=Interval(low=0.43, high=0.43, count=1),
-        inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
-        slack=Interval(low=0.021, high=0.073, count=3),
-        upslope_length=Interval(low=5.2, high=7.9, count=2),
-    )
-    (grid,) = solve_site(build_site(build_row("R1"), ranges=ranges), RUN)
-    assert len(grid.results) == 6
-    foot = grid.extremes["foot_anchor"]
-    assert foot.unknown == ("upslope_length",)
-    assert foot.hidden > 0.0
 
 
 def test_without_further_ranges_a_case_has_three_values():

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.envelope.ranges import build_cases
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_support import record_drawn
 from netdesign.study.row_to_check import CaseSolver
+from tests.grid import build_cases
 from tests.study.test_row_study import RANGES, ROW, RUN
 
 

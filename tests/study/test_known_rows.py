@@ -19,12 +19,13 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.study import check_site as use_case
 from netdesign.study import side_by_side
-from netdesign.study.cases import solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import cut_site, name_rows
+from tests.grid import solve_site
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
 from tests.study.test_member_force import ACCEPTED
@@ -173,7 +174,7 @@ def test_a_row_is_judged_on_its_part_of_the_site_alone():
     """The whole site brings the same study."""
     site = build_site(*ROWS, notes=())
     whole = judge_site(
-        site, solve_site(site, RUN), STANDARDS[0], RUN,
+        site, search_site(site, RUN), STANDARDS[0], RUN,
         CaseSolver(RUN.settings, RUN.creep_law),
     )  # fmt: skip
     assert check_site(site, STANDARDS[:1], RUN) == [whole]

@@ -16,7 +16,6 @@ from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import LargestForce
-from netdesign.study.cases import solve_site
 from netdesign.study.effects import find_effects
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
@@ -27,15 +26,16 @@ from netdesign.study.record_envelope import record_point
 from netdesign.study.record_guideline import find_row_floor, record_floor
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.row_to_check import CaseSolver
+from tests.grid import solve_site
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 
 ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
-    density=Interval(low=200.0, high=270.0, count=3),
-    friction_angle=Interval(low=math.radians(20), high=math.radians(45), count=3),
-    inclination=Interval(low=math.radians(28), high=math.radians(33), count=3),
+    density=Interval(low=200.0, high=270.0),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(45)),
+    inclination=Interval(low=math.radians(28), high=math.radians(33)),
 )
 LIGHT = {
     "slope_angle": math.radians(45.0),

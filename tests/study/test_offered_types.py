@@ -40,8 +40,6 @@ def write_example(path, dice=None):
     lines["Ends"] = [one for one in lines["Ends"] if one["row"] in ROWS]
     lines["Declared"] = []
     lines["Nets"][1] |= {"row_end": "", "neighbour": "", "gap": 0.0}
-    for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
-        line["samples"] = samples
     lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
     if dice:
         draw_types(lines, dice)

@@ -15,12 +15,13 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import Project, Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import END_MODES, ROPE_OF
-from netdesign.study.cases import search_site, solve_site
+from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
+from tests.grid import solve_site
 from tests.read_check import bring
 from tests.small_site import (
     LASTS,
@@ -77,10 +78,9 @@ def with_panel(panel, *, end=None, **changes):
     return build_row("R1", panels=panel, row_end=end, **changes)
 
 
-def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES):
+def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES, solve=solve_site):
     site = build_site(row, ranges=ranges, project=ACCEPTED)
-    solved = solve_site(site, RUN) if ranges.is_grid else search_site(site, RUN)
-    return site, judge_site(site, solved, standard, RUN, solver)
+    return site, judge_site(site, solve(site, RUN), standard, RUN, solver)
 
 
 def checks_of(study):
@@ -263,7 +263,7 @@ def test_a_search_bounds_both_sets():
         friction_angle=Interval(low=math.radians(17.0), high=math.radians(43.0)),
         inclination=Interval(low=0.52, high=0.52),
     )
-    _, study = judge(with_panel(a_panel()), ranges=ranges)
+    _, study = judge(with_panel(a_panel()), ranges=ranges, solve=search_site)
     row = study.rows[0]
     assert row.envelope.is_closed
     for one in row.forces:

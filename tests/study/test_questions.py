@@ -4,11 +4,11 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.study.cases import solve_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
+from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site
 
 STANDARD = load_standard("nf-p-95-304-style")

@@ -13,20 +13,20 @@ from netdesign.snow.ground import (
     GroundLaw,
     build_ground_from_glide_factor,
 )
-from netdesign.study.cases import solve_site
 from netdesign.study.effects import (
     find_glide_factors,
     find_row_glide_factor,
     load_glide_limits,
 )
 from netdesign.study.judge import judge_site
+from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site
 
 SLIDING = GroundLaw(kind="sliding", slip_length=7.3)
 ONE_CASE = Ranges.of(
-    density=Interval(low=347.0, high=347.0, count=1),
-    friction_angle=Interval(low=0.41, high=0.41, count=1),
-    inclination=Interval(low=0.47, high=0.47, count=1),
+    density=Interval(low=347.0, high=347.0),
+    friction_angle=Interval(low=0.41, high=0.41),
+    inclination=Interval(low=0.47, high=0.47),
 )
 
 

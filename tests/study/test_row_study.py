@@ -12,17 +12,17 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Project, Resistance
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import MEMBER_MODES
-from netdesign.study.cases import solve_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
+from tests.grid import solve_site
 from tests.small_site import EYE, LASTS, build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
 RANGES = Ranges.of(
-    density=Interval(low=270.0, high=400.0, count=3),
-    friction_angle=Interval(low=math.radians(20), high=math.radians(40), count=3),
-    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(40)),
+    inclination=Interval(low=math.radians(30), high=math.radians(30)),
 )
 WEAK = 150e3  # [N], the foot anchor's tendon; all else is strong
 

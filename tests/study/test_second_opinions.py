@@ -54,7 +54,6 @@ def test_model_form_of_a_sliding_row(sliding):
     assert record.low_ratio == min(known) < 0.95
     assert record.high_ratio == max(known | {1.0})
     assert record.utilisation_low == pytest.approx(0.7 * record.low_ratio)
-    assert (record.numerical_low, record.numerical_high) == (0.69, 0.71)
     # the other law means the same N, and so another slip length
     assert variants["zwinger-2007"].slip_length_m != row.ground.slip_length
     refused = variants["gagliardini-1997"]

@@ -1,6 +1,5 @@
 """Notes of a site that hold for all of its rows."""
 
-import math
 from dataclasses import replace
 
 import pytest
@@ -10,13 +9,8 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.study.judge import gather_study
 from netdesign.study.notes import list_site_notes
 from netdesign.words.catalogue import LANGUAGES, render
-from tests.small_site import ROWS, RUN, build_site
+from tests.small_site import RANGES, ROWS, RUN, build_site
 
-SEARCHED = Ranges.of(
-    density=Interval(low=270.0, high=400.0),
-    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
-    inclination=Interval(low=math.radians(30), high=math.radians(30)),
-)
 FINEST = ("0.05 %", "0.1 %"), ("0,05 %", "0,1 %")
 
 
@@ -29,14 +23,16 @@ def list_of_accuracy(site, accuracy):
 def test_an_accuracy_finer_than_the_search_is_told_as_that_of_the_cases(
     accuracy, count
 ):
-    site = build_site(*ROWS, ranges=SEARCHED)
-    assert len(list_of_accuracy(site, accuracy)) == count
-    assert list_of_accuracy(build_site(*ROWS), accuracy) == []  # a grid has no gap
+    assert len(list_of_accuracy(build_site(*ROWS), accuracy)) == count
+    ends = {name: span.low for name, span in RANGES.intervals}
+    single = Ranges.of(**{k: Interval(low=end, high=end) for k, end in ends.items()})
+    site = build_site(*ROWS, ranges=single)
+    assert list_of_accuracy(site, accuracy) == []  # one case has no gap
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_note_says_both_accuracies(language):
-    (note,) = list_of_accuracy(build_site(*ROWS, ranges=SEARCHED), 5e-4)
+    (note,) = list_of_accuracy(build_site(*ROWS), 5e-4)
     told = render(note, language).replace("\N{NO-BREAK SPACE}", " ")
     told = told.replace("\N{NARROW NO-BREAK SPACE}", " ")
     for shown in FINEST[language != "en"]:
@@ -46,6 +42,6 @@ def test_the_note_says_both_accuracies(language):
 def test_the_note_stands_in_the_study():
     standard = load_standard("nf-p-95-304-style")
     run = replace(RUN, settings=replace(RUN.settings, accuracy=5e-4))
-    site = build_site(*ROWS, ranges=SEARCHED)
+    site = build_site(*ROWS)
     keys = [one.key for one in gather_study(site, [], standard, run).notes]
     assert "note.accuracy_of_cases" in keys

@@ -137,8 +137,6 @@ def test_a_type_of_a_cell_for_all_rows_passes_in_all_of_them(tmp_path):
     lines["Declared"] = []
     end = next(line for line in lines["Ends"] if line["row"] == "R5")
     lines["Ends"] = [{**end, "row": "all", "lateral_anchor": "A28-tested"}]
-    for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
-        line["samples"] = samples
     lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
     write_lines(path, lines)
     _, cells, read = size((path, solve(read_site(path))))
@@ -165,8 +163,6 @@ def test_no_type_takes_the_place_of_one_whose_ground_has_a_strength(tmp_path):
         if one["id"] == "A28-computed":
             del one["least_cover"]
             one |= {"soil_cohesion": 21, "soil_friction": 36, "soil_weight": 19.3}
-    for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
-        line["samples"] = samples
     lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
     write_lines(tmp_path / "site.xlsx", lines)
     solved = solve(read_site(tmp_path / "site.xlsx"))
@@ -207,7 +203,7 @@ def test_only_rows_with_other_forces_are_solved_again():
         for rows in (again.rows, known.rows, afresh.rows)
     )
     assert found == new
-    assert all(one != other for one, other in zip(found, old, strict=True))
+    assert not set(found) & set(old)
 
 
 def test_ranges_that_differ_are_solved_again():

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
@@ -39,9 +37,6 @@ from netdesign.study.case_records import (
 from netdesign.study.governing import find_shown_member
 from netdesign.study.records import RowStudy
 
-_MOST_MAPS = 3  # side by side
-_MAPPED = 3  # first quantities of a case: density, friction, inclination
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnvelopeView:
@@ -50,56 +45,12 @@ class EnvelopeView:
     force: LargestForce
     drawn: DrawnForce
 
-    @property
-    def bound_kN(self) -> float:
-        """Largest force with what may hide; the force itself over a grid of cases."""
-        bound = self.force.bound_kN
-        return self.force.value_kN if bound is None else bound
-
 
 def view_envelope(row: RowStudy) -> list[EnvelopeView]:
-    """Drawn forces of a row's search; of a grid those of every member."""
-    if row.envelope is None:
-        return [_view_grid(row, one) for one in row.member_forces]
+    """Drawn forces of a row's search."""
     forces = {one.quantity: one for one in row.forces}
     drawn = row.envelope.drawn
     return [EnvelopeView(force=forces[one.quantity], drawn=one) for one in drawn]
-
-
-def _view_grid(row: RowStudy, force: LargestForce) -> EnvelopeView:
-    """Map of a member over the cases; the force of one without a result is NaN."""
-    maps = list(_list_maps(row, force))
-    drawn = DrawnForce(quantity=force.quantity, lines=[], maps=maps)
-    return EnvelopeView(force=force, drawn=drawn)
-
-
-def _list_maps(row: RowStudy, force: LargestForce) -> Iterator[MapRecord]:
-    """Maps of some inclinations, with the governing one; others as in that case."""
-    forces = {
-        (one.case.inclination_deg, one.case.friction_deg, one.case.density_kg_m3): (
-            getattr(one, f"{force.quantity}_kN")
-        )
-        for one in row.cases
-        if _list_further(one.case) == _list_further(force.case)
-    }
-    if not forces:
-        return
-    axes = zip(*forces, strict=True)
-    angles, frictions, densities = (sorted(set(axis)) for axis in axes)
-    if len(angles) > _MOST_MAPS:
-        angles = sorted({angles[0], force.case.inclination_deg, angles[-1]})
-    for angle in angles:
-        table = [[forces.get((angle, f, d)) for d in densities] for f in frictions]
-        yield MapRecord(
-            inclination_deg=angle,
-            density_kg_m3=densities,
-            friction_deg=frictions,
-            force_kN=[[math.nan if x is None else x for x in line] for line in table],
-        )
-
-
-def _list_further(case: CasePoint) -> list[tuple[str, float]]:
-    return [*case.values.items()][_MAPPED:]
 
 
 _LEFT, _GAP, _RIGHT = 30.0, 30.0, 42.0  # beside and between panels [pt]
@@ -107,7 +58,6 @@ _HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
 _BESIDE = 0.56 * WIDTH  # of the drawing beside a worked check [pt]
 _ACROSS = 2  # lines side by side; more go below
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
-_FAILED = "×"  # at a case without a result
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
 
@@ -125,7 +75,7 @@ def draw_maps(view: EnvelopeView, words: Words = ENGLISH) -> str:
         range(len(view.drawn.maps)),
         key=lambda k: abs(view.drawn.maps[k].inclination_deg - at["inclination_deg"]),
     )
-    known = _list_known(view)
+    known = [row for one in view.drawn.maps for row in one.force_kN]
     low, high = bounds_of(known)
     frames = [
         _place_panel(column, len(view.drawn.maps), one)
@@ -135,12 +85,6 @@ def draw_maps(view: EnvelopeView, words: Words = ENGLISH) -> str:
     chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
     for frame, one in pairs:
         _name_map(chart, frame, one, words)
-        _mark_failed(chart, frame, one)
-    if any(
-        math.isnan(x) for one in view.drawn.maps for row in one.force_kN for x in row
-    ):
-        told = f"{_FAILED} {words('drawing.no_result')}"
-        chart.text(_BESIDE - 2.0, TEXT_PT + 1.0, told, anchor="end")
     governing = at["density_kg_m3"], at["friction_deg"]
     chart.ring(frames[nearest].x(governing[0]), frames[nearest].y(governing[1]), ACCENT)
     _paint_legend(chart, low, high)
@@ -170,7 +114,7 @@ def _paint_lines(
 ) -> float:
     """Paint lines side by side, all to the scale of their member; their height [pt]."""
     low, high = bounds_of([*(one.force_kN for one in view.drawn.lines)])
-    high = max(high, view.bound_kN)
+    high = max(high, view.force.bound_kN)
     margin = 0.06 * (high - low) or 0.01 * high
     names = 1
     for column, one in enumerate(lines):
@@ -205,15 +149,6 @@ def _list_cells(
             cells.append((left, top, end - left, foot - top, fills[start]))
             start = row
     return cells
-
-
-def _mark_failed(chart: Chart, frame: Frame, one: MapRecord) -> None:
-    """Crosses at the cases without a result."""
-    for friction, forces in zip(one.friction_deg, one.force_kN, strict=True):
-        for density, force in zip(one.density_kg_m3, forces, strict=True):
-            if math.isnan(force):
-                at = frame.x(density), frame.y(friction) + TEXT_PT / 3
-                chart.text(*at, _FAILED, anchor="middle", bold=True)
 
 
 def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
@@ -264,7 +199,7 @@ def _paint_line(
     force, allowed = trace(one.force_kN), trace(one.bound_kN)
     chart.area([*force, *allowed[::-1]], PALE, GREY)
     chart.line(force, stroke=INK)
-    across = frame.y(view.bound_kN)
+    across = frame.y(view.force.bound_kN)
     chart.line(
         [(frame.left, across), (frame.left + frame.width, across)],
         stroke=ACCENT,
@@ -313,12 +248,6 @@ def _edges(
 ) -> list[float]:
     """Borders of the cells around some values; the outer ones are those of a frame."""
     return [first, *(place((a + b) / 2) for a, b in pairwise(values)), last]
-
-
-def _list_known(view: EnvelopeView) -> list[list[float]]:
-    """Forces of all maps, without those of cases that gave no result."""
-    rows = (row for one in view.drawn.maps for row in one.force_kN)
-    return [known for row in rows if (known := [x for x in row if not math.isnan(x)])]
 
 
 def _list_loaded(views: Sequence[EnvelopeView]) -> list[EnvelopeView]:

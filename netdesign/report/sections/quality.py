@@ -214,10 +214,8 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
 
 
 def _describe_search(row: RowStudy, words: Words) -> str:
-    """Way to the largest forces, and basis of their bound; "" of a grid."""
+    """Way to the largest forces, and basis of their bound."""
     record = row.envelope
-    if record is None:
-        return ""
     closed = words("show.closed") if record.is_closed else words("show.not_closed")
     return words(
         "show.searched",
@@ -246,7 +244,7 @@ def build_bounds(row: RowStudy, words: Words) -> Table:
             *key_columns(words, "heading.", ("solved_again_by", "case")),
         ),
         rows=tuple(_bound_row(bound, words) for bound in _list_bounds(row)),
-        empty=words("heading.grid_without_bound"),
+        empty=words("show.none"),
     )
 
 
@@ -256,7 +254,7 @@ def _list_bounds(row: RowStudy) -> list[LargestForce]:
 
 
 def _bound_row(force: LargestForce, words: Words) -> tuple[Cell, ...]:
-    again, bound = force.confirmed, force.bound_kN or 0.0
+    again, bound = force.confirmed, force.bound_kN
     gap = bound / force.value_kN - 1.0 if force.value_kN > 0.0 else 0.0
     by = MISSING
     if again is not None:

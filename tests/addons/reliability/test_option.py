@@ -12,7 +12,7 @@ QUICK = ("--jobs", "1", "--no-cache", "--quiet", "--no-excel")
 @pytest.fixture
 def site(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    write_short_example(tmp_path / "site.xlsx", ["R2"], is_grid=False)
+    write_short_example(tmp_path / "site.xlsx", ["R2"], leans=True)
     return tmp_path
 
 

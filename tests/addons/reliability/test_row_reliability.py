@@ -42,7 +42,7 @@ def tell(name, variation, **more):
 def searched(tmp_path_factory):
     """Site of one row that glides and one that does not, and its cases."""
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    write_short_example(path, ["R2", "R4"], is_grid=False)
+    write_short_example(path, ["R2", "R4"], leans=True)
     site = read_site(path)
     return site, search_site(site, RUN)
 

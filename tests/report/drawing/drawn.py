@@ -221,8 +221,6 @@ def build_panel(rng: random.Random) -> PanelRecord:
         foot_kN=pull,
         mid_foot_kN=pull,
         head_kN=(pull[0], -pull[1]),
-        section_foot_kN=pull,
-        section_head_kN=pull,
         lower_along_kN=rng.uniform(0.5, 1.5) * size,
         upper_along_kN=rng.uniform(0.5, 1.5) * size,
     )

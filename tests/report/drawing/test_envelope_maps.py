@@ -9,7 +9,6 @@ from netdesign.report.drawing.envelope_maps import (
     EnvelopeView,
     draw_lines,
     draw_maps,
-    view_envelope,
 )
 from netdesign.report.drawing.plain_svg import Frame
 from netdesign.study.case_records import (
@@ -18,8 +17,6 @@ from netdesign.study.case_records import (
     LineRecord,
     MapRecord,
 )
-from tests.digits import write_force
-from tests.report.build_study import build_row
 
 NS = "{http://www.w3.org/2000/svg}"
 
@@ -86,24 +83,3 @@ def test_values_find_their_place_on_the_page():
     frame = Frame(left=10, top=20, width=100, height=50,
                   x_low=0.0, x_high=2.0, y_low=-1.0, y_high=1.0)  # fmt: skip
     assert (frame.x(0.5), frame.y(-1.0), frame.y(1.0)) == (35.0, 70.0, 20.0)
-
-
-@pytest.mark.parametrize("samples", [2, 3])
-def test_a_grid_has_the_same_maps_with_a_cross_where_a_case_has_no_result(samples):
-    row = build_row("A", samples, scale=0.72, failed_case=True)
-    for view in view_envelope(row):
-        extreme, svg = view.force, draw_maps(view)
-        shown = [one.text for one in shapes(svg, "text")]
-        assert write_force(extreme.value_kN) in svg
-        assert len(shapes(svg, "circle")) == 1
-        assert f"θ = {extreme.case.inclination_deg:.0f}°" in shown
-        assert {"×", "× no result"} <= set(shown)
-
-
-def test_a_grid_shows_the_force_of_each_of_its_cases():
-    row = build_row("A", 3, scale=0.72)
-    for view in view_envelope(row):
-        maps, member = view.drawn.maps, view.force.quantity
-        forces = {force for one in maps for line in one.force_kN for force in line}
-        assert forces == {getattr(one, f"{member}_kN") for one in row.cases}
-        assert max(forces) == view.force.value_kN

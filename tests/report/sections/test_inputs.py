@@ -10,7 +10,6 @@ from netdesign.report.sections.basis import build_inputs, name_profile, show_inp
 from netdesign.report.words import ENGLISH, Words
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.model import InputEcho
-from netdesign.site.ranges import SEARCHED
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES, set_marks
@@ -66,16 +65,6 @@ def test_a_word_of_a_column_is_shown_in_the_readers_language(field, word, langua
     (row,) = build_inputs([echo], "", words).rows
     named = field.name_word(word)
     assert row[2].text == (named if isinstance(named, str) else words.show(named))
-
-
-@pytest.mark.parametrize(
-    ("language", "shown"), [("en", "searched"), ("fr", "recherche"), ("de", "Suche")]
-)
-def test_samples_that_nobody_counted_are_searched_in_each_language(language, shown):
-    label = say("column.samples_of", name=say("column.Ranges.low"))
-    echo = InputEcho(label=label, unit="", text="", value=SEARCHED, cell="default")
-    (row,) = build_inputs([echo], "", Words(language)).rows
-    assert row[2].text == shown
 
 
 @each("language", LANGUAGES)

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.quality import (
-    build_bounds,
     build_cases,
     build_opinions,
     stack_tables,
@@ -52,12 +51,6 @@ def test_second_opinions_stand_beside_this_calculation():
     bare = replace(row, guideline=None, model_form=None)
     (line,) = build_opinions(replace(STUDY, rows=[bare]), ENGLISH).rows
     assert [cell.text for cell in line[1:]] == ["-"] * 4
-
-
-def test_a_grid_of_cases_has_no_bounds():
-    table = build_bounds(STUDY.rows[0], ENGLISH)
-    assert table.rows == ()
-    assert "grid" in table.empty
 
 
 def test_columns_that_some_rows_lack_stay_empty_for_them():

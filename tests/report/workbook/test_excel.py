@@ -13,12 +13,12 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words, show_check
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.site.reader import read_site
-from netdesign.study.cases import solve_site
 from netdesign.study.document import compute_digest
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
 from tests.calculation.evaluate import evaluate
 from tests.golden.drawn import RUN
+from tests.grid import solve_site
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_checks, read_rows, read_workbook, recalculate
 from tests.short_example import write_short_example

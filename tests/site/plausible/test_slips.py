@@ -14,8 +14,8 @@ from netdesign.outcome import Verdict
 from netdesign.site import reader
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
+from tests.grid import solve_site
 from tests.short_example import write_short_example
 from tests.site.plausible.slips import FACTORS, is_noticed, list_known, list_slips
 from tests.site.whole_sites import french_site, german_site

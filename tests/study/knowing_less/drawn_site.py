@@ -65,7 +65,7 @@ def list_cells(lines):
         for sheet, table in lines.items()
         for number, line in enumerate(table)
         for key in line
-        if key not in REQUIRED[sheet] and (sheet, key) != ("Ranges", "samples")
+        if key not in REQUIRED[sheet]
     ]
 
 
@@ -140,21 +140,18 @@ def _draw_ranges(draw):
         "unit": "kg/m3",
         "low": _round(density),
         "high": _round(draw.uniform(310.0, 400.0)),
-        "samples": 3,
     }
     yield {
         "quantity": "friction angle",
         "unit": "deg",
         "low": friction,
         "high": friction,
-        "samples": 1,
     }
     yield {
         "quantity": "net inclination",
         "unit": "deg",
         "low": inclination,
         "high": inclination,
-        "samples": 1,
     }
 
 

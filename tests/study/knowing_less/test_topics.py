@@ -10,8 +10,8 @@ from netdesign.checks.schema import ScopeTable
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
+from tests.grid import solve_site
 from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, give_strength
 from tests.study.knowing_less.test_knowing_less import RUN

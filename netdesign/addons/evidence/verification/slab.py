@@ -131,30 +131,6 @@ def scale_slip_length(slab: Slab, slip_length: float, ratio: float) -> float:
     return PROFILE_SHARE * slab.thickness * ((wanted / rough) ** 2 - 1.0)
 
 
-def find_linear_slip(slab: Slab, glide_factor: float) -> float:
-    """Slip length at which an endless wall carries N times what it does without; (H9).
-
-    Parameters
-    ----------
-    slab : Slab
-        Snow.
-    glide_factor : float
-        N, at least 1 [-].
-
-    Returns
-    -------
-    float
-        D* of linear creep [m]: shorter than that of snow with n = 3 for the same N.
-
-    Raises
-    ------
-    ModelError
-        If N is out of its range.
-    """
-    require_within("glide factor", glide_factor, 1.0, _LARGEST_RATIO)
-    return scale_slip_length(slab, 0.0, glide_factor)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SlabForce:
     """Force along the slope on a net or wall, per metre of width.

@@ -1,0 +1,118 @@
+"""Net rows solved on a grid of cases: soon done, for tests of what is made of forces.
+
+What hides between the cases is estimated. Only a search bounds it: a study by a grid
+proves nothing, and no command makes one.
+"""
+
+from itertools import product
+
+import numpy as np
+
+from netdesign.envelope.extremes import find_extremes
+from netdesign.envelope.ranges import Case
+from netdesign.envelope.result_reader import POST_PULLS
+from netdesign.envelope.rows import RowEnvelope, RowTask
+from netdesign.envelope.run import run_cases
+from netdesign.search.maxima import Maxima, SearchSettings
+from netdesign.study.row_to_check import build_row_task, build_scene
+
+SAMPLES = 3  # of a quantity that ranges
+
+
+def drop_counts(lines):
+    """Lines of a workbook without the counts that sheet Ranges had once."""
+    kept = [{k: v for k, v in one.items() if k != "samples"} for one in lines["Ranges"]]
+    return lines | {"Ranges": kept}
+
+
+def build_cases(ranges, samples=SAMPLES):
+    """All cases of a grid, the first quantity varying slowest."""
+    names = [name for name, _ in ranges.intervals]
+    values = [sample(span, samples) for _, span in ranges.intervals]
+    return tuple(
+        Case.of(dict(zip(names, one, strict=True))) for one in product(*values)
+    )
+
+
+def sample(span, samples):
+    """Equally spaced values of a range, both ends included."""
+    if span.low == span.high:
+        return [span.low]
+    return [float(value) for value in np.linspace(span.low, span.high, samples)]
+
+
+def solve_site(site, run, runner=None, samples=SAMPLES):
+    """All net rows on a grid, as a search would give them."""
+    cases = build_cases(site.ranges, samples)
+    tasks = [
+        build_row_task(row, case, run.creep_law, run.settings)
+        for row in site.rows
+        for case in cases
+    ]
+    results, count = run_cases(tasks, runner), len(cases)
+    return [
+        wrap_results(site, row, results[place * count : (place + 1) * count], run)
+        for place, row in enumerate(site.rows)
+    ]
+
+
+def wrap_results(site, row, results, run):
+    """Envelope of a row by all cases of a grid."""
+    found = find_extremes(results).items()
+    largest = {name: one.force.value for name, one in found}
+    upper = {name: largest[name] + estimate_hidden(one, results) for name, one in found}
+    cases = [one.case for one in results]
+    return RowEnvelope(
+        task=RowTask(
+            scene=build_scene(row, build_cases(site.ranges)[0], run.creep_law),
+            ranges=site.ranges,
+            layout=row.layout,
+            settings=run.settings,
+            search=SearchSettings(),
+            confirmed_by=None,
+        ),
+        members=tuple(largest),
+        quantities=tuple(largest),
+        results=tuple(results),
+        maxima=Maxima(
+            points=(),
+            values=(),
+            doubts=(),
+            maximum=tuple(largest.values()),
+            upper_bound=tuple(upper.values()),
+            governing=tuple(cases.index(one.governing.case) for _, one in found),
+            is_closed=True,
+            log=(),
+            surrogate=None,
+        ),
+        confirmations=(),
+        skipped=0,
+        skips_tested=0,
+        lifted={name: upper[name] for name in upper if name in POST_PULLS},
+    )
+
+
+def estimate_hidden(extreme, results):
+    """Largest rise of a parabola over the samples beside a governing case [N].
+
+    Through three neighbouring samples with second difference D it rises at most |D| / 8
+    above the larger of two neighbours; the rises along the axes are added.
+    """
+    forces = {
+        one.case: one.member_forces[extreme.member].value
+        for one in results
+        if extreme.member in one.member_forces
+    }
+    case, hidden = extreme.governing.case, 0.0
+    for axis, at in case.values.items():
+        samples = sorted({one.case.values[axis] for one in results})
+        if len(samples) < 3:
+            continue
+        middle = min(max(samples.index(at), 1), len(samples) - 2)
+        three = [
+            forces.get(case.with_value(axis, samples[middle + k])) for k in (-1, 0, 1)
+        ]
+        if None not in three:
+            before, here, after = three
+            hidden += abs(before - 2.0 * here + after) / 8.0
+    return hidden
