@@ -198,7 +198,9 @@ def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
     assert result.code == 0, result.err
     document = json.loads(result.out)
     assert listing(tmp_path) == {"site.xlsx"}
-    assert "cases of the grid: 1 solved, about 4 to go" in result.err
+    assert (
+        "largest forces and their confirmation: 1 solved, about 56 to go" in result.err
+    )
     for part in ("verdict", "rows", "profile", "range_inputs", "notes"):
         assert document[part] == study[part]
 
@@ -350,7 +352,7 @@ def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
         stderr=subprocess.PIPE,
         text=True,
     ) as process:
-        assert "1 solved, about 49 to go" in process.stderr.readline()
+        assert "1 solved, about 56 to go" in process.stderr.readline()
         process.send_signal(signal.SIGINT)
         stdout, stderr = process.communicate()
     assert process.returncode == 130, stderr
