@@ -84,7 +84,10 @@ def test_a_missing_add_on_is_one_sentence(core):
         (["verify"], "evidence"),
         (["terrain", "--example"], "terrain"),
         (["solve", "scene.toml", "--method", "transient"], "history"),
-        (["check", "--example", "--out", "r", "--reliability"], "reliability"),
+        (
+            ["check", "--example", "--out", "r", "--reliability", "--no-cache"],
+            "reliability",
+        ),
     ):
         told = call(core, *words, code=2).stderr
         assert f"needs the add-on {name}, which is not installed" in told

@@ -8,6 +8,7 @@ import ast
 import dataclasses
 import importlib
 import re
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +69,7 @@ def read_field(value: Any, field: str) -> Any:
     return getattr(value, field)
 
 
+@cache
 def top_names(source: str) -> set[str]:
     """Names that a module defines."""
     names = set()
