@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from netdesign import cli
-from netdesign.commands.solve import write_history
+from netdesign.addons.history.followed import write_moments
 from tests.digits import write_force
 
 SCENE = """
@@ -105,7 +105,7 @@ def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, monkeypatch, 
 
 def test_history_table_has_a_column_for_each_node():
     moment = {"time_d": 1.0, "foot_kN_per_m": 2.0, "node_forces": [[3.0, 4.0], [5, 6]]}
-    (row,) = csv.DictReader(io.StringIO(write_history([moment]).decode()))
+    (row,) = csv.DictReader(io.StringIO(write_moments([moment]).decode()))
     assert row["time_d"] == "1.0"
     assert row["node_2_y_kN_per_m"] == "6"
 

@@ -97,7 +97,7 @@ THIRD_PARTY = {
         "numerics.optimise",
         "snow.*",
         "addons.reliability.*",
-        "addons.winter.maxima",
+        "addons.winter.uniform_table",
         "addons.winter.statistics",
         "solving.identity",
         "addons.evidence.*",

@@ -27,7 +27,7 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator
 
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
@@ -68,7 +68,7 @@ def solve(scene_file: Path, **asked: Any) -> None:
         solution, settings, elapsed, bound, asked["language"], support
     )
     if out is not None:
-        write_outputs(out, _render(document), asked)
+        write_outputs(out, _render(document, solution), asked)
     if asked["as_json"]:
         print_document(document)
     elif document["outcome"] == "converged":
@@ -106,31 +106,12 @@ def _resolve_support(solution: Solved, given: GivenScene) -> dict[str, Any] | No
     return write_support(result, given.support, speak())
 
 
-def _render(document: dict[str, Any]) -> dict[str, bytes]:
+def _render(document: dict[str, Any], solution: Solved) -> dict[str, bytes]:
     """Contents of the outputs by name: the document, of a history its table, too."""
     files = {_DOCUMENT: json.dumps(document, indent=1, allow_nan=False).encode()}
-    if moments := document.get("history"):
-        files[_HISTORY] = write_history(moments)
+    if history := getattr(solution, "history", None):
+        files[_HISTORY] = history.write_table()
     return files
-
-
-def write_history(moments: Sequence[Mapping[str, Any]]) -> bytes:
-    """History of a solution document as CSV, one moment a line."""
-    from netdesign.report.blocks import write_csv
-
-    plain = [key for key in moments[0] if key != "node_forces"]
-    count = len(moments[0]["node_forces"])
-    nodes = [
-        f"node_{k + 1}_{axis}_kN_per_m" for k in range(count) for axis in ("x", "y")
-    ]
-    rows = [
-        [
-            *(moment[key] for key in plain),
-            *(part for node in moment["node_forces"] for part in node),
-        ]
-        for moment in moments
-    ]
-    return write_csv([*plain, *nodes], rows)
 
 
 def _bound_refused(

@@ -159,6 +159,9 @@ class FollowedHistory(Protocol):
     def write(self, solution: Solution, language: Language) -> dict[str, Any]:
         """Part of the solution document."""
 
+    def write_table(self) -> bytes:
+        """Moments as CSV, one a line."""
+
     def list_flags(self, scene: Scene) -> list[Message]:
         """Remarks that a reader must know before using the numbers."""
 

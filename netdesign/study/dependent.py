@@ -8,7 +8,7 @@ of the links between a rope and its anchor. Theory: resistance/THEORY.md, (R7) t
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from netdesign.calculation.quantity import Quantity
@@ -54,7 +54,12 @@ from netdesign.resistance.steel import (
     leave_area,
     resist_link,
 )
-from netdesign.resistance.wedge import AnchorType, Soil, compute_wedge_resistance
+from netdesign.resistance.wedge import (
+    AnchorType,
+    Soil,
+    WedgeResistance,
+    compute_wedge_resistance,
+)
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
@@ -177,10 +182,31 @@ def _find_ground_resistance(
         return replace(given, lack=say("check.unsaid", names=names))
     if not min(depths) > 0.0:
         return replace(given, lack=say("wedge.no_depth"))
+    reduced = soil.reduce(on_cohesion, on_friction)
+    depth, wedge = _find_weakest_wedge(reduced, row, pull, depths, width)
+    told = {
+        "depth": depth,
+        "width": width,
+        "plane": degree_from_radian(wedge.plane),
+        "cohesion": soil.cohesion / 1e3,
+        "friction": degree_from_radian(soil.friction),
+        "weight": soil.weight / 1e3,
+        "on_cohesion": on_cohesion,
+        "on_friction": on_friction,
+    }
+    if not wedge.value > 0.0:
+        return replace(given, lack=say("wedge.slides", **told))
+    return replace(given, value=wedge.value, derivation=say("wedge.lifts", **told))
+
+
+def _find_weakest_wedge(
+    soil: Soil, row: NetRow, pull: PullRecord, depths: Sequence[float], width: float
+) -> tuple[float, WedgeResistance]:
+    """Depth of a bond's middle that resists least, and its wedge."""
     is_pulled_up = pull.anchor == Member.DOWNHILL_ANCHOR
     found = {
         depth: compute_wedge_resistance(
-            soil.reduce(on_cohesion, on_friction),
+            soil,
             depth=depth,
             width=width,
             slope=-row.slope_angle if is_pulled_up else row.slope_angle,
@@ -190,20 +216,7 @@ def _find_ground_resistance(
         for depth in depths
     }
     depth = min(found, key=lambda one: found[one].value)
-    told = {
-        "depth": depth,
-        "width": width,
-        "plane": degree_from_radian(found[depth].plane),
-        "cohesion": soil.cohesion / 1e3,
-        "friction": degree_from_radian(soil.friction),
-        "weight": soil.weight / 1e3,
-        "on_cohesion": on_cohesion,
-        "on_friction": on_friction,
-    }
-    value = found[depth].value
-    if not value > 0.0:
-        return replace(given, lack=say("wedge.slides", **told))
-    return replace(given, value=value, derivation=say("wedge.lifts", **told))
+    return depth, found[depth]
 
 
 def _find_ground_width(row: NetRow, pull: PullRecord) -> float:

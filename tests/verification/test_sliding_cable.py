@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 
+from netdesign.addons.history.sliding import SlidingStep, solve_sliding
 from netdesign.cable.net import (
     compute_capstan_ratio,
     compute_node_forces,
@@ -17,7 +18,6 @@ from netdesign.cable.net import (
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.outcome import Outcome
 from tests.each import each
 

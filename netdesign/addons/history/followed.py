@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -89,6 +90,10 @@ class History:
             "ended": render(self.ended or "", language),
         }
 
+    def write_table(self) -> bytes:
+        """Moments as CSV, one a line."""
+        return write_moments([_write_moment(entry) for entry in self.moments])
+
     def list_flags(self, scene: Scene) -> list[Message]:
         """Remarks that a reader must know before using the numbers."""
         flags = [_describe_clock(scene)] if scene.settles_as_stations else []
@@ -108,6 +113,25 @@ class History:
         if self.fallen_share > _NOTED_LOSS:
             flags.append(say("solution.fell_over", share=float(self.fallen_share)))
         return flags
+
+
+def write_moments(moments: Sequence[Mapping[str, Any]]) -> bytes:
+    """History of a solution document as CSV, one moment a line."""
+    from netdesign.report.blocks import write_csv
+
+    plain = [key for key in moments[0] if key != "node_forces"]
+    count = len(moments[0]["node_forces"])
+    nodes = [
+        f"node_{k + 1}_{axis}_kN_per_m" for k in range(count) for axis in ("x", "y")
+    ]
+    rows = [
+        [
+            *(moment[key] for key in plain),
+            *(part for node in moment["node_forces"] for part in node),
+        ]
+        for moment in moments
+    ]
+    return write_csv([*plain, *nodes], rows)
 
 
 def _write_moment(moment: HistoryPoint) -> dict[str, Any]:

@@ -23,13 +23,13 @@ from netdesign.outcome import TerrainError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from netdesign.addons.terrain.as_typed import Lines
     from netdesign.addons.terrain.coverage import Coverage
     from netdesign.addons.terrain.geojson import Feature
     from netdesign.addons.terrain.grid import Grid
     from netdesign.addons.terrain.measure import MeasuredRow
     from netdesign.addons.terrain.plan import Plan
     from netdesign.addons.terrain.surface import Surface
-    from netdesign.site.as_typed import Lines
 
 _SITE, _ROWS_FILE, _PAGE_FILE = "site.xlsx", "rows.geojson", "terrain.html"
 _LIBRARIES = ("rasterio", "pyogrio", "shapely", "contourpy", "ezdxf")
@@ -171,7 +171,7 @@ def _read_ground(grid: Path, plan: Plan) -> Grid:
 
 def _read_types(path: Path | None, plan: Plan) -> Lines | None:
     """Lines of the other sheets; what names rows that the plan lacks is told."""
-    from netdesign.site.as_typed import read_typed_sheets
+    from netdesign.addons.terrain.as_typed import read_typed_sheets
 
     if path is None:
         return None

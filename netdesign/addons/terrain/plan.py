@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from netdesign.addons.terrain.as_typed import read_typed_cells
 from netdesign.addons.terrain.crs import (
     DAMAGE,
     keep_quiet,
@@ -21,7 +22,6 @@ from netdesign.addons.terrain.crs import (
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.site.as_typed import read_typed_cells
 
 ZONE = "starting zone"
 _MOST_BYTES = 20_000_000

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from netdesign.addons.terrain.as_typed import Lines
 from netdesign.addons.terrain.measure import (
     CARED_ANGLE,
     CARED_LENGTH,
@@ -19,7 +20,6 @@ from netdesign.addons.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
-from netdesign.site.as_typed import Lines
 from netdesign.site.template.workbook import list_starting_lines, render_workbook
 from netdesign.words.catalogue import Language
 

@@ -195,9 +195,6 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
     ]
     for winter, maximum in zip(winters, result.maxima, strict=True):
         winter["why"] = str(_explain(winter, maximum))
-        for day in winter["curve"]:
-            reason = day["reason"]
-            day["reason"] = str(reason) if reason else ""
     return {
         "id": row.id,
         "height_factor": row.height_factor,
@@ -291,7 +288,7 @@ def _write_day(
     return {
         "date": run.winter.series.day(day.index).isoformat(),
         "outcome": day.ending,
-        "reason": day.reason,
+        "reason": str(day.reason or ""),
         "station_height_m": packs[day.index].height,
         "swe_kg_m2": packs[day.index].mass,
         "thickness_m": day.thickness,
@@ -434,9 +431,7 @@ RELIABILITY_PERIOD = 1000.0  # [a], near the indices of a notional reliability
 
 
 def _write_heights(
-    row: WinterRow,
-    winters: Sequence[Mapping[str, Any]],
-    run: WinterRun,
+    row: WinterRow, winters: Sequence[Mapping[str, Any]], run: WinterRun
 ) -> dict[str, Any] | None:
     """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
     heights = [

@@ -15,7 +15,6 @@ import numpy as np
 from netdesign.addons.winter.day import DaySolver, RowDay
 from netdesign.addons.winter.maxima import (
     AnnualMaximum,
-    UniformTable,
     find_annual_maximum,
     find_equivalent,
     find_largest,
@@ -31,6 +30,7 @@ from netdesign.addons.winter.statistics import (
     find_trend,
     fit_extreme_values,
 )
+from netdesign.addons.winter.uniform_table import UniformTable
 from netdesign.snowpack.series import HeightSeries, split_winters
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load

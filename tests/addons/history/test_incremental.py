@@ -11,13 +11,13 @@ from netdesign.addons.history.incremental import (
     advance_increment,
     build_cable_state,
 )
+from netdesign.addons.history.sliding import solve_sliding
 from netdesign.cable.net import (
     compute_node_forces,
     compute_ratio_bounds,
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.cable.sliding import solve_sliding
 from netdesign.outcome import Outcome
 from tests.each import each
 

@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.maxima import (
-    build_table,
     choose_days,
     find_annual_maximum,
     find_equivalent,
@@ -15,6 +14,7 @@ from netdesign.addons.winter.maxima import (
 )
 from netdesign.addons.winter.settling.delta_snow import DELTA_SNOW
 from netdesign.addons.winter.settling.follow import follow_heights
+from netdesign.addons.winter.uniform_table import build_table
 from tests.addons.winter.made_up_row import FormulaSolver, a_solver
 from tests.each import each
 

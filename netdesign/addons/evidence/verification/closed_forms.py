@@ -18,6 +18,7 @@ from netdesign.addons.evidence.verification.manufactured import (
     solve_prescribed,
 )
 from netdesign.addons.history.incremental import advance_increment, build_cable_state
+from netdesign.addons.history.sliding import solve_sliding
 from netdesign.cable.funicular import (
     Funicular,
     share_uniform_load,
@@ -30,7 +31,6 @@ from netdesign.cable.net import (
     compute_segment_lengths,
     compute_turning_angles,
 )
-from netdesign.cable.sliding import solve_sliding
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import (

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from netdesign.cable import sliding
+from netdesign.addons.history import sliding
+from netdesign.addons.history.sliding import SlidingStep, solve_sliding
 from netdesign.cable.net import (
     compute_ratio_bounds,
     compute_segment_lengths,
     compute_tensions,
     compute_turning_angles,
 )
-from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.outcome import Outcome
 from tests.each import each
 
