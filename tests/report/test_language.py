@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from netdesign.checks import load_standard
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.quality import build_cases, build_extremes
+from netdesign.report.sections.quality import build_bounds, build_cases
 from netdesign.report.sections.schedule import build_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook
@@ -103,7 +103,7 @@ def test_the_same_study_is_told_with_the_same_numbers(language):
     for words in (Words("en"), Words(language)):
         tables = [build_schedule(study, words)]
         for row in study.rows:
-            tables += [build_extremes(row, words), build_cases(row, words)]
+            tables += [build_bounds(row, words), build_cases(row, words)]
         shown.append([c.number for one in tables for line in one.rows for c in line])
     assert shown[0] == shown[1]
     assert len(shown[0]) > 500

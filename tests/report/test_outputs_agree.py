@@ -14,7 +14,7 @@ from netdesign.report.sections.checks import (
     list_lines,
     part_lines,
 )
-from netdesign.report.sections.quality import build_extremes
+from netdesign.report.sections.quality import build_bounds
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check
 from netdesign.report.workbook.excel import render_workbook
@@ -120,7 +120,7 @@ def read_last_table(sheet):
 def test_largest_forces_stand_in_the_workbook(book):
     lines = read_last_table(book["Cases"])
     for row in STUDY.rows:
-        table = build_extremes(row, ENGLISH)
+        table = build_bounds(row, ENGLISH)
         mine = [line for line in lines if line["Net row"] == row.id]
         for cells, line in zip(table.rows, mine, strict=True):
             assert line["Member"] == cells[0].text

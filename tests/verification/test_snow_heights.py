@@ -25,7 +25,9 @@ FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series
 
 def read_made_up_winter():
     """Heights [m] and true SWE [kg/m2] of the winter at 2000 m that comes along."""
-    text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
+    text = (
+        files("netdesign.addons.winter").joinpath("winter_2000.csv").read_text("utf-8")
+    )
     lines = list(csv.DictReader(text.splitlines()))
     heights = [float(line["HS [cm]"]) / 100.0 for line in lines]
     return heights, [float(line["true SWE [kg/m2]"]) for line in lines]

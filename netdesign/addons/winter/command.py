@@ -118,7 +118,7 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
         if note:
             tell(note, err=True)
     elif found is None and asked["example"]:
-        with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
+        with as_file(files("netdesign.addons.winter") / EXAMPLE_HEIGHTS) as path:
             found, _ = read_height_file(path)
     if found is None:
         raise ModelError(say("winter.no_heights"))

@@ -180,39 +180,6 @@ def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
     return tuple(number_cell(words, *one) for one in case.values.items())
 
 
-def build_extremes(row: RowStudy, words: Words) -> Table:
-    """Largest force of each member, with what the others carry in that case."""
-    band = words("heading.band")
-    ends = [words("heading.low"), words("heading.high")]
-    return Table(
-        caption=words("caption.extremes"),
-        columns=(
-            Column(heading=words("heading.member")),
-            quantity_column(words, "max_kN"),
-            *(number_column("max_kN", add_unit(f"{band} {end}", "kN")) for end in ends),
-            *list_case_columns(words, row),
-            *(quantity_column(words, f"{member}_kN") for member in REPORTED_MEMBERS),
-        ),
-        rows=tuple(
-            (
-                text_cell(show_member(words, extreme.quantity)),
-                number_cell(words, "max_kN", extreme.value_kN),
-                number_cell(words, "max_kN", extreme.low_kN),
-                number_cell(words, "max_kN", extreme.high_kN),
-                *_show_case(extreme.case, words),
-                *(
-                    number_cell(words, f"{member}_kN", extreme.beside_kN.get(member))
-                    if member != extreme.quantity
-                    else number_cell(words, "max_kN", extreme.value_kN)
-                    for member in REPORTED_MEMBERS
-                ),
-            )
-            for extreme in row.member_forces
-        ),
-        empty=words("heading.no_case_converged"),
-    )
-
-
 def _describe_search(row: RowStudy, words: Words) -> str:
     """Way to the largest forces, and basis of their bound."""
     record = row.envelope

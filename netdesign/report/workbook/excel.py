@@ -37,8 +37,8 @@ from netdesign.report.sections.decision import (
     name_verification,
 )
 from netdesign.report.sections.quality import (
+    build_bounds,
     build_cases,
-    build_extremes,
     stack_rows,
     stack_tables,
 )
@@ -327,7 +327,7 @@ def _add_cases(book: Book, study: Study) -> None:
     words = book.words
     shown = [
         stack_rows(words("caption.cases"), study, build_cases, words),
-        stack_rows(words("caption.extremes"), study, build_extremes, words),
+        stack_rows(words("caption.bounds"), study, build_bounds, words),
     ]
     book.add_table_sheet("cases", words("heading.all_cases"), shown)
 

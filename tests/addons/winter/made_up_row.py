@@ -58,7 +58,9 @@ def slides(glide_factor, height):
 
 def read_winter():
     """Snow heights [m] of the made-up winter at 2000 m, from 1 November."""
-    text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
+    text = (
+        files("netdesign.addons.winter").joinpath("winter_2000.csv").read_text("utf-8")
+    )
     return [float(line["HS [cm]"]) / 100 for line in csv.DictReader(text.splitlines())]
 
 

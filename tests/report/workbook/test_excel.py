@@ -4,7 +4,6 @@ import io
 import random
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from openpyxl.utils import get_column_letter
 
@@ -300,21 +299,6 @@ def test_a_number_has_as_many_digits_as_on_the_page(content):
     )
     assert english == german
     assert sum(form.startswith("0.0") for sheet in english for form in sheet) > 500
-
-
-def test_ends_of_intervals_are_numbers(content):
-    sheet = read_workbook(content)["Cases"]
-    heads = [line[0] for line in sheet.iter_rows(values_only=True)]
-    start = len(heads) - heads[::-1].index("Net row")
-    named = [cell.value for cell in sheet[start]]
-    ends = [
-        (one.low_kN, one.high_kN) for row in STUDY.rows for one in row.member_forces
-    ]
-    names = [f"{ENGLISH('heading.band')} {end} [kN]" for end in ("low", "high")]
-    places = [named.index(name) for name in names]
-    lines = sheet.iter_rows(min_row=start + 1, values_only=True)
-    found = [[line[place] for place in places] for line in lines]
-    assert np.array(found) == pytest.approx(np.array(ends), rel=1e-15)
 
 
 def test_summary_leads_to_every_sheet_and_back(content):

@@ -47,7 +47,8 @@ def build_row_scene(ground: GroundLaw) -> Scene:
 
 def read_made_up_winter() -> dict[int, DayPack]:
     """Packs of the made-up winter by delta-snow, by their place from 1 November."""
-    text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
+    path = files("netdesign.addons.winter") / "winter_2000.csv"
+    text = path.read_text("utf-8")
     lines = csv.DictReader(text.splitlines())
     heights = [float(line["HS [cm]"]) / 100.0 for line in lines]
     return dict(enumerate(follow_heights(heights, DELTA_SNOW)))
