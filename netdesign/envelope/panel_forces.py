@@ -184,10 +184,6 @@ class PanelForces:
             for name in self.bands
         }
 
-    def find_worst(self, name: str) -> PanelForces:
-        """Panel that brings the largest one of ``PANEL_QUANTITIES``."""
-        return max(self.variants, key=lambda one: one.bands[name].value)
-
 
 def resolve_panels(
     panels: Sequence[Panel], net: Net, points: SupportPoints, state: SolvedState

@@ -45,10 +45,6 @@ class CaseTask:
     layout: SupportLayout | None
     panels: tuple[Panel, ...] = ()
 
-    def solved_by(self, settings: Settings) -> CaseTask:
-        """The same case by other settings: their kind chooses steady or history."""
-        return replace(self, job=self.job and replace(self.job, settings=settings))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CaseResult:

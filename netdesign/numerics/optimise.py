@@ -21,7 +21,7 @@ _ACCEPTED_CLIMB = 0.5
 _SHORTEST_STEP = 1e-12
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class Minimum:
     """End of a minimisation.
 
@@ -31,15 +31,12 @@ class Minimum:
         Converged, max_iterations, diverged or nonfinite.
     point : ndarray, shape (n,)
         Last iterate.
-    gradient_norm : float
-        Euclidean norm of the gradient there [unit of the gradient].
     iterations : int
         Newton steps taken.
     """
 
     outcome: Outcome
     point: Floats
-    gradient_norm: float
     iterations: int
 
 
@@ -80,12 +77,12 @@ def minimise_convex(
     for iteration in range(max_iterations):
         norm = math.sqrt(float(gradient @ gradient))
         if not math.isfinite(norm):
-            return _end(Outcome.NONFINITE, point, norm, iteration)
+            return Minimum(Outcome.NONFINITE, point, iteration)
         if norm <= tolerance:
-            return _end(Outcome.CONVERGED, point, norm, iteration)
+            return Minimum(Outcome.CONVERGED, point, iteration)
         _, direction, fault = lapack.dposv(hessian, -gradient)
         if fault != 0:  # not convex here
-            return _end(Outcome.DIVERGED, point, norm, iteration)
+            return Minimum(Outcome.DIVERGED, point, iteration)
         descent = -float(gradient @ direction)
         step = 1.0
         candidate = point + direction
@@ -93,19 +90,13 @@ def minimise_convex(
         while not float(gradient @ direction) <= _ACCEPTED_CLIMB * descent:
             step /= 2.0
             if step < _SHORTEST_STEP:
-                return _end(Outcome.DIVERGED, point, norm, iteration)
+                return Minimum(Outcome.DIVERGED, point, iteration)
             candidate = point + step * direction
             gradient, hessian = evaluate(candidate)
         point = candidate
     norm = math.sqrt(float(gradient @ gradient))
     outcome = Outcome.CONVERGED if norm <= tolerance else Outcome.MAX_ITERATIONS
-    return _end(outcome, point, norm, max_iterations)
-
-
-def _end(outcome: Outcome, point: Floats, norm: float, iterations: int) -> Minimum:
-    return Minimum(
-        outcome=outcome, point=point, gradient_norm=norm, iterations=iterations
-    )
+    return Minimum(outcome, point, max_iterations)
 
 
 # Points, shape (d, n), to the values of q functions there, shape (q, n).

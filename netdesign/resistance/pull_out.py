@@ -33,12 +33,6 @@ class SingleTest:
     displacement: float | None = None
     source: str = ""
 
-    @property
-    def is_accepted(self) -> bool:
-        """It held the load that it was to reach."""
-        reached = self.proof_load is not None and self.load >= self.proof_load
-        return self.is_held is True and reached
-
     def __post_init__(self) -> None:
         """Refuse a load that is none."""
         require_positive("load of a test", self.load, "N")

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history.response import keep_lengths, pull_nodes
-from netdesign.cable.net import (
-    compute_end_directions,
+from netdesign.addons.history.sliding import (
     compute_node_forces,
-    compute_ratio_bounds,
     compute_segment_lengths,
     compute_tensions,
+)
+from netdesign.cable.net import (
+    compute_end_directions,
+    compute_ratio_bounds,
     compute_turning_angles,
 )
 from tests.each import each

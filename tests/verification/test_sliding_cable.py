@@ -10,12 +10,15 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.sliding import SlidingStep, solve_sliding
+from netdesign.addons.history.sliding import (
+    SlidingStep,
+    compute_node_forces,
+    compute_segment_lengths,
+    solve_sliding,
+)
 from netdesign.cable.net import (
     compute_capstan_ratio,
-    compute_node_forces,
     compute_ratio_bounds,
-    compute_segment_lengths,
     compute_turning_angles,
 )
 from netdesign.outcome import Outcome

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.cable.net import compute_tensions, require_lengths
+from netdesign.addons.history.sliding import compute_tensions, require_lengths
 from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import ModelError, Outcome, require_positive, require_within
 from netdesign.words.message import say

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign.addons.history.response import NetResponse, hold_net
+from netdesign.addons.history.sliding import join_points
 from netdesign.addons.history.snow import SnowIterate
 from netdesign.addons.history.state import (
     Top,
@@ -23,7 +24,6 @@ from netdesign.addons.history.step import (
     condense_step,
 )
 from netdesign.addons.history.yielding import NetGuess, YieldingNodes, settle_net
-from netdesign.cable.net import join_points
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import squared_invariant

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.addons.history.sliding import SlidingStep, solve_sliding
-from netdesign.cable.net import (
-    compute_ratio_bounds,
+from netdesign.addons.history.sliding import (
+    SlidingStep,
     compute_segment_lengths,
     compute_tensions,
-    compute_turning_angles,
+    solve_sliding,
 )
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say

@@ -17,8 +17,8 @@ from netdesign.addons.history.moments import (
     select_counted,
 )
 from netdesign.addons.history.settings import Start
+from netdesign.addons.history.sliding import compute_node_forces
 from netdesign.addons.history.state import TransientProblem, TransientState
-from netdesign.cable.net import compute_node_forces
 from netdesign.coupling.balance import check_balance, negative_share
 from netdesign.coupling.interface import Estimate
 from netdesign.coupling.scene import Scene

@@ -1,10 +1,10 @@
-"""Friction of the net that slides through its nodes, for one step.
+"""Tensions of the net, and its friction where it slides through its nodes, in one step.
 
 Which nodes slide, and how far, follows from one strictly convex function of the
 material coordinates S_i of the nodes. Each Newton step keeps the friction as it is,
 kinks included, and solves the step's own problem exactly by a sweep from foot to
 head and back; so nothing is guessed about which nodes slide, and nothing stalls.
-Theory: cable/THEORY.md, eqs (C13) to (C17).
+Theory: cable/THEORY.md, eqs (C10), (C11) and (C13) to (C17).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from netdesign.cable.net import compute_tensions, require_lengths
+from netdesign.cable.net import compute_turning_angles
 from netdesign.numerics.arrays import Floats, Signs
-from netdesign.outcome import ModelError, Outcome
+from netdesign.outcome import ModelError, Outcome, name_quantity, require_positive
 from netdesign.words.message import say
 
 _ACCEPTED_CLIMB = 0.5
@@ -339,3 +339,128 @@ def _require_matching(final: Floats, old: Floats, bounds: Floats) -> None:
         )
     if not (bounds >= 0.0).all():
         raise ModelError(say("cable.ratio_bounds", bounds=repr(bounds)))
+
+
+def join_points(nodes: Floats, head: Floats) -> Floats:
+    """Points of a net: its foot at the origin, its nodes, its head.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (2, n)
+        Foot and head left out [m, or any unit].
+    head : ndarray, shape (2,)
+        In that unit.
+
+    Returns
+    -------
+    ndarray, shape (2, n + 2)
+        In that unit.
+    """
+    points = np.zeros((2, nodes.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = nodes, head
+    return points
+
+
+def compute_segment_lengths(points: Floats) -> Floats:
+    """Final lengths of the segments.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        l_i [m].
+
+    Raises
+    ------
+    ModelError
+        If two neighbours coincide or a coordinate is not finite.
+    """
+    lengths: Floats = np.hypot(*np.diff(points))
+    require_lengths("segment length", lengths)
+    return lengths
+
+
+def compute_tensions(
+    final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
+) -> Floats:
+    """Tensions of elastic segments, eq. (C10); a slack segment has none.
+
+    Parameters
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i [m].
+    stiffness : float
+        ES, force per width at unit strain [N/m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        T_i, at least 0 [N/m].
+
+    Raises
+    ------
+    ModelError
+        If a length or the stiffness is not above 0.
+    """
+    require_lengths("unstressed length", unstressed_lengths)
+    require_positive("net stiffness", stiffness, "N/m")
+    strains = (final_lengths - unstressed_lengths) / unstressed_lengths
+    tensions: Floats = stiffness * np.maximum(strains, 0.0)
+    return tensions
+
+
+def compute_node_forces(points: Floats, tensions: Floats) -> tuple[Floats, Floats]:
+    """Components of the net's forces on the snow at its nodes, eq. (C11).
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i [N/m].
+
+    Returns
+    -------
+    tuple of ndarray, shape (n,)
+        R_n along the bisector of the node, positive where the net presses, and R_t
+        across it, positive towards the head [N/m].
+
+    Source
+    ------
+    The paper's Eq. 11, whose angle theta_{i-1} - theta_i is beta_i here.
+    """
+    half = compute_turning_angles(points) / 2.0
+    normal = (tensions[1:] + tensions[:-1]) * np.sin(half)
+    return normal, (tensions[1:] - tensions[:-1]) * np.cos(half)
+
+
+def require_lengths(name: str, lengths: Floats) -> None:
+    """Refuse an array unless all its entries are finite and above zero.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    lengths : ndarray
+        Any shape [m].
+
+    Raises
+    ------
+    ModelError
+        With the first entry that is not.
+    """
+    sound = np.isfinite(lengths) & (lengths > 0.0)
+    if not sound.all():
+        first = int(np.argmin(sound))
+        raise ModelError(
+            say(
+                "guard.positive_entry",
+                name=name_quantity(name),
+                place=first,
+                value=float(lengths[first]),
+            )
+        )

@@ -36,12 +36,13 @@ from netdesign.addons.history.run import (
 from netdesign.addons.history.settings import (
     StaggeredSettings,
 )
+from netdesign.addons.history.sliding import join_points
 from netdesign.addons.history.state import (
     TransientProblem,
     TransientState,
     build_problem,
 )
-from netdesign.cable.net import compute_turning_angles, join_points
+from netdesign.cable.net import compute_turning_angles
 from netdesign.coupling.interface import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (

@@ -25,8 +25,7 @@ from netdesign.addons.history.response import (
     pull_nodes,
     respond,
 )
-from netdesign.addons.history.sliding import SlidingStep
-from netdesign.cable.net import join_points
+from netdesign.addons.history.sliding import SlidingStep, join_points
 from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
 from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Mask, Signs, freeze

@@ -105,7 +105,7 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     """Heights of the file, else those of the site, else those of the example."""
     from importlib.resources import as_file, files
 
-    from netdesign.site.snow_sheets import complete_by_sheet, read_height_file
+    from netdesign.addons.winter.height_file import complete_by_sheet, read_height_file
     from netdesign.snowpack.series import smooth
 
     found = site.winter

@@ -36,10 +36,10 @@ def snowpack(height_file: Path, **asked: Any) -> None:
 
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
+    from netdesign.addons.winter.height_file import read_height_file
     from netdesign.addons.winter.season import FIRST_DENSITY
     from netdesign.addons.winter.settling.follow import MODELS as KNOWN
     from netdesign.addons.winter.settling.follow import follow_heights
-    from netdesign.site.snow_sheets import read_height_file
     from netdesign.snowpack.series import smooth
 
     refuse_delimiter(height_file)

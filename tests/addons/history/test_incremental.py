@@ -11,13 +11,12 @@ from netdesign.addons.history.incremental import (
     advance_increment,
     build_cable_state,
 )
-from netdesign.addons.history.sliding import solve_sliding
-from netdesign.cable.net import (
+from netdesign.addons.history.sliding import (
     compute_node_forces,
-    compute_ratio_bounds,
     compute_segment_lengths,
-    compute_turning_angles,
+    solve_sliding,
 )
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.outcome import Outcome
 from tests.each import each
 

@@ -12,9 +12,9 @@ from netdesign.addons.history.instant import advance, advance_under
 from netdesign.addons.history.net_start import build_start
 from netdesign.addons.history.response import hold_net, respond
 from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
+from netdesign.addons.history.sliding import compute_node_forces
 from netdesign.addons.history.state import build_problem
 from netdesign.addons.history.transient import run_history
-from netdesign.cable.net import compute_node_forces
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
 from tests.each import each

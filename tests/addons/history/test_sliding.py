@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history import sliding
-from netdesign.addons.history.sliding import SlidingStep, solve_sliding
-from netdesign.cable.net import (
-    compute_ratio_bounds,
+from netdesign.addons.history.sliding import (
+    SlidingStep,
     compute_segment_lengths,
     compute_tensions,
-    compute_turning_angles,
+    solve_sliding,
 )
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.outcome import Outcome
 from tests.each import each
 

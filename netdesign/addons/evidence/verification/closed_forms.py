@@ -18,7 +18,7 @@ from netdesign.addons.evidence.verification.manufactured import (
     solve_prescribed,
 )
 from netdesign.addons.history.incremental import advance_increment, build_cable_state
-from netdesign.addons.history.sliding import solve_sliding
+from netdesign.addons.history.sliding import compute_segment_lengths, solve_sliding
 from netdesign.cable.funicular import (
     Funicular,
     share_uniform_load,
@@ -28,7 +28,6 @@ from netdesign.cable.net import (
     compute_capstan_ratio,
     compute_parabola_sag,
     compute_ratio_bounds,
-    compute_segment_lengths,
     compute_turning_angles,
 )
 from netdesign.numerics.arrays import Floats
