@@ -374,11 +374,6 @@ class StationWinter:
     file: str = ""
     notes: tuple[Message, ...] = ()
 
-    @property
-    def has_factors(self) -> bool:
-        """A height factor is given, of all rows or of some."""
-        return self.height_factor is not None or bool(self.row_factors)
-
     def find_factor(self, row_id: str) -> float | None:
         """f_H of a row [-]; None where none is given.
 

@@ -8,7 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.addons.history.moments import COUNTED_STRAIN, HistoryPoint, Plateau
+from netdesign.addons.history.moments import (
+    COUNTED_STRAIN,
+    CRITERION,
+    HistoryPoint,
+    Plateau,
+)
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution
 from netdesign.numerics.arrays import Floats
@@ -75,7 +80,7 @@ class History:
                 "time_d": None
                 if plateau.time is None
                 else day_from_second(plateau.time),
-                "criterion": plateau.criterion,
+                "criterion": CRITERION,
                 "drift_per_efold": plateau.drift,
                 "foot_kN_per_m": None if moment is None else _size(moment.foot),
                 "head_kN_per_m": None if moment is None else _size(moment.head),

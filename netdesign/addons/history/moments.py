@@ -85,8 +85,6 @@ class Plateau:
     drift : float or None
         Largest change of an end pull since the begin over its size, per e-fold of
         time, at the end of the span or later [-].
-    criterion : str
-        In words.
     """
 
     reached: bool
@@ -94,7 +92,6 @@ class Plateau:
     index: int | None = None
     end: int | None = None
     drift: float | None = None
-    criterion: str = CRITERION
 
     @property
     def was_left(self) -> bool:

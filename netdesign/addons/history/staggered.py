@@ -138,7 +138,9 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     template = build_template(aspect, settings.size, scene.layer_tops)
     start = find_start(scene, settings.size, settings.start)
     state = build_start(problem, template, start)
-    cable = _start_cable(problem, state)
+    arcs = measure_arcs(join_points(state.net_nodes, problem.head))
+    lengths = np.minimum(state.lengths, arcs)
+    cable = build_cable_state(arcs, lengths, problem.stiffness)
     step = settings.step_share * _longest_step(problem, aspect)
     moments: list[HistoryPoint] = []
     way: Floats | float = 0.0
@@ -174,11 +176,6 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
     """Time in which drag lets the net come to rest, as one spring and one dashpot."""
     chord = float(np.hypot(*problem.head))
     return _STABLE_SHARE * problem.base_drag * aspect * chord / problem.stiffness
-
-
-def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
-    arcs = measure_arcs(join_points(state.net_nodes, problem.head))
-    return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
 
 
 def _respond(

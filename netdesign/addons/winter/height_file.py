@@ -75,7 +75,8 @@ def complete_by_sheet(
     if sheet is None:
         return station, None
     altitude = station.altitude
-    factors = station if station.has_factors else sheet  # never of two stations
+    has_factors = station.height_factor is not None or station.row_factors
+    factors = station if has_factors else sheet  # never of two stations
     completed = replace(
         station,
         station=station.station or sheet.station,

@@ -128,6 +128,7 @@ def _find_maximum(
     if best is None or best.foot is None or best.head is None:
         return known, solved
     top = max(day.thickness for day in days)
+    by_table = table.find_density(top, best.pull or 0.0) if table else None
     maximum = replace(
         known,
         index=best.index,
@@ -135,17 +136,9 @@ def _find_maximum(
         density=best.density,
         foot=best.foot.value,
         head=best.head.value,
-        equivalent_density=_find_equivalent(top, best, solver, table),
+        equivalent_density=by_table or find_equivalent(top, best, solver),
     )
     return maximum, solved
-
-
-def _find_equivalent(
-    top: float, best: RowDay, solver: DaySolver, table: UniformTable | None
-) -> float | None:
-    """Equivalent density by the table, where both days are inside, else by solves."""
-    found = table.find_density(top, best.pull or 0.0) if table else None
-    return found or find_equivalent(top, best, solver)
 
 
 def _list_snow(packs: Mapping[int, DayPack]) -> dict[int, DayPack]:

@@ -39,7 +39,7 @@ def draw_measured(
     """
     span = span or find_span(entry)
     value, low, high = (
-        _cut(_list_computed(entry, key), span)
+        _cut([(_noon(one["date"]), float(one[key])) for one in entry["computed"]], span)
         for key in ("force_kN", "low_kN", "high_kN")
     )
     x, band = [at for at, _ in value], [[y for _, y in one] for one in (low, high)]
@@ -120,11 +120,6 @@ def _list_readings(entry: Mapping[str, Any]) -> Points:
         (datetime.fromisoformat(one["time"]), float(one["force_kN"]))
         for one in entry["readings"]
     ]
-
-
-def _list_computed(entry: Mapping[str, Any], key: str) -> Points:
-    """Values of the chain at noon of their days."""
-    return [(_noon(day["date"]), float(day[key])) for day in entry["computed"]]
 
 
 def _list_air(entry: Mapping[str, Any], air: Mapping[str, float]) -> Points:

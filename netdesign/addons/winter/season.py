@@ -399,7 +399,9 @@ def follow_winters(
         follow_season(name, packs[name], solver, step, table) for name in names
     )
     if not maxima:
-        maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
+        for model in rest:
+            winters = station.packs[model].items()
+            maxima[model] = tuple(find_maximum_alone(*one, solver) for one in winters)
         maxima[chosen] = tuple(season.maximum for season in seasons)
     sample = choose_sample(maxima[chosen], list_complete(station.series))
     pulls = [one.foot for one in sample.proven]
@@ -413,9 +415,3 @@ def follow_winters(
         extreme_values=fit_extreme_values(pulls),
         trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
     )
-
-
-def _find_maxima(
-    packs: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
-) -> tuple[AnnualMaximum, ...]:
-    return tuple(find_maximum_alone(name, one, solver) for name, one in packs.items())

@@ -146,7 +146,9 @@ def build_table(
             for k, (a, b) in enumerate((a, b) for a in d for b in rho)
         ]
     )
-    foot, head = (_collect(days, name).reshape(d.size, rho.size) for name in _PULLS)
+    foot, head = (
+        _collect(days, name).reshape(d.size, rho.size) for name in ("foot", "head")
+    )
     usable: Mask = np.all(np.isfinite(foot), axis=1)
     first = int(np.argmax(usable))
     if not usable[first:].all() or usable.sum() <= _DEGREE:
@@ -163,9 +165,6 @@ def build_table(
             if pull
         ),
     )
-
-
-_PULLS = ("foot", "head")
 
 
 def _collect(days: Sequence[RowDay], name: str) -> Floats:

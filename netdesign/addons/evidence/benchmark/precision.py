@@ -64,6 +64,7 @@ HISTORY_ACCURACY = 0.01  # of the steps
 _TIGHT, _OFFERED = 1e-4, 5e-3
 
 
+_REPEATS = 5  # of each timing
 QUICK = {"finest": 2, "repeats": 3}  # place of the finest level; of each timing
 _ASKED = (1e-2, 5e-3, 1e-3)  # accuracies whose times are told
 
@@ -71,7 +72,7 @@ Solve = Callable[[], Solution | FailedSolution]
 
 
 def measure_steady(
-    name: str, scene: Scene, finest: int = 3, repeats: int = 5
+    name: str, scene: Scene, finest: int = 3, repeats: int = _REPEATS
 ) -> list[Row]:
     """Rows of one scene: every pair of levels up to the finest, all paths, in turns.
 
@@ -96,7 +97,7 @@ def measure_steady(
     return rows
 
 
-def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
+def measure_transient(name: str, scene: Scene) -> list[Row]:
     """Rows of one scene's history up to its plateau; errors of its largest pulls.
 
     The truth is a history on twice the finest mesh with steps for a tenth of the
@@ -113,19 +114,17 @@ def measure_transient(name: str, scene: Scene, repeats: int = 5) -> list[Row]:
     rows = []
     for pair in pairwise(TRANSIENT_LEVELS):
         solve = partial(solve_transient, scene, replace(settings, levels=pair))
-        rows += _measure(name, "transient", {"fast": solve}, truth, repeats)
+        rows += _measure(name, "transient", {"fast": solve}, truth, _REPEATS)
     return rows
 
 
-def time_accuracies(
-    scenes: Collection[Scene], repeats: int = 5
-) -> list[dict[str, Any]]:
+def time_accuracies(scenes: Collection[Scene]) -> list[dict[str, Any]]:
     """Times of all scenes to each accuracy, which is stated with the result."""
     shown = []
     for accuracy in _ASKED:
         settings = SolverSettings(accuracy=accuracy)
         solves = [partial(solve_steady, scene, settings) for scene in scenes]
-        times = [min(measure(solve) for _ in range(repeats)) for solve in solves]
+        times = [min(measure(solve) for _ in range(_REPEATS)) for solve in solves]
         shown.append({"accuracy": accuracy, **summarise_times(times)})
     return shown
 

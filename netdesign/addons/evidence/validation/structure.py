@@ -120,11 +120,6 @@ class Structure:
         """Every input has a value: a misfit has a meaning."""
         return all(span.is_known for span in self.inputs.values())
 
-    @property
-    def has_ropes(self) -> bool:
-        """The ropes between the posts are given."""
-        return ROPE_INPUTS.keys() <= self.inputs.keys()
-
 
 SAMPLES = 120
 _SEED = 20_261_122  # of the sample, so that the page is the same each time
@@ -147,8 +142,6 @@ class MemberBand:
         Between which four of five cases lie.
     share_below : float
         Part of the cases below the measured value [-].
-    numerical_error : float
-        Largest numerical error of a case, over its largest force [-].
     """
 
     member: str
@@ -156,7 +149,6 @@ class MemberBand:
     high: float
     middle: tuple[float, float]
     share_below: float
-    numerical_error: float
 
     def place(self, measured: Measurement) -> Place:
         """Place of the measured value, with its own uncertainty."""
@@ -213,10 +205,9 @@ class Validation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaseForces:
-    """Forces of a case [kN] by member, its error over the largest; or why not."""
+    """Forces of a case [kN] by member, or why there are none."""
 
     values: dict[str, float]
-    error: float = 0.0
     reason: str = ""
 
 
@@ -236,7 +227,7 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
         If no case has a result.
     """
     points = _draw(structure, 1 if structure.is_known else samples)
-    forces = [_solve(point, has_ropes=structure.has_ropes) for point in points]
+    forces = [_solve(point) for point in points]
     good = [one for one in forces if one.values]
     if not good:
         raise ModelError(say("measured.none_solved", name=structure.id[:200]))
@@ -271,14 +262,14 @@ def _draw(structure: Structure, count: int) -> list[dict[str, float]]:
     ]
 
 
-def _solve(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
+def _solve(point: dict[str, float]) -> CaseForces:
     try:
-        return _solve_net(point, has_ropes=has_ropes)
+        return _solve_net(point)
     except ModelError as error:
         return CaseForces(values={}, reason=str(error))
 
 
-def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
+def _solve_net(point: dict[str, float]) -> CaseForces:
     spacing, height = point["post_spacing_m"], point["net_height_m"]
     layout = SupportLayout(
         post_spacing=spacing,
@@ -286,7 +277,7 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
         downhill_anchor_distance=height,
     )
     panels: tuple[Panel, ...] = ()
-    if has_ropes:
+    if ROPE_INPUTS.keys() <= point.keys():
         rope = Rope(stiffness=point["rope_stiffness_kN"] * 1e3, sag=point["rope_sag"])
         panels = (Panel(post_spacing=spacing, lower=rope, upper=rope, cut="upper"),)
     case = Case(
@@ -311,12 +302,10 @@ def _solve_net(point: dict[str, float], *, has_ropes: bool) -> CaseForces:
     if not result.is_converged:
         return CaseForces(values={}, reason=str(result.reason))
     bands = result.member_forces
-    largest = max(band.value for band in bands.values())
-    error = max((band.high - band.low) / 2.0 for band in bands.values())
     values = {name: 0.0 for name in map(str, Member)} | {
         name: band.value / 1e3 for name, band in bands.items()
     }
-    return CaseForces(values=values, error=error / largest)
+    return CaseForces(values=values)
 
 
 def _find_band(
@@ -333,5 +322,4 @@ def _find_band(
         high=float(values.max()),
         middle=(float(low), float(high)),
         share_below=float((values < measured.value).mean()),
-        numerical_error=max(one.error for one in forces),
     )
