@@ -19,7 +19,7 @@ KEPT = (tokenize.NAME, tokenize.NUMBER, tokenize.STRING, tokenize.OP)
 
 
 # Of the package outside: they word, carry or keep what was found, and decide no number.
-DECIDE_NOTHING = ("edge", "errors", "fault", "words")
+DECIDE_NOTHING = ("edge", "errors", "fault", "words", "report")
 
 
 @pytest.fixture
