@@ -28,13 +28,9 @@ class OpenKind(StrEnum):
     VALUE_ASKED = "value_asked"  # a value that somebody has to confirm
     PROVEN_ELSEWHERE = "proven_elsewhere"  # by a document
 
-    @property
-    def best(self) -> Verdict:
-        """Best verdict of a check with such a point."""
-        if self is OpenKind.FAILS:
-            return Verdict.FAIL
-        is_elsewhere = self is OpenKind.PROVEN_ELSEWHERE
-        return Verdict.DECLARED if is_elsewhere else Verdict.NOT_PROVEN
+
+# Best verdict beside a point of a kind; of any other it is not proven.
+_BEST = {OpenKind.FAILS: Verdict.FAIL, OpenKind.PROVEN_ELSEWHERE: Verdict.DECLARED}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +67,7 @@ def merge_open(met: Verdict, points: Iterable[Open]) -> Verdict:
     points : iterable of Open
         All that is open.
     """
-    found = {met, *(one.kind.best for one in points)}
+    found = {met, *(_BEST.get(one.kind, Verdict.NOT_PROVEN) for one in points)}
     ranked = (Verdict.FAIL, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.PASS)
     return next(one for one in ranked if one in found)
 
@@ -135,8 +131,8 @@ class CasePoint:
     @property
     def values(self) -> dict[str, float]:
         """Values by their keys."""
-        named = {one.name: getattr(self, one.name) for one in fields(self)}
-        return {key: value for key, value in named.items() if value is not None}
+        pairs = ((one.name, getattr(self, one.name)) for one in fields(self))
+        return {key: value for key, value in pairs if value is not None}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -292,8 +288,7 @@ class Check:
 
     @property
     def _open_messages(self) -> list[Message]:
-        elsewhere = OpenKind.PROVEN_ELSEWHERE
-        return [one.message for one in self.open if one.kind is not elsewhere]
+        return [one.message for one in self.open if one.proof is None]
 
     @property
     def _met(self) -> Verdict:

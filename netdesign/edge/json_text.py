@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 MAX_JSON_BYTES = 640 * 2**20
 MAX_VALUES = 24_000_000
 MAX_OBJECTS = 3_600_000
+_SMALL = 20_000  # values
 _MOST_KEYS = 200  # of one object
 _NEXT = ",\n"  # between items
 
@@ -144,13 +145,15 @@ class _FirstFault:
 
 
 Item = TypeVar("Item")
+Drop = Callable[[Any], bool]
 Items = Annotated[list[Item], _FirstFault()]  # a list of a document
 
 
-def read_json(shape: type, text: str, drop: Callable[[Any], None] | None = None) -> Any:
+def read_json(shape: type, text: str, drop: Drop = lambda _: False) -> Any:
     """Value of a dataclass from its JSON text.
 
-    ``drop`` takes out of the document what is written beside the fields.
+    ``drop`` takes out of the document what is written beside the fields, and tells
+    whether there was any: a huge text that is no such document is not copied.
 
     Raises
     ------
@@ -159,11 +162,15 @@ def read_json(shape: type, text: str, drop: Callable[[Any], None] | None = None)
     ValueError
         If it holds too much, is nested too deep, or has a key twice in one object.
     """
-    if text.count(",") > MAX_VALUES or text.count("{") > MAX_OBJECTS:
+    values = text.count(",")
+    if values > MAX_VALUES or text.count("{") > MAX_OBJECTS:
         raise ContentError(
             say("file.holds_more", values=MAX_VALUES, objects=MAX_OBJECTS)
         )
-    return restore_json(shape, _inspect(text, drop))
+    # a validator copies the whole document for each key that it misses
+    needed = {one.name for one in fields(shape) if one.default is one.default_factory}
+    text = _inspect(text, drop, needed if values > _SMALL else set())
+    return restore_json(shape, text)
 
 
 def restore_json(shape: type, text: str) -> Any:
@@ -177,7 +184,7 @@ def restore_json(shape: type, text: str) -> Any:
     return _build_validator(shape).validate_json(text)
 
 
-def _inspect(text: str, drop: Callable[[Any], None] | None) -> str:
+def _inspect(text: str, drop: Drop, needed: set[str]) -> str:
     """Text without what is dropped of it; one that has two readings is refused."""
 
     def note_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
@@ -186,14 +193,13 @@ def _inspect(text: str, drop: Callable[[Any], None] | None) -> str:
         keys = {key for key, _ in pairs}
         if len(keys) < len(pairs):
             raise ContentError(say("file.key_twice", keys=f"{sorted(keys)!r:.100}"))
-        return dict(pairs) if drop else {}
+        return dict(pairs)
 
     try:
         document = json.loads(text, object_pairs_hook=note_keys)
-        if drop is None:
-            return text
-        drop(document)
-        return json.dumps(document, check_circular=False)
+        if lacking := needed.difference(document if isinstance(document, dict) else ()):
+            raise ContentError(say("file.lacks", keys=", ".join(sorted(lacking))))
+        return json.dumps(document, check_circular=False) if drop(document) else text
     except RecursionError:
         raise ContentError(say("file.nested")) from None
     except json.JSONDecodeError:

@@ -123,10 +123,16 @@ def restore_row(text: str) -> RowStudy:
     return restored
 
 
-def _drop_of_study(document: Any) -> None:
-    """Take out what is written beside the fields; any other key is refused then."""
+def _drop_of_study(document: Any) -> bool:
+    """Take out what is written beside the fields; any other key is refused then.
+
+    False of what has none of it, and so is no study.
+    """
+    if not isinstance(document, dict) or document.keys().isdisjoint(Study.WRITTEN):
+        return False
     for row in _drop(document, Study.WRITTEN, "rows"):
         _drop_of_row(row)
+    return True
 
 
 def _drop_of_row(row: Any) -> None:

@@ -19,7 +19,8 @@ NAMES = re.compile(
     r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
     r"|\b(?:[AB]|HEB)\d+-\w+|\bpiles-in-tension-da2\b"  # types of the example; a choice
     r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
-    r"|\bTab\. ",  # tables of standards
+    r"|\bTab\. "  # tables of standards
+    r"|(?i:\b(?:numpy|scipy|scikit-fem|python|example|six)\b)",  # programs, the example
     re.MULTILINE,
 )
 

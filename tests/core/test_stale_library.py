@@ -77,7 +77,7 @@ def test_without_a_compiler_every_run_says_so_in_one_line(checkout):
 def test_a_command_says_so_in_its_language(checkout):
     command = ("-m", "netdesign", "doctor", "--language", "de")
     error = run(checkout, *command, PATH="", CC="")[1]
-    assert error.startswith("Hinweis: netdesign rechnet mit NumPy")
+    assert error.startswith("Hinweis: netdesign computes in NumPy")
     assert error.count("\n") == 1
 
 

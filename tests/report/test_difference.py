@@ -7,11 +7,13 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Proof
-from netdesign.outcome import Verdict
+from netdesign.checks.check import Check
+from netdesign.outcome import StudyError, Verdict
 from netdesign.report.difference import compare_studies, name_area, write_difference
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.document import read_document, write_document
 from netdesign.study.parts import PartRecord
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.each import each
@@ -25,7 +27,6 @@ from tests.turn import turn, turn_row
 UNTOLD = (
     ("provenance", "started"),
     ("digest",),
-    ("profile", "is_default"),  # a check of its own says so
 )
 
 
@@ -179,6 +180,17 @@ def test_values_are_told_apart_however_close():
     assert str(change).endswith("100 -> 100.000000001")
 
 
+def is_worked_out(name):
+    """A written value that follows from others: the digest tells of it."""
+    places = ((), ("rows",), ("rows", "checks"))
+    kinds = (Study, RowStudy, Check)
+    return any(
+        name[: len(place)] == place and name[len(place)] in kind.WRITTEN
+        for place, kind in zip(places, kinds, strict=True)
+        if len(name) > len(place)
+    )
+
+
 @pytest.mark.long
 def test_every_value_of_a_study_is_compared():
     """Whatever one leaf of the document is altered to: it is told, save two."""
@@ -196,9 +208,13 @@ def test_every_value_of_a_study_is_compared():
     for name, path in some.items():
         document = json.loads(text)
         alter_leaf(document, path, draw)
-        if name == ("schema",):
+        if name == ("schema",) or is_worked_out(name):
             continue
-        changes = compare_studies(old, read_document(json.dumps(document)))
+        try:
+            new = read_document(json.dumps(document))
+        except StudyError:  # a formula that is none of what stands before it
+            continue
+        changes = compare_studies(old, new)
         assert bool(changes) is (name not in UNTOLD), path
         is_verdict = name[-1] in ("verdict", "is_met")
         assert any(c.is_turned for c in changes) >= is_verdict, path

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from tests.each import each
@@ -59,7 +58,7 @@ def draw_shape(seed):
 
 
 @each("seed", UNTIDY)
-@each("size", [*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]])
+@each("size", MESH_LEVELS[:3])
 def test_sides_hold_every_node_that_lies_on_them(seed, size):
     aspect, interfaces = draw_shape(seed)
     template = build_template(aspect, size, interfaces)
