@@ -103,4 +103,5 @@ def test_tests_of_the_core_pass_alone(core):
     shutil.copytree(PACKAGE.parent / "tests", core / "tests")
     shutil.copy(PACKAGE.parent / "pyproject.toml", core / "pyproject.toml")
     rooms = ("calculation", "checks", "resistance", "structure", "snow", "guideline")
-    run(core, "-m", "pytest", "-q", "-x", *(f"tests/{room}" for room in rooms))
+    told = run(core, "-m", "pytest", "-q", "-x", *(f"tests/{room}" for room in rooms))
+    assert "[100%]" in told.stdout

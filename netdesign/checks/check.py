@@ -292,8 +292,10 @@ class Check:
 
     @property
     def _met(self) -> Verdict:
-        """Verdict by the numbers alone."""
-        return self.met or rate_utilisation(*self.utilisation_band)
+        """Verdict by the numbers alone; no stated one stands above a utilisation."""
+        if self.steps and self.met is None:
+            return rate_utilisation(*self.utilisation_band)
+        return Verdict.NOT_PROVEN if self.steps else self.met or Verdict.NOT_PROVEN
 
     @property
     def _is_found(self) -> bool:

@@ -15,9 +15,6 @@ from netdesign.guideline.floor import Floor
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
-from netdesign.study.case_records import (
-    EnvelopeRecord,
-)
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_shown_member, find_worst
@@ -83,8 +80,8 @@ def judge_site(
     run : CheckRun
         Settings and identity of the run, for the provenance.
     solver : CaseSolver, optional
-        Solves what the envelope does not hold: other creep laws, and where a check
-        flips. Without it a study has neither; give the same one for each profile.
+        Solves what the envelope does not hold: other creep laws. Without it a study
+        has none of them; give the same one for each profile.
 
     Returns
     -------
@@ -152,6 +149,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
     notes = list_judged_notes(known, checks, cases, panel)
+    drawn = _choose_drawn(solved, checks)
     return RowStudy(
         id=row.id,
         checks=checks,
@@ -174,7 +172,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         notes=notes,
         held_sideways=known.along_row,
         tilt=known.tilt,
-        envelope=_record_search(solved, checks),
+        envelope=record_envelope(solved, REPORTED_MEMBERS, drawn),
         reliability=_find_reliability(task, known, found, run),
     )
 
@@ -203,14 +201,8 @@ def _check_row(
     before = task.count_faults()
     form = _find_model_form(task, worst)
     if task.count_faults() > before:
-        doubted = [distrust(check) for check in found.checks]
-        found = replace(found, checks=doubted)
+        found = replace(found, checks=[distrust(one) for one in found.checks])
     return found, form
-
-
-def _record_search(solved: RowEnvelope, checks: Sequence[Check]) -> EnvelopeRecord:
-    """The search, drawn for one member."""
-    return record_envelope(solved, REPORTED_MEMBERS, _choose_drawn(solved, checks))
 
 
 def _choose_drawn(solved: RowEnvelope, checks: Sequence[Check]) -> str:

@@ -218,6 +218,15 @@ def test_open_points_leave_numbers_as_they_are_and_are_all_told(
         assert all(one in told for one in kinds if one is not elsewhere)
 
 
+@given(bands(), FACTORS, FORCES, FACTORS, st.sampled_from([PASS, FAIL, OPEN]))
+@settings(max_examples=100)
+def test_no_stated_comparison_stands_above_a_utilisation(
+    action, on_action, strength, factor, met
+):
+    given = (force_of(action), a_resistance(strength), profile(on_action, factor))
+    assert replace(check_member(*given), met=met).verdict is OPEN
+
+
 # --- geometry: limits that are missing, in the last two rows -------------------------
 
 ROWS = st.builds(
