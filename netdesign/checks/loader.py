@@ -59,8 +59,8 @@ class StandardValue:
         Such as "deg", "m" or "-".
     status : str
         "read" in the document, from a "secondary" source, "assumed", or "user".
-    reason_below_one : str
-        Why a factor may lie below 1; "" for every other value.
+    reason_below_one, reason_beyond : str
+        Why a factor may lie below 1, a value beyond what any document has; else "".
     """
 
     id: str
@@ -71,6 +71,16 @@ class StandardValue:
     status: str
     source: str
     reason_below_one: str = ""
+    reason_beyond: str = ""
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """Reasons of the profile for an odd value, by the text that names them."""
+        told = {
+            "note.below_one": self.reason_below_one,
+            "note.beyond": self.reason_beyond,
+        }
+        return {key: reason for key, reason in told.items() if reason}
 
     @property
     def value_si(self) -> float:
@@ -84,7 +94,7 @@ class StandardTable:
 
     Attributes
     ----------
-    id, clause, text, status, source, reason_below_one : str
+    id, clause, text, status, source, reason_below_one, reason_beyond : str
         As for a `StandardValue`.
     over : str
         What is counted: "tests".
@@ -100,6 +110,7 @@ class StandardTable:
     source: str
     rows: tuple[tuple[int, float, float], ...]
     reason_below_one: str = ""
+    reason_beyond: str = ""
 
     def find(self, count: int) -> float | None:
         """Value at a count [-]; None outside the table: no extrapolation."""
@@ -122,6 +133,7 @@ class StandardTable:
                 status=self.status,
                 source=self.source,
                 reason_below_one=self.reason_below_one if value < 1.0 else "",
+                reason_beyond=self.reason_beyond,
             )
             for low, high, value in self.rows
         )

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Iterable, Mapping
+from importlib.resources import files
 from typing import Annotated, Any, Literal, Self, TypeVar, get_args
 
 from pydantic import (
@@ -116,6 +118,13 @@ TABLE_COUNTS = {
     CORRELATION_LEAST: "tests",
     **dict.fromkeys(GLIDE_FACTORS, "ground class"),
 }
+# What any document has, wide: beyond it a value is a slip, or it needs a reason.
+VALUE_BOUNDS: Mapping[str, tuple[float, float]] = {
+    name: (low, high)
+    for name, (low, high) in tomllib.loads(
+        files(__package__).joinpath("bounds.toml").read_text(encoding="utf-8")
+    ).items()
+}
 
 
 def list_action_factors(mode: str) -> tuple[str, ...]:
@@ -199,6 +208,7 @@ class Entry(_Table):
     unit: Text
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
+    reason_beyond: str = ""  # of a value beyond what any document has
 
 
 class LimitEntry(Entry):
@@ -209,6 +219,7 @@ class LimitEntry(Entry):
     @model_validator(mode="after")
     def _check(self) -> LimitEntry:
         _require_unit(self, LIMIT_UNITS[self.id])
+        _require_bounds(self.id, self.value, self.reason_beyond)
         return self
 
 
@@ -222,6 +233,7 @@ class FactorEntry(Entry):
     @model_validator(mode="after")
     def _check(self) -> FactorEntry:
         _require_reason(self.id, self.value, self.reason_below_one)
+        _require_bounds(self.id, max(self.value, 1.0), self.reason_beyond)
         return self
 
 
@@ -237,6 +249,7 @@ class ModelEntry(Entry):
         _require_unit(self, MODEL_UNITS[self.id])
         if self.value <= 0 and not self.id.startswith("snow.creep."):
             raise ContentError(say("standard.above_zero", value=self.value))
+        _require_bounds(self.id, self.value, self.reason_beyond)
         return self
 
 
@@ -263,12 +276,15 @@ class TableEntry(_Table):
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
     reason_below_one: str = ""
+    reason_beyond: str = ""
     rows: Annotated[list[TableRow], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _check(self) -> TableEntry:
         least = min(row.value for row in self.rows)
         _require_reason(self.id, least, self.reason_below_one)
+        for row in self.rows:
+            _require_bounds(self.id, max(row.value, 1.0), self.reason_beyond)
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
@@ -377,6 +393,22 @@ def _require_reason(name: str, value: float, reason: str) -> None:
     if value < 1.0 and not reason:
         key = "reason_below_one"
         raise ContentError(say("standard.below_one", id=name, value=value, key=key))
+
+
+def find_bounds(name: str) -> tuple[float, float]:
+    """Least and largest value of an id that needs no reason, in its unit."""
+    is_of_mode = name.startswith("resistance.")
+    return VALUE_BOUNDS["resistance" if is_of_mode else name]
+
+
+def _require_bounds(name: str, value: float, reason: str) -> None:
+    """Refuse a value beyond what any document has, unless it says why."""
+    low, high = find_bounds(name)
+    if not (low <= value <= high or reason):
+        key = "reason_beyond"
+        raise ContentError(
+            say("standard.beyond", id=name, value=value, low=low, high=high, key=key)
+        )
 
 
 def _describe_gap(number: int, start: int, expected: float) -> Message:

@@ -73,9 +73,8 @@ def show_profile(name: str, *, language: Language) -> None:
             say("standard.clause", clause=entry.clause, source=source), language
         )
         click.echo(f"    {show_own(words, entry.text)}\n    {clause}")
-        if entry.reason_below_one:
-            why = say("note.below_one", reason=entry.reason_below_one)
-            click.echo(f"    {render(why, language)}")
+        for key, reason in entry.reasons.items():
+            click.echo(f"    {render(say(key, reason=reason), language)}")
 
 
 @standards.command("validate")

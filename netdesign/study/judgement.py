@@ -252,6 +252,8 @@ def _find_unsaid(
         return name_unsaid(row)
     if known.panel_gap is not None:
         return known.panel_gap
+    if given.member in ROPE_OF and known.effects.end_lack is not None:
+        return known.effects.end_lack
     is_inside = width.position == "intermediate" and given.member in tuple(Member)
     return None if is_inside else find_lack(row, given)
 

@@ -1,17 +1,24 @@
 """What the files of a profile may hold, and how the rest is refused."""
 
 import math
+import random
 
 import pytest
 
 from netdesign.checks.schema import (
     FACTOR_IDS,
+    LIMIT_UNITS,
+    MODEL_UNITS,
+    TABLE_COUNTS,
+    VALUE_BOUNDS,
     ChoicesFile,
     DocumentFile,
     FactorsFile,
     LimitsFile,
+    ModelFile,
     TablesFile,
     check_table,
+    find_bounds,
 )
 from netdesign.outcome import StandardError
 from netdesign.structure.members import MEMBER_MODES
@@ -259,3 +266,50 @@ def test_other_key_beside_the_floor_is_refused_with_what_is_accepted():
     text = refusal(DocumentFile, a_document(load={"flor": "none"}))
     assert "'load' 'flor': unknown key; accepted are floor" in text
     assert "'load'" in refusal(DocumentFile, a_document(load="none"))
+
+
+IDS = sorted({*LIMIT_UNITS, *FACTOR_IDS, *MODEL_UNITS, *TABLE_COUNTS})
+
+
+def test_every_id_of_a_profile_has_bounds_that_leave_room():
+    bounds = {name: find_bounds(name) for name in IDS}
+    assert {one for one in VALUE_BOUNDS if one != "resistance"} <= {*IDS}
+    assert all(low < high for low, high in bounds.values())
+    assert all(bounds[one][0] >= 1.0 for one in FACTOR_IDS)
+
+
+def judge_alone(name, **changes):
+    """What is said of one value, in the file that it belongs to; "" for nothing."""
+    entry = an_entry(id=name, **changes)
+    shape, key = FactorsFile, "factor"
+    if name not in FACTOR_IDS:
+        is_limit = name in LIMIT_UNITS
+        shape, key = (LimitsFile, "limit") if is_limit else (ModelFile, "value")
+        entry["unit"] = (LIMIT_UNITS | MODEL_UNITS)[name]
+    try:
+        check_table(shape, {key: [entry]}, "my.toml")
+    except StandardError as error:  # its group or pair may lack the others, too
+        return str(error)
+    return ""
+
+
+@each("name", [one for one in IDS if one not in TABLE_COUNTS])
+def test_a_value_beyond_its_bounds_needs_a_reason(name):
+    """Drawn far and near, on both sides: those of the review lie among them."""
+    draw = random.Random(name)
+    low, high = find_bounds(name)
+    below = low * (draw.uniform(1e-6, 0.99) if low > 0.0 else 1.5)
+    drawn = [high * draw.uniform(1.01, 100.0), math.nextafter(high, math.inf), below]
+    for value in drawn[: 2 if name in FACTOR_IDS else 3]:  # below 1: another reason
+        told = f"{name} = {value:g} lies beyond {low:g} to {high:g}"
+        assert told in judge_alone(name, value=value)
+        assert told not in judge_alone(name, value=value, reason_beyond="Our tests.")
+    assert "lies beyond" not in judge_alone(name, value=draw.uniform(low, high))
+
+
+def test_a_table_beyond_its_bounds_needs_a_reason():
+    table = some_correlations(3.5)
+    message = refusal(TablesFile, {"table": [table]})
+    assert "correlation.tests.least = 3.5 lies beyond 1 to 2" in message
+    why = {"reason_beyond": "The annex."}
+    assert check_table(TablesFile, {"table": [table | why]}, "t").table

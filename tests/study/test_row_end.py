@@ -72,6 +72,42 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     assert post.governs == "panel"
 
 
+RANK = [Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS]
+GROUPS = ("end.", "lateral.", "post.", "tests.", "correlation.", "geometry.", "soil.")
+
+
+def drop(standard, start):
+    """Profile without the values whose ids begin so."""
+    values = tuple(one for one in standard.values if not one.id.startswith(start))
+    tables = tuple(one for one in standard.tables if not one.id.startswith(start))
+    return replace(standard, values=values, tables=tables)
+
+
+@each(
+    "start, row_has_end",
+    [(start, end) for start in (*GROUPS, "action.", "resistance.") for end in (1, 0)],
+)
+def test_a_profile_that_lacks_values_loses_no_row_and_improves_no_check(
+    start, row_has_end
+):
+    """Whatever a profile lacks is not proven; the row's other checks are written."""
+    row = with_panel(a_panel(), end=an_end(angle=37.0) if row_has_end else None)
+    row = row if row_has_end else replace(row, gap=0.0, row_end=None)
+    profiles = (PROFILE, drop(PROFILE, start))
+    full, less = (checks_of(judge(row, standard=one)[1]) for one in profiles)
+    whole = start in ("action.", "resistance.")
+    for name, check in less.items():
+        if name in full:
+            was = full[name].verdict
+            assert RANK.index(check.verdict) <= max(RANK.index(was), 1), name
+        assert not whole or check.verdict is not Verdict.PASS or check.mode != "rope"
+    if start == "end." and row_has_end:
+        assert less["geometry.ends"].verdict is Verdict.NOT_PROVEN
+        assert less["end_guy.rope"].verdict is Verdict.NOT_PROVEN
+        assert "no end effect" in str(less["end_guy_anchor.tendon"].reason)
+        assert less["foot_anchor.tendon"].verdict is full["foot_anchor.tendon"].verdict
+
+
 def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
     """A system that is not computed must not turn a row with an end guy into a pass."""
     row = with_panel(a_panel(), end=an_end(angle=37.0))

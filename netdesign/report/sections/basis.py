@@ -191,17 +191,17 @@ def count_assumed(study: Study) -> tuple[int, int]:
     return sum(one.status == _ASSUMED for one in values), len(values)
 
 
-def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
-    """Factors below 1, each with the reason that the profile gives."""
+def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
+    """Values below 1 or beyond what any document has, each with its reason."""
     return tuple(
         words(
             "show.label",
             label=f"{show_own(words, value.text)} = "
             f"{words.show_quantity(value.value, value.unit)}",
-            text=words("note.below_one", reason=show_text(value.reason_below_one)),
+            text=words(key, reason=show_text(reason)),
         )
         for value in profile.values
-        if value.reason_below_one
+        for key, reason in value.reasons.items()
     )
 
 
@@ -281,9 +281,9 @@ def _list_profile(study: Study, words: Words) -> Iterator[Block]:
         if text
     )
     yield Pairs(pairs=pairs, look="keys")
-    below = list_below_one(profile, words)
-    if below:
-        yield Items(items=below)
+    odd = list_odd_values(profile, words)
+    if odd:
+        yield Items(items=odd)
 
 
 def has_other_floor(study: Study) -> bool:
