@@ -28,7 +28,7 @@ from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
-from netdesign.structure.splay import Guys
+from netdesign.structure.splay import EndGuy, Guys
 from netdesign.words.message import Message, Text, say
 
 if TYPE_CHECKING:
@@ -76,6 +76,10 @@ class RowEnd:
     ----------
     guy_angle : float or None
         Between the end guy and the row [rad]; None where none is given.
+    guy_from_base : float or None
+        Of the end guy's anchor, as `EndGuy` has it [m].
+    ropes_slide : bool
+        The border ropes slide at the supports; not where nobody says so.
     lateral_distance, lateral_axis : float or None
         Of the lateral anchor from the foot anchor [m], and its inclination against the
         slope [rad]; None where none is given.
@@ -84,9 +88,18 @@ class RowEnd:
     """
 
     guy_angle: float | None
+    guy_from_base: float | None = None
+    ropes_slide: bool = False
     lateral_distance: float | None = None
     lateral_axis: float | None = None
     resistances: tuple[Resistance, ...]
+
+    @property
+    def guy(self) -> EndGuy | None:
+        """End guy in space; None where its angle is not given."""
+        if self.guy_angle is None:
+            return None
+        return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
 
     def list_unsaid_places(self) -> tuple[Message, ...]:
         """Names of what is not given of the places of its anchors."""

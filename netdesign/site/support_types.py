@@ -159,6 +159,8 @@ def build_row_end(end: Row | None, types: Types) -> RowEnd:
     lack = say("row_end.no_members")
     return RowEnd(
         guy_angle=end["end_guy_angle"].given_si if end else None,
+        guy_from_base=end["end_guy_place"].given_si if end else None,
+        ropes_slide=end is not None and end["ropes_at_supports"].word == "slide",
         lateral_distance=end["lateral_distance"].given_si if end else None,
         lateral_axis=end["lateral_axis"].given_si if end else None,
         resistances=tuple(

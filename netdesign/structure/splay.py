@@ -1,7 +1,7 @@
-"""Post head that a load along the row acts on too: two splayed guys on each side.
+"""Post head that a load along the row acts on too: splayed guys, and the end guy.
 
 The section's equilibrium (head.py) stays as it is; what the sideways load adds to it
-is found here. Theory: structure/THEORY.md, eqs. (S15) to (S19).
+is found here. Theory: structure/THEORY.md, eqs. (S15) to (S19) and (S24) to (S26).
 """
 
 from __future__ import annotations
@@ -15,6 +15,64 @@ from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import say
 
 LEAST_SPLAY, MOST_SPLAY = math.radians(5.0), math.radians(60.0)
+_FLATTEST = 1e-3  # of an end guy to the row; its anchor then lies far away [rad]
+
+# Downslope, normal to the slope, along the row: positive into the row from its end.
+Place = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EndGuy:
+    """Guy that holds the head of a row's first or last post along the row.
+
+    Attributes
+    ----------
+    angle : float
+        gamma, true angle between the guy and the row [rad].
+    from_base : float or None
+        Of its anchor downslope of the post's base, along the slope [m]; None is
+        abreast of the head.
+    """
+
+    angle: float
+    from_base: float | None = None
+
+    def find_way(self, points: SupportPoints) -> Place:
+        """Unit vector from the head to the anchor; structure/THEORY.md, eq. (S24).
+
+        The guy pulls the head that way, and its anchor the other way.
+
+        Parameters
+        ----------
+        points : SupportPoints
+            Of the support at the row's end [m].
+
+        Verified by
+        -----------
+        tests/verification/test_end_guy.py
+        """
+        x, y = self._lead(points)
+        off = math.sin(self.angle) / math.hypot(x, y)
+        return x * off, y * off, -math.cos(self.angle)
+
+    def find_anchor(self, points: SupportPoints) -> Place:
+        """Point of the anchor on the ground, from the net's foot beside the post [m].
+
+        Parameters
+        ----------
+        points : SupportPoints
+            Of the support at the row's end [m].
+        """
+        x, y = self._lead(points)
+        reach = math.hypot(x, y) / math.tan(max(self.angle, _FLATTEST))
+        return points.head[0] + x, 0.0, -reach
+
+    def _lead(self, points: SupportPoints) -> Point:
+        """From the head to the anchor, in the section [m]."""
+        x_head, y_head = points.head
+        if self.from_base is None:
+            return 0.0, -y_head
+        return points.post_base[0] + self.from_base - x_head, -y_head
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

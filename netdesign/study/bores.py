@@ -21,6 +21,7 @@ from netdesign.structure.row_position import (
     find_least_distance,
     measure_distance,
 )
+from netdesign.structure.splay import EndGuy
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
 from netdesign.study.sideways import place_row
@@ -28,7 +29,6 @@ from netdesign.study.support_records import PullRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-_FLATTEST = 1e-3  # of an end guy along the row; it ends far from the others [rad]
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
@@ -110,15 +110,13 @@ def place_end_anchors(
     if end is None or end.lateral_distance is None or end.lateral_axis is None:
         return
     drilled = {one.member: one.drilled_length for one in end.resistances}
-    guy = max(end.guy_angle or 0.0, _FLATTEST)
-    reach = points.head[1] / math.tan(guy)
-    for member, start, axis in (
-        (EndMember.LATERAL_ANCHOR, (0.0, 0.0, -end.lateral_distance), end.lateral_axis),
-        (EndMember.END_GUY_ANCHOR, (points.head[0], 0.0, -reach), guy),
+    guy, axis = end.guy or EndGuy(angle=0.0), end.lateral_axis
+    sideways = (0.0, -math.sin(axis), -math.cos(axis))
+    for member, start, way in (
+        (EndMember.LATERAL_ANCHOR, (0.0, 0.0, -end.lateral_distance), sideways),
+        (EndMember.END_GUY_ANCHOR, guy.find_anchor(points), guy.find_way(points)),
     ):
-        direction = (0.0, -math.sin(axis), -math.cos(axis))
-        bore = Bore(start=start, direction=direction, length=drilled.get(member))
-        yield member, bore
+        yield member, Bore(start=start, direction=way, length=drilled.get(member))
 
 
 def check_cover(known: RowForces, gap: Message | None) -> Check | None:
