@@ -1,12 +1,12 @@
 """Anchor in its ground, and what it may pull out with itself: between two planes.
 
-Theory: resistance/THEORY.md, (R18) and (R19).
+Theory: resistance/THEORY.md, (R18), (R19) and (R30).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ _NARROWINGS = 3  # each to two steps of the one before
 MOST_COHESION = 500e3  # [Pa]
 # Below the least that a list may give: it is the design value, too.
 LEAST_FRICTION, MOST_FRICTION = math.radians(0.1), math.radians(50.0)
+WATER = 10e3  # unit weight [N/m3]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,12 +34,15 @@ class Soil:
     friction : float
         phi' [rad].
     weight : float
-        Unit weight [N/m3].
+        Unit weight [N/m3]; of the soaked ground, unless it is drained.
+    is_drained : bool
+        No water flows in it; else it seeps along the slope, up to the surface.
     """
 
     cohesion: float
     friction: float
     weight: float
+    is_drained: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what no ground has."""
@@ -55,11 +59,16 @@ class Soil:
         on_cohesion, on_friction : float
             Factors on c' and on tan phi' [-].
         """
-        return Soil(
+        return replace(
+            self,
             cohesion=self.cohesion / on_cohesion,
             friction=math.atan(math.tan(self.friction) / on_friction),
-            weight=self.weight,
         )
+
+    @property
+    def uplift(self) -> float:
+        """Unit weight of the water that seeps in it [N/m3]."""
+        return 0.0 if self.is_drained else WATER
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +78,7 @@ class WedgeResistance:
     Attributes
     ----------
     value : float
-        [N]; 0 where a wedge slides down the slope by itself.
+        [N]; 0 where a wedge slides by itself, as the slab below it then does, too.
     plane : float
         Between the slope's surface and the plane that the wedge slides on [rad].
     """
@@ -133,12 +142,44 @@ def compute_wedge_resistance(
 
 
 def _hold(soil: Soil, depth: float, slope: float, planes: Floats) -> Floats:
-    """Work of cohesion and weight for each length of the wedge's motion [N/m]."""
+    """Work of cohesion, weight and water for each length of the wedge's motion [N/m].
+
+    Water that seeps along the slope is a force out of it, (R18).
+    """
     behind = planes + 2.0 * soil.friction
     lengths = depth / np.sin(planes) + depth / np.sin(behind)
     area = 0.5 * depth**2 * (1.0 / np.tan(planes) - 1.0 / np.tan(behind))
     cohesion = soil.cohesion * math.cos(soil.friction) * lengths
-    return cohesion + soil.weight * area * np.sin(planes + soil.friction - slope)
+    motion = planes + soil.friction
+    weight = soil.weight * np.sin(motion - slope)
+    return cohesion + area * (weight - soil.uplift * math.cos(slope) * np.sin(motion))
+
+
+def compute_slab_stability(soil: Soil, depth: float, slope: float) -> float:
+    """Strength of the ground under a slab of the slope over what it needs, (R30) [-].
+
+    Parameters
+    ----------
+    soil : Soil
+        With its design strength.
+    depth : float
+        Of the slab, normal to the slope [m].
+    slope : float
+        Of the surface, either way [rad].
+
+    Returns
+    -------
+    float
+        Below 1 the slab slides by itself.
+
+    Verified by
+    -----------
+    tests/verification/test_wedge.py
+    """
+    pressing = (soil.weight - soil.uplift) * depth * math.cos(slope)
+    held = soil.cohesion + pressing * math.tan(soil.friction)
+    driving = soil.weight * depth * abs(math.sin(slope))
+    return held / driving if driving else math.inf
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

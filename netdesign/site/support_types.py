@@ -100,7 +100,12 @@ def _read_soil(line: Row) -> Soil | None:
     cohesion, friction, weight = (line[key].given_si for key in SOIL_COLUMNS)
     if cohesion is None or friction is None or weight is None:
         return None
-    return Soil(cohesion=cohesion, friction=friction, weight=weight)
+    return Soil(
+        cohesion=cohesion,
+        friction=friction,
+        weight=weight,
+        is_drained=line["soil_water"].word == "drained",
+    )
 
 
 def _build_section(line: Row) -> RoundSection | None:

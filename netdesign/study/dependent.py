@@ -2,7 +2,7 @@
 
 Of anchors, their ground, posts and their bases; of steel at the end of the design life;
 of the links between a rope and its anchor. Theory: resistance/THEORY.md, (R7) to (R12),
-(R18) and (R19).
+(R18), (R19) and (R30).
 """
 
 from __future__ import annotations
@@ -58,6 +58,7 @@ from netdesign.resistance.wedge import (
     AnchorType,
     Soil,
     WedgeResistance,
+    compute_slab_stability,
     compute_wedge_resistance,
 )
 from netdesign.site.model import NetRow, Resistance
@@ -193,9 +194,12 @@ def _find_ground_resistance(
         "weight": soil.weight / 1e3,
         "on_cohesion": on_cohesion,
         "on_friction": on_friction,
+        "water": say("wedge.drained" if soil.is_drained else "wedge.seepage"),
     }
-    if not wedge.value > 0.0:
-        return replace(given, lack=say("wedge.slides", **told))
+    stability = compute_slab_stability(reduced, max(depths), row.slope_angle)
+    if stability < 1.0:
+        told |= {"depth": max(depths), "stability": stability}
+        return replace(given, lack=say("wedge.slab", **told))
     return replace(given, value=wedge.value, derivation=say("wedge.lifts", **told))
 
 

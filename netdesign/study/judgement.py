@@ -47,7 +47,7 @@ from netdesign.words.message import Message, say
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
 # without any; a foot without hold.
-UNBOUNDED = ("post_bending.too_much", "wedge.slides", LOOSE_LIFTS.key)
+UNBOUNDED = ("post_bending.too_much", "wedge.slab", LOOSE_LIFTS.key)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,13 +6,21 @@ import random
 import pytest
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.wedge import Soil, compute_wedge_resistance
+from netdesign.resistance.wedge import (
+    WATER,
+    Soil,
+    compute_slab_stability,
+    compute_wedge_resistance,
+)
+from tests.each import each
 
 STRAIGHT_OUT = math.pi / 2
 
 
 def draw_soil(draw, **special):
+    """Ground without water, unless it is told otherwise."""
     given = {
+        "is_drained": True,
         "cohesion": 1e3 * draw.uniform(3.0, 30.0),
         "friction": math.radians(draw.uniform(18.0, 41.0)),
         "weight": 1e3 * draw.uniform(16.3, 22.7),
@@ -30,14 +38,18 @@ def lift(soil, least, largest=None, **special):
     )
 
 
-def test_weight_alone_of_level_ground_is_that_between_planes_at_the_friction_angle():
-    """R = gamma b h^2 tan(phi), of a straight pull."""
+@each("is_drained", [True, False])
+def test_weight_alone_of_level_ground_is_that_between_planes_at_the_friction_angle(
+    is_drained,
+):
+    """R = gamma b h^2 tan(phi), of a straight pull; of soaked ground less its water."""
     draw = random.Random(3)
     for _ in range(20):
-        soil = draw_soil(draw, cohesion=0.0)
+        soil = draw_soil(draw, cohesion=0.0, is_drained=is_drained)
         depth, width = draw.uniform(0.4, 4.0), draw.uniform(1.5, 4.5)
         found = lift(soil, STRAIGHT_OUT, depth=depth, width=width)
-        weight = soil.weight * width * depth**2 * math.tan(soil.friction)
+        unit = soil.weight - (0.0 if is_drained else 10e3)
+        weight = unit * width * depth**2 * math.tan(soil.friction)
         assert found.value == pytest.approx(weight, rel=1e-6)
         assert found.plane == pytest.approx(STRAIGHT_OUT - soil.friction, abs=1e-3)
 
@@ -53,11 +65,13 @@ def test_cohesion_alone_of_any_slope_is_that_of_two_planes():
         assert lift(soil, angle).value > bound  # a little friction holds a little
 
 
-def test_the_weakest_of_drawn_wedges_is_no_weaker():
+@each("is_drained", [True, False])
+def test_the_weakest_of_drawn_wedges_is_no_weaker(is_drained):
     """Forces on a wedge by hand: those of both planes, and its weight."""
     draw = random.Random(5)
     for _ in range(30):
-        soil = draw_soil(draw, cohesion=1e3 * draw.uniform(15.0, 30.0))
+        cohesion = 1e3 * draw.uniform(25.0, 40.0)
+        soil = draw_soil(draw, cohesion=cohesion, is_drained=is_drained)
         slope = math.radians(draw.uniform(-50.0, 50.0))
         angle = math.radians(draw.uniform(8.0, 80.0))
         found = lift(soil, angle, slope=slope)
@@ -92,6 +106,9 @@ def pull_by_forces(soil, plane, angle, slope, depth=1.7, width=3.3):
         for length, way in ((front, on_front), (rear, on_rear))
     )
     against -= weight * _dot(motion, down)
+    if not soil.is_drained:  # pore pressure on both planes, which open by phi
+        head = WATER * math.cos(slope) * depth / 2.0
+        against -= head * (front + rear) * width * math.sin(phi)
     working = _dot(motion, (math.cos(angle), math.sin(angle)))
     return against / working if working > 1e-6 else None
 
@@ -110,6 +127,7 @@ def test_more_strength_never_holds_less_nor_more_directions_more():
             "cohesion": soil.cohesion * draw.uniform(1.0, 2.0),
             "friction": soil.friction * draw.uniform(1.0, 1.2),
             "weight": soil.weight,
+            "is_drained": True,
         }
         assert lift(Soil(**stronger), angle, slope=slope).value >= least * (1 - 1e-6)
         wider = lift(soil, angle - 0.2, angle + 0.1, slope=slope).value
@@ -119,11 +137,12 @@ def test_more_strength_never_holds_less_nor_more_directions_more():
 
 
 def test_ground_pulled_up_the_slope_holds_more_and_steep_loose_ground_nothing():
-    soil = Soil(cohesion=4.1e3, friction=math.radians(33.0), weight=19.3e3)
+    dry = {"friction": math.radians(33.0), "weight": 19.3e3, "is_drained": True}
+    soil = Soil(cohesion=4.1e3, **dry)
     slope = math.radians(37.0)
     down, up = lift(soil, 0.5, slope=slope), lift(soil, 0.5, slope=-slope)
     assert 0.0 < down.value < up.value
-    loose = Soil(cohesion=0.0, friction=math.radians(33.0), weight=19.3e3)
+    loose = Soil(cohesion=0.0, **dry)
     assert lift(loose, 0.5, slope=slope).value == 0.0
     assert lift(loose, 0.5, slope=math.radians(31.0)).value > 0.0
 
@@ -156,3 +175,88 @@ def test_ground_that_none_is_refused(wrong):
 def test_wedge_without_size_is_refused(wrong):
     with pytest.raises(ModelError):
         lift(draw_soil(random.Random(8)), 0.5, **wrong)
+
+
+# Foot anchor of R4: slope 40 deg, drilled 8 m at 20 deg, 3 m of ground, c' and tan phi'
+# over 1.25, unit weight 20 kN/m3, pulls from 11.83 to 30.69 deg.
+R4_SLOPE, R4_DEMAND_kN = math.radians(40.0), 266.6646
+R4_PULLS = math.radians(11.831059), math.radians(30.691016)
+R4_DEEPEST = 8.0 * math.sin(math.radians(20.0))
+
+
+def ground_of_r4(cohesion_kPa, *, is_drained):
+    soil = Soil(
+        cohesion=1e3 * cohesion_kPa,
+        friction=math.radians(36.0),
+        weight=20e3,
+        is_drained=is_drained,
+    )
+    return soil.reduce(1.25, 1.25)
+
+
+@each(
+    "cohesion_kPa, is_drained, resistance_kN, utilisation, stability",
+    [
+        (32.0, True, 346.8, 0.769, 1.42),
+        (32.0, False, 310.7, 0.858, 1.07),
+        (20.0, True, 232.8, 1.145, 1.15),
+        (20.0, False, 196.4, 1.358, 0.80),
+        (10.0, True, 136.5, 1.954, 0.92),
+        (10.0, False, 0.0, math.inf, 0.57),
+    ],
+)
+def test_ground_of_r4_dry_and_soaked(
+    cohesion_kPa, is_drained, resistance_kN, utilisation, stability
+):
+    """Second derivation of the statics, to the digits that it prints."""
+    soil = ground_of_r4(cohesion_kPa, is_drained=is_drained)
+    held_kN = min(
+        lift(soil, *R4_PULLS, depth=depth, width=3.0, slope=R4_SLOPE).value / 1e3
+        for depth in (0.5 * R4_DEEPEST, R4_DEEPEST)  # the bond may lie anywhere
+    )
+    assert held_kN == pytest.approx(resistance_kN, abs=0.05)
+    if resistance_kN:
+        used = R4_DEMAND_kN / held_kN
+        assert used == pytest.approx(utilisation, abs=5.1e-4)
+    slab = compute_slab_stability(soil, R4_DEEPEST, R4_SLOPE)
+    assert slab == pytest.approx(stability, abs=5.1e-3)
+
+
+def test_slab_of_r4_by_hand():
+    """c' 32 kPa, water to the surface, depth 2.736 m, step by step."""
+    cohesion, friction = 32.0 / 1.25, math.tan(math.radians(36.0)) / 1.25
+    pressing = (20.0 - 10.0) * 2.736161 * math.cos(R4_SLOPE)
+    driving = 20.0 * 2.736161 * math.sin(R4_SLOPE)
+    by_hand = (cohesion + pressing * friction) / driving
+    soil = ground_of_r4(32.0, is_drained=False)
+    for slope in (R4_SLOPE, -R4_SLOPE):  # the pull turns its sign
+        found = compute_slab_stability(soil, R4_DEEPEST, slope)
+        assert found == pytest.approx(by_hand, rel=1e-6)
+    assert compute_slab_stability(soil, 2.7, 0.0) == math.inf
+
+
+def test_water_never_helps_and_a_deeper_slab_never_stands_better():
+    draw = random.Random(9)
+    for _ in range(60):
+        soil, slope = draw_soil(draw), math.radians(draw.uniform(-50.0, 50.0))
+        soaked = Soil(
+            cohesion=soil.cohesion, friction=soil.friction, weight=soil.weight
+        )
+        angle, depth = math.radians(draw.uniform(5.0, 85.0)), draw.uniform(0.5, 4.0)
+        dry = lift(soil, angle, slope=slope, depth=depth).value
+        assert lift(soaked, angle, slope=slope, depth=depth).value <= dry * (1 + 1e-9)
+        stands = compute_slab_stability(soaked, depth, slope)
+        assert stands <= compute_slab_stability(soil, depth, slope)
+        assert compute_slab_stability(soaked, 1.1 * depth, slope) <= stands
+        near = compute_slab_stability(soaked, depth * (1 + 1e-9), slope)
+        assert near == pytest.approx(stands, rel=1e-8)
+
+
+def test_a_wedge_that_slides_lies_in_a_slab_that_slides():
+    """So that a slab that stands leaves every wedge a resistance."""
+    draw = random.Random(10)
+    for _ in range(200):
+        soil = draw_soil(draw, is_drained=draw.random() < 0.5)
+        slope, depth = math.radians(draw.uniform(20.0, 50.0)), draw.uniform(0.5, 5.0)
+        if compute_slab_stability(soil, depth, slope) >= 1.0:
+            assert lift(soil, 0.5, slope=slope, depth=depth).value > 0.0

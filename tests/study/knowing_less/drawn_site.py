@@ -83,7 +83,7 @@ def list_groups(lines):
         ("guy_anchors",),
         ("design_life", "protection", "protected_years", "soil"),
         ("edge_distance", "least_cover", "least_edge", "drilled_length"),
-        ("soil_cohesion", "soil_friction", "soil_weight"),
+        ("soil_cohesion", "soil_friction", "soil_weight", "soil_water"),
         ("mesh_strength", "angle", "count"),
         ("ground",),
         ("post_tilt", "post_base_distance"),
@@ -341,6 +341,8 @@ def give_strength(draw, lines):
             one["soil_cohesion"] = _round(draw.uniform(8.0, 60.0))
             one["soil_friction"] = _round(draw.uniform(25.0, 40.0))
             one["soil_weight"] = _round(draw.uniform(17.0, 23.0))
+            if draw.random() < 0.5:
+                one["soil_water"] = draw.choice(("seepage", "drained"))
 
 
 def _draw_links(draw, lines):
