@@ -191,9 +191,14 @@ class AnchorType:
     kind : str
         "bar", "micropile", "rope anchor", or "" where none is given.
     section : RoundSection or None
-        Of a bar or tube; None where its dimensions are not given.
+        Of what bends: bar, micropile, or the tube at its head; None where its
+        dimensions are not given.
     lever : float or None
         Free length over which it bends [m]; None where none is given.
+    ground_lever : float
+        Lever that the ground's yielding adds to it, e_0 of (R9a) [m].
+    has_tube : bool
+        The section is that of a tube at the head.
     drilled, bond : float or None
         Lengths from the ground's surface, and of the bond at its end [m].
     least_cover, least_edge : float or None
@@ -205,6 +210,8 @@ class AnchorType:
     kind: str
     section: RoundSection | None
     lever: float | None
+    ground_lever: float = 0.0
+    has_tube: bool = False
     drilled: float | None = None
     bond: float | None = None
     least_cover: float | None = None

@@ -12,7 +12,12 @@ from dataclasses import replace
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import PostSection
-from netdesign.resistance.steel import RoundSection, Wear
+from netdesign.resistance.steel import (
+    HEAD_GRADE,
+    RoundSection,
+    Wear,
+    find_ground_lever,
+)
 from netdesign.resistance.wedge import AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
@@ -74,19 +79,24 @@ def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType]
     """Kind and steel of each anchor whose type is in its sheet."""
     lines = types["Anchors"]
     return tuple(
-        (member, _read_anchor(lines[row[member].word]))
+        (member, _read_anchor(lines[row[member].word], row["ground"].word))
         for member in _AXES
         if row[member].word in lines
     )
 
 
-def _read_anchor(line: Row) -> AnchorType:
+def _read_anchor(line: Row, ground: str = "") -> AnchorType:
+    """What an anchor is, in the ground of its type, else of its row."""
     outer, strength = line["bar_diameter"], line["bar_strength"]
     is_known = outer.state == strength.state == "given" and not lacks_inner(line)
+    has_tube = line["tube_diameter"].state == "given"
+    section = _build_section(line) if is_known or has_tube else None
     return AnchorType(
         kind=line["kind"].word,
-        section=_build_section(line) if is_known else None,
+        section=section,
         lever=line["lever_arm"].given_si,
+        ground_lever=_yield_at_mouth(section, line, ground) if section else 0.0,
+        has_tube=has_tube,
         drilled=line["drilled_length"].given_si,
         bond=line["bond_length"].given_si,
         least_cover=line["least_cover"].given_si,
@@ -108,9 +118,25 @@ def _read_soil(line: Row) -> Soil | None:
     )
 
 
+def _yield_at_mouth(section: RoundSection, line: Row, ground: str) -> float:
+    """Lever that the ground at the mouth of a bore adds, (R9a) and (R9b) [m]."""
+    return find_ground_lever(
+        section,
+        ground=line["ground"].word or ground,
+        modulus=line["ground_modulus"].given_si,
+    )
+
+
 def _build_section(line: Row) -> RoundSection | None:
-    """Steel of an anchor; None of dimensions that ``check_support_types`` refused."""
+    """Steel that bends: a tube at the head, else the anchor's own.
+
+    None of dimensions that ``check_support_types`` refused.
+    """
+    tube, wall = line["tube_diameter"].given_si, line["tube_wall"].given_si
     try:
+        if tube is not None and wall is not None:
+            inner = tube - 2.0 * wall
+            return RoundSection(outer=tube, inner=inner, strength=HEAD_GRADE)
         return RoundSection(
             outer=line["bar_diameter"].si,
             inner=read_inner(line),
@@ -304,6 +330,9 @@ def _bend_anchor(
     if anchor.lever is None:
         return _open(named, member, "bending", lack=say("bending.no_lever"))
     wear = _read_wear(types["Anchors"][named.word], "bending")
+    if wear is not None and anchor.has_tube and anchor.section is not None:
+        outer, inner = anchor.section.outer, anchor.section.inner
+        wear = replace(wear, outer=outer, inner=inner)
     return replace(_open(named, member, "bending", anchor), wear=wear)
 
 

@@ -50,6 +50,7 @@ from netdesign.resistance.steel import (
     compute_bent_bar_resistance,
     find_angle,
     find_direction_factor,
+    find_least_tube,
     find_loss,
     leave_area,
     resist_link,
@@ -117,8 +118,8 @@ def find_short_post(given: Resistance, basis: Basis) -> Message | None:
 def _find_bent_resistance(
     given: Resistance, anchor: AnchorType, pull: PullRecord | None
 ) -> Resistance:
-    section, lever = anchor.section, anchor.lever
-    if section is None or lever is None:
+    section, free = anchor.section, anchor.lever
+    if section is None or free is None:
         return replace(given, lack=say("bending.no_section"))
     if pull is None:
         return given
@@ -126,6 +127,7 @@ def _find_bent_resistance(
         return replace(given, lack=say("bending.no_axis"))
     if pull.angle > _LARGEST_ANGLE:
         return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
+    lever = free + anchor.ground_lever
     worst = min(
         (
             compute_bent_bar_resistance(section, angle=angle, lever=lever)
@@ -133,9 +135,15 @@ def _find_bent_resistance(
         ),
         key=lambda one: one.value,
     )
-    return replace(
-        given, value=worst.value, derivation=_describe_bending(section, worst)
+    told = say(
+        "bending.of_tube" if anchor.has_tube else "bending.of_bar",
+        of=_describe_bending(section, worst),
+        lever=1e3 * lever,
+        free=1e3 * free,
+        ground=1e3 * anchor.ground_lever,
+        length=find_least_tube(anchor.ground_lever),
     )
+    return replace(given, value=worst.value, derivation=told)
 
 
 def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:

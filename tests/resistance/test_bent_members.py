@@ -2,6 +2,7 @@
 
 import math
 import random
+from itertools import pairwise
 
 import pytest
 
@@ -15,6 +16,7 @@ from netdesign.resistance.steel import (
     RoundSection,
     compute_bar_resistance,
     compute_bent_bar_resistance,
+    find_ground_lever,
 )
 
 POST = PostSection(
@@ -67,6 +69,37 @@ def test_impossible_pull_on_a_bar_is_named(name, changes):
     bar = RoundSection(outer=0.03, strength=5e8)
     with pytest.raises(ModelError, match=name):
         compute_bent_bar_resistance(bar, **({"angle": 0.1, "lever": 0.02} | changes))
+
+
+@pytest.mark.parametrize(
+    ("key", "low", "high", "sense"),
+    [
+        ("free", 1e-4, 0.3, -1),
+        ("angle", 0.02, 1.2, -1),
+        ("modulus", 1e6, 2e10, 1),
+        ("outer", 0.02, 0.09, 1),
+    ],
+)
+def test_a_bar_bears_less_in_softer_ground_and_farther_out(key, low, high, sense):
+    """Monotone, and without a jump."""
+
+    def bear(outer=0.04, angle=0.2, free=0.02, modulus=20e6):
+        bar = RoundSection(outer=outer, strength=5e8)
+        lever = free + find_ground_lever(bar, ground="till", modulus=modulus)
+        return compute_bent_bar_resistance(bar, angle=angle, lever=lever).value
+
+    values = [low * (high / low) ** (n / 900) for n in range(901)]
+    found = [bear(**{key: value}) for value in values]
+    steps = [sense * (two - one) for one, two in pairwise(found)]
+    assert min(steps) >= 0.0
+    assert max(steps) < 0.02 * max(found)
+
+
+@pytest.mark.parametrize("modulus", [0.0, 9e4, 2e11, math.nan])
+def test_ground_that_is_none_is_named(modulus):
+    bar = RoundSection(outer=0.03, strength=5e8)
+    with pytest.raises(ModelError, match="modulus of the ground"):
+        find_ground_lever(bar, ground="till", modulus=modulus)
 
 
 def test_tube_thinner_than_its_wall_allows_is_refused():

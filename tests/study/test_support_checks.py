@@ -163,25 +163,51 @@ def test_an_anchor_without_axis_and_kind_is_not_proven(tmp_path, splay):
     assert 0.0 < downhill.least_deg < 90.0
 
 
-@pytest.mark.parametrize(("lever", "verdict"), [(5, Verdict.PASS), (30, Verdict.FAIL)])
-def test_bar_with_a_lever_arm_bends(tmp_path, lever, verdict):
-    """20 degrees off and k = 0.1: cos d = cos 20 / 1.00499, by (R7) to (R9)."""
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": lever}
+TUBE = {"tube at the head [mm]": 114.3, "wall of the tube [mm]": 12.5}
+
+
+@pytest.mark.parametrize(
+    ("lever", "anchor", "added", "verdict"),
+    [
+        (5, {}, 96.0, Verdict.FAIL),  # 3 D in till
+        (5, {"ground": "granite"}, 32.0, Verdict.FAIL),
+        (0, {"modulus of the ground [MPa]": 20000}, 12.362, Verdict.PASS),
+        (5, TUBE, 305.18, Verdict.FAIL),  # 3 D of the tube, hollow
+        (5, TUBE | {"modulus of the ground [MPa]": 40}, 185.84, Verdict.PASS),
+    ],
+)
+def test_bar_with_a_lever_arm_bends(tmp_path, lever, anchor, added, verdict):
+    """20 degrees off and k = 0.1: cos d = cos 20 / 1.00499, by (R7) to (R9b)."""
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": lever} | anchor
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 20.0})
     angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
-    area, modulus = math.pi * 16.0**2, math.pi * 32.0**3 / 32.0
-    used = math.cos(angle) / area + lever * math.sin(angle) / modulus
-    sheared = 2.0 * math.sin(angle) * math.sqrt(3.0) / (0.75 * area)
-    value = 1.0 / used
-    if lever == 5:  # more than half of the shear resistance
-        assert sheared > used
-        value = (2.0 * sheared - used) / sheared**2
+    has_tube = "wall of the tube [mm]" in anchor
+    outer, inner, steel = (114.3, 89.3, 235.0) if has_tube else (32.0, 0.0, 500.0)
+    area = math.pi * (outer**2 - inner**2) / 4.0
+    modulus = math.pi * (outer**4 - inner**4) / (32.0 * outer)
+    used = math.cos(angle) / area + (lever + added) * math.sin(angle) / modulus
+    shear_area = (2.0 / math.pi if has_tube else 0.75) * area
+    sheared = 2.0 * math.sin(angle) * math.sqrt(3.0) / shear_area
+    value = 1.0 / used if used > sheared else (2.0 * sheared - used) / sheared**2
     found = checks["foot_anchor.bending"]
-    assert found.read("R_k") == pytest.approx(0.5 * value, rel=1e-9)
+    assert found.read("R_k") == pytest.approx(1e-3 * steel * value, rel=2e-4)
     assert found.verdict is verdict
     assert found.demand_kN == checks["foot_anchor.tendon"].demand_kN
-    assert f"{lever} mm · sin" in str(found.resistance_derivation)
+    told = str(found.resistance_derivation)
+    assert f"= {lever} mm free + " in told
+    assert ("of the tube, at least" in told) is has_tube
     assert "foot_anchor.direction" not in checks
+
+
+def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5}
+
+    def bear(ground):
+        in_it = {"anchor": anchor | {"ground": ground}, "ground of the anchors": ground}
+        return judge(tmp_path, **in_it)["foot_anchor.bending"].read("R_k")
+
+    assert bear(None) == bear("till")
+    assert bear("gneiss") > 1.5 * bear("till")
 
 
 def test_bar_that_bends_without_dimensions_is_not_proven(tmp_path):

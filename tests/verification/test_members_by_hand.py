@@ -17,7 +17,12 @@ from netdesign.resistance.post import (
     compute_buckling_resistance,
     compute_post_moment,
 )
-from netdesign.resistance.steel import RoundSection, compute_bent_bar_resistance
+from netdesign.resistance.steel import (
+    RoundSection,
+    compute_bent_bar_resistance,
+    find_ground_lever,
+    find_least_tube,
+)
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.splay import compute_splayed_head
 
@@ -64,6 +69,109 @@ def test_tube_of_a_micropile():
     assert tube.shear_resistance == pytest.approx(1320.0e-6 * 460e6 / 3**0.5, **CLOSE)
     found = compute_bent_bar_resistance(tube, angle=math.radians(12), lever=0.080)
     assert found.value == pytest.approx(451.4e3, **CLOSE)
+
+
+def bend_in_ground(outer, inner, modulus, lever):
+    """Largest M / V of a half-infinite beam on elastic ground (Hetenyi) [m].
+
+    M(x) = (1 / beta) e^-bx [sin bx + beta e (sin bx + cos bx)], tried at many x.
+    """
+    moment = math.pi / 64.0 * (outer**4 - inner**4)
+    beta = (modulus / (4.0 * 210e9 * moment)) ** 0.25
+    moments = []
+    for step in range(20001):
+        x = math.pi * step / 20000
+        wave = math.sin(x) + beta * lever * (math.sin(x) + math.cos(x))
+        moments.append(math.exp(-x) * wave / beta)
+    return max(moments)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "ratio", "printed"),
+    [
+        (5, "3.1", "77 98 123 154"),
+        (10, "2.6", "65 83 103 129"),
+        (20, "2.2", "54 70 87 109"),
+        (50, "1.7", "43 55 69 86"),
+        (100, "1.5", "36 46 58 73"),
+        (200, "1.2", "31 39 49 61"),
+        (1000, "0.82", "20 26 33 41"),
+        (5000, "0.55", "14 17 22 27"),
+    ],
+)
+def test_ground_of_a_measured_modulus_adds_its_lever(modulus, ratio, printed):
+    """Table A7: of 25, 32, 40 and 50 mm, in mm; 0.3224 / beta and by the moments."""
+    levers = []
+    for size in (0.025, 0.032, 0.040, 0.050):
+        bar = RoundSection(outer=size, strength=500e6)
+        found = find_ground_lever(bar, ground="gravel", modulus=1e6 * modulus)
+        assert found == pytest.approx(bend_in_ground(size, 0.0, 1e6 * modulus, 0.0))
+        assert found == pytest.approx(4.594 * size / modulus**0.25, rel=1e-4)
+        levers.append(1e3 * found)
+    assert f"{levers[2] / 40.0:.{len(ratio) - 2}f}" == ratio
+    for lever, told in zip(levers, printed.split(), strict=True):
+        assert lever == pytest.approx(float(told), abs=0.62)  # some are cut off
+
+
+@pytest.mark.parametrize("modulus", [1, 10, 50, 200, 5000])
+@pytest.mark.parametrize("free", [0.0, 0.005, 0.020, 0.050, 0.100, 0.4])
+def test_a_free_length_and_the_ground_add_up_to_more_than_both(modulus, free):
+    """e_eq at E_s 10, 50, 200, 5000 MPa, D 40, e 20: 117 83 63 36 mm, and so on."""
+    bar = RoundSection(outer=0.040, strength=500e6)
+    exact = bend_in_ground(0.040, 0.0, 1e6 * modulus, free)
+    counted = free + find_ground_lever(bar, ground="", modulus=1e6 * modulus)
+    assert exact <= counted + 1e-9
+    printed = {0.020: "117 83 63 36", 0.050: "138 105 85 62", 0.100: "176 145 127 108"}
+    if free in printed and modulus > 1:
+        told = dict(zip((10, 50, 200, 5000), printed[free].split(), strict=True))
+        assert 1e3 * exact == pytest.approx(float(told[modulus]), abs=0.6)
+
+
+@pytest.mark.parametrize(
+    ("ground", "free", "printed"),
+    [
+        ("", 5, 4.540),
+        ("till", 5, 4.540),
+        ("scree", 0, 4.386),
+        ("shale-soft", 5, 4.540),
+        ("gneiss", 5, 2.073),
+        ("rock", 60, 3.769),
+    ],
+)
+def test_foot_bar_of_row_r4_in_its_ground(ground, free, printed):
+    """B40 of R4: 40 mm less 0.96 mm a face, 500 MPa; E_d 266.66 kN, 12.105 degrees.
+
+    N_Rk = 569.45 kN, M_Rk = 2.7106 kN m, gamma 1.495. At a lever of 120 mm
+    mu = 266.66 * 1.495 (0.97777 / 569.45 + 0.120 * 0.20971 / 2.7106) = 4.386,
+    125 mm 4.540, 100 mm 3.769, 45 mm 2.073: those of statics to its digits.
+    """
+    bar = RoundSection(outer=0.040, strength=500e6)
+    added = find_ground_lever(bar, ground=ground, modulus=None)
+    assert added == pytest.approx(0.040 if ground in ("gneiss", "rock") else 0.120)
+    left = RoundSection(outer=0.03808, strength=500e6)
+    angle, demand = math.radians(12.10492), 1.495 * 266.6646e3
+    levers = ((1e-3 * free + added, printed), (0.005, 0.839), (0.020, 1.301))
+    for lever, told in (*levers, (0.050, 2.227), (0.100, 3.769)):
+        found = compute_bent_bar_resistance(left, angle=angle, lever=lever)
+        assert demand / found.value == pytest.approx(told, abs=6e-4)
+
+
+def test_a_tube_of_76_mm_in_ground_of_20_mpa():
+    """76.1 x 8 mm: I = pi (76.1^4 - 60.1^4) / 64 = 1.006e-6 m4; E I 211.2 kN m2.
+
+    beta = (20e6 / 844.9e3)^(1/4) = 2.206 /m: 0.3224 / 2.206 = 146 mm; pi / beta 1.42 m.
+    Where nobody measures the ground it is that in which a solid bar yields over 3 D.
+    """
+    tube = RoundSection(outer=0.0761, inner=0.0601, strength=235e6)
+    found = find_ground_lever(tube, ground="till", modulus=20e6)
+    assert found == pytest.approx(bend_in_ground(0.0761, 0.0601, 20e6, 0.0), rel=1e-6)
+    assert 1e3 * found == pytest.approx(146, abs=0.5)
+    assert find_least_tube(found) == pytest.approx(1.42, abs=5e-3)
+    soft = (0.322397 / 3.0) ** 4 * 4.0 * 210e9 * math.pi / 64.0
+    assert soft == pytest.approx(5.5e6, rel=0.02)
+    unmeasured = find_ground_lever(tube, ground="till", modulus=None)
+    expected = bend_in_ground(0.0761, 0.0601, soft, 0.0)
+    assert unmeasured == pytest.approx(expected, rel=1e-5)
 
 
 def test_two_guys_splayed_by_30_degrees():
