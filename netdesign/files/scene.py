@@ -27,6 +27,7 @@ from netdesign.snow.creep_law import (
     DENSEST_SNOW,
     FLUIDITY_EXPONENT,
     ICE_DENSITY,
+    LARGEST_EXPONENT,
     CreepLaw,
     compute_fluidity,
 )
@@ -239,7 +240,7 @@ class SnowTable(Table):
     density_kg_m3: Density | None = None
     layers: Annotated[list[LayerTable], Field(min_length=1)] | None = None
     creep_law: str | CreepLawTable = "boutillier-2004"
-    creep_exponent: Annotated[float, Field(ge=1, le=10)] = 3.0
+    creep_exponent: Annotated[float, Field(ge=1, le=LARGEST_EXPONENT)] = 3.0
     fluidity_per_MPa3_a: Positive | None = None
     temperature_C: Temperature | None = None
 
@@ -412,7 +413,8 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
         given = snow.creep_law
         if given.name in CREEP_LAWS:
             raise ModelError(say("scene_file.shipped_law", name=given.name))
-        return CreepLaw(exponent=snow.creep_exponent, **dict(given))
+        own = snow.creep_exponent
+        return CreepLaw(exponent=own, own_exponent=own, **dict(given))
     if snow.creep_law not in CREEP_LAWS:
         known = tuple(CREEP_LAWS)
         raise ModelError(

@@ -2,7 +2,7 @@
 
 Fluidity only rescales time
 in homogeneous snow; between layers it shifts stresses. Theory: snow/THEORY.md, eqs (N1)
-to (N5), section 6.
+to (N5), sections 6 and 7.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source 
 DENSEST_SNOW = 0.99
 _LARGEST_COEFFICIENT = 60.0  # of the exponential fits: keeps their powers finite
 
+# Tests of snow give 1.8 to 4 (snow/THEORY.md, section 7).
+LARGEST_EXPONENT = 6.0
 FLUIDITY_EXPONENT = 3.0  # creep exponent that every fluidity of this module is for
 
 # The source paper's value, Lliboutry and Duval (1985), for n = 3 [Pa^-3 s^-1].
@@ -51,6 +53,8 @@ class CreepLaw:
         Publication of the low-density fit.
     exponent : float
         Creep exponent n [-].
+    own_exponent : float
+        Exponent for which a(D) and b(D) are given; those of another follow (N28) [-].
     shear_fit, bulk_fit : tuple of float
         (c0, c1) of ``exp(c0 - c1 D)`` for a and for b below ``branch`` [-].
     branch : float
@@ -64,6 +68,7 @@ class CreepLaw:
     name: str
     source: str
     exponent: float = 3.0
+    own_exponent: float = 3.0
     shear_fit: tuple[float, float]
     bulk_fit: tuple[float, float]
     branch: float
@@ -72,7 +77,8 @@ class CreepLaw:
 
     def __post_init__(self) -> None:
         """Refuse a set that is not convex, or breaks (N5) where it is calibrated."""
-        require_within("creep exponent", self.exponent, 1.0, 10.0)
+        for exponent in (self.exponent, self.own_exponent):
+            require_within("creep exponent", exponent, 1.0, LARGEST_EXPONENT)
         require_positive("branch density", self.branch)
         require_within("branch density", self.branch, 0.0, DENSEST_SNOW)
         require_within("clamp density", self.clamp, 0.0, self.branch)
@@ -128,11 +134,8 @@ def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
     -----------
     tests/snow/test_creep_law.py
     """
-    density = _require_snow(law, relative_density)
-    if density < law.branch:
-        return math.exp(law.shear_fit[0] - law.shear_fit[1] * density)
-    power = 2 * law.exponent / (law.exponent + 1)
-    return float((1 + 2 * (1 - density) / 3) / density**power)
+    own = _compute_own_shear(law, _require_snow(law, relative_density))
+    return float(own ** ((law.own_exponent + 1.0) / (law.exponent + 1.0)))
 
 
 def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
@@ -156,9 +159,24 @@ def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
         If the density is not that of snow.
     """
     density = _require_snow(law, relative_density)
+    derived = compute_shear_factor(law, relative_density)
+    share = derived / _compute_own_shear(law, density)
+    return float(share * _compute_own_bulk(law, density))
+
+
+def _compute_own_shear(law: CreepLaw, density: float) -> float:
+    """Coefficient a(D) of the set's own exponent, (N3) and (N4)."""
+    if density < law.branch:
+        return math.exp(law.shear_fit[0] - law.shear_fit[1] * density)
+    power = 2 * law.own_exponent / (law.own_exponent + 1)
+    return float((1 + 2 * (1 - density) / 3) / density**power)
+
+
+def _compute_own_bulk(law: CreepLaw, density: float) -> float:
+    """Coefficient b(D) of the set's own exponent, (N3) and (N4)."""
     if density < law.branch:
         return math.exp(law.bulk_fit[0] - law.bulk_fit[1] * density)
-    n = law.exponent
+    n = law.own_exponent
     void = (1 - density) ** (1 / n)
     return float(0.75 * (void / (n * (1 - void))) ** (2 * n / (n + 1)))
 

@@ -46,14 +46,16 @@ def solve_scene(
     settings : SolverSettings or MethodSettings, optional
         Of the steady state (default), or of a method that an add-on brings.
     """
-    if settings is not None and not isinstance(settings, SolverSettings):
-        return settings.solve(scene)
-    if isinstance(scene.net, Wall):
-        # few runs push a wall: they alone wait for the import
-        from netdesign.coupling.steady.rigid import solve_rigid
+    # what is not finite ends as an outcome with its reason, not as a remark on stderr
+    with np.errstate(all="ignore"):
+        if settings is not None and not isinstance(settings, SolverSettings):
+            return settings.solve(scene)
+        if isinstance(scene.net, Wall):
+            # few runs push a wall: they alone wait for the import
+            from netdesign.coupling.steady.rigid import solve_rigid
 
-        return solve_rigid(scene, settings)
-    return solve_steady(scene, settings)
+            return solve_rigid(scene, settings)
+        return solve_steady(scene, settings)
 
 
 def method_of(settings: Settings) -> Method:

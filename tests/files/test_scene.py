@@ -97,7 +97,7 @@ def test_glide_factor_becomes_a_slip_length(tables):
         ("snow", "density_kg_m3", math.nan),
         ("snow", "upslope_length_m", -20.0),
         ("snow", "creep_exponent", 0.9),
-        ("snow", "creep_exponent", 10.1),
+        ("snow", "creep_exponent", 6.1),
         ("snow", "fluidity_per_MPa3_a", 0.0),
         ("snow", "temperature_C", 0.1),
         ("snow", "layers", []),

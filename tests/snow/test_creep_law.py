@@ -172,3 +172,37 @@ def test_strain_rate_inverts_the_law():
     back = 3.0 ** (-1 / 2) * size ** ((1 - 2.0) / 2.0)
     found = back * (2.0 / a * deviator + trace / b * np.eye(3))
     np.testing.assert_allclose(found, stress, rtol=1e-11)
+
+
+# --- fault 9: the law of another exponent is derived, not kept (N28) -----------------
+
+
+def test_the_derived_coefficients_by_hand():
+    """At D = 0.5 and n = 3 a = e^6.405 = 604.86, b = e^5.495 = 243.47; m = 1: a^2."""
+    law = replace(LAW, exponent=1.0)
+    assert compute_shear_factor(law, 0.5) == pytest.approx(604.86**2, rel=1e-4)
+    assert compute_bulk_factor(law, 0.5) == pytest.approx(243.47 * 604.86, rel=1e-4)
+
+
+def rate_at_one_size(law, relative_density):
+    """Strain rate over B under a uniaxial pressure whose S of (N8) is 1."""
+    a, b = (
+        of(LAW, relative_density) for of in (compute_shear_factor, compute_bulk_factor)
+    )
+    pressure = 1.0 / math.sqrt(1.0 / 3.0 + b / (9.0 * a))
+    return compute_strain_rate(law, relative_density, 1.0, np.diag([0, 0, -pressure]))
+
+
+@each("seed", range(40))
+def test_snow_of_any_density_creeps_as_in_the_set_whatever_the_exponent(seed):
+    """Drawn exponents and densities, on both branches, in every direction."""
+    rng = np.random.default_rng([61, 9, seed])
+    law = replace(LAW, exponent=float(rng.uniform(1.0, 6.0)))
+    density = float(rng.uniform(0.1, 0.95))
+    wanted = rate_at_one_size(LAW, density)
+    np.testing.assert_allclose(rate_at_one_size(law, density), wanted, rtol=1e-9)
+
+
+def test_a_set_of_its_own_exponent_is_taken_as_it_is():
+    own = replace(LAW, exponent=2.0, own_exponent=2.0)
+    assert compute_shear_factor(own, 0.5) == compute_shear_factor(LAW, 0.5)

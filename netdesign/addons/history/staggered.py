@@ -8,6 +8,7 @@ section 7.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -43,7 +44,7 @@ from netdesign.addons.history.state import (
     build_problem,
 )
 from netdesign.cable.net import compute_turning_angles
-from netdesign.coupling.interface import ErrorModel
+from netdesign.coupling.interface import ErrorModel, Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     FailedSolution,
@@ -85,7 +86,8 @@ def solve_staggered(
     Returns
     -------
     Solution or FailedSolution
-        ``error`` is that of the step, not of the mesh.
+        ``error`` is that of the step and, on free ground, of the drag (K9); not that
+        of the mesh.
 
     Raises
     ------
@@ -112,6 +114,8 @@ def _halve(scene: Scene, settings: StaggeredSettings) -> Solution:
     half = replace(settings, step_share=settings.step_share / 2.0)
     runs = [run_exchange(scene, settings), run_exchange(scene, half)]
     pulls = _ERROR.estimate([measure_run(run) for run in runs])
+    if scene.ground.kind == "free":
+        pulls = [add_drag(pull, *measure_drag(runs[-1])) for pull in pulls]
     tolerances = _BALANCE_TOLERANCE, _FRICTION_TOLERANCE
     return build_solution(scene, runs, pulls, "staggered", *tolerances)
 
@@ -170,6 +174,46 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
         rejected=0,
         start=settings.start,
     )
+
+
+def measure_drag(run: Run) -> tuple[float, float]:
+    """Pull of the drag on a free ground, and what the net's ends hold beside it, (K9).
+
+    Parameters
+    ----------
+    run : Run
+        By the exchange.
+
+    Returns
+    -------
+    float, float
+        Along the slope, where the drag is largest [rho g d^2].
+    """
+    kept = float(run.state.body.mass.sum())
+    weight = kept / (1.0 - run.fallen) * float(run.problem.snow.gravity[0])
+    held = min(float((one.foot + one.head)[0]) for one in run.counted)
+    return max(0.0, weight - held), held
+
+
+def add_drag(pull: Estimate, drag: float, held: float) -> Estimate:
+    """Pull of an end with the drag's share in its error, (K9).
+
+    Parameters
+    ----------
+    pull : Estimate
+        With the error of the step [rho g d^2].
+    drag, held : float
+        ``measure_drag`` [rho g d^2].
+
+    Raises
+    ------
+    SolveError
+        If the drag holds the snow alone.
+    """
+    if held <= 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("staggered.drag_holds_all"))
+    share = max(1.0, math.hypot(*pull.vector) / held)
+    return pull._replace(error=pull.error + share * drag)
 
 
 def _longest_step(problem: TransientProblem, aspect: float) -> float:

@@ -51,6 +51,8 @@ from netdesign.words.message import say
 
 # Share of suction, over the largest accepted, that no finer mesh takes back.
 _HOPELESS_SUCTION = 2.0
+# Triangles of layered snow with pressures of their own: 0.3 s and 0.2 GB a mesh.
+MOST_MIXED_TRIANGLES = 1500
 # Shares of a refused net's slack that are tried in turn.
 _SLACK_SHARES = (0.75, 0.5, 0.25, 0.0)
 
@@ -163,6 +165,7 @@ def _solve_levels(
     def solve(size: MeshSize, coarse: CoupledState | None) -> CoupledState:
         if size not in solved:
             problem = replace(first, template=_build_template(scene, size))
+            _require_affordable(scene, problem)
             solved[size] = couple(problem, settings, coarse, is_first=coarse is None)
             _require_pressure(solved[size])
         return solved[size]
@@ -184,6 +187,31 @@ def _solve_levels(
         if len(solved) < 2 or failure.outcome is Outcome.OUT_OF_VALIDITY:
             raise
         return run(settings.levels[: len(solved)])
+
+
+def _require_affordable(scene: Scene, problem: SteadyProblem) -> None:
+    """Bound the work on layers that hardly change their volume (coupling/THEORY.md, 2).
+
+    Raises
+    ------
+    SolveError
+        If the mesh is larger; coarser ones that were solved then count.
+    """
+    count = problem.template.triangles.shape[1]
+    if _keeps_volume(problem) and count > MOST_MIXED_TRIANGLES:
+        densest = max(layer.density for layer in scene.layers)
+        what = say(
+            "steady.too_much_work",
+            density=float(densest),
+            count=count,
+            most=MOST_MIXED_TRIANGLES,
+        )
+        raise SolveError(Outcome.MAX_ITERATIONS, what)
+
+
+def _keeps_volume(problem: SteadyProblem) -> bool:
+    """Layered snow with one so dense that pressures are unknowns of their own."""
+    return problem.is_layered and problem.snow.element == "mixed"
 
 
 def _require_pressure(end: CoupledState) -> None:
@@ -290,7 +318,8 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | No
     Returns
     -------
     Solution or None
-        None if the net has no slack, or none of the tautened nets is solved.
+        None if the net has no slack, none of the tautened nets is solved, or a layer is
+        so dense that each of them is much work.
 
     Verified by
     -----------
@@ -298,6 +327,8 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | No
     """
     net = scene.net
     if not isinstance(net, Net) or net.slack == 0.0:
+        return None
+    if _keeps_volume(_build_problem(scene, settings.levels[0])):
         return None
     for share in _SLACK_SHARES:
         tauter = replace(net, slack=share * net.slack)
