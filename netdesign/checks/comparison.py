@@ -133,20 +133,45 @@ def find_missing_force(reason: Message) -> Quantity:
     return given("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
 
 
+def find_partial_factor(
+    resistance: GivenResistance, standard: Standard
+) -> StandardValue | None:
+    """Factor on a resistance by its mode and basis; the largest of several modes.
+
+    None where the profile lacks one of them. A tendon that may be a rope has those of
+    steel and of ropes: resistance/THEORY.md, (R31).
+    """
+    found = [one for _, one in _list_factors(resistance, standard)]
+    known = [one for one in found if one is not None]
+    is_whole = len(known) == len(found)
+    return max(known, key=lambda one: one.value_si) if is_whole else None
+
+
+def _list_factors(
+    resistance: GivenResistance, standard: Standard
+) -> list[tuple[str, StandardValue | None]]:
+    """Factors by the modes that they are of."""
+    modes = resistance.factored_as or (resistance.mode,)
+    basis = resistance.basis
+    return [(mode, standard.find_resistance_factor(mode, basis)) for mode in modes]
+
+
 def _find_resistance_factor(
     resistance: GivenResistance, standard: Standard, strength: Quantity
 ) -> tuple[Quantity, str]:
     """Factor of the mode on its basis, gamma_R, and its clause."""
-    found = standard.find_resistance_factor(resistance.mode, resistance.basis)
+    found = find_partial_factor(resistance, standard)
     if found is not None:
         factor = given("γ_R", found.value_si, "-", found.id, kind=Kind.PROFILE)
         return factor, found.clause
-    source = f"resistance.{resistance.mode}"
+    factors = _list_factors(resistance, standard)
+    mode = next(mode for mode, one in factors if one is None)
+    source = f"resistance.{mode}"
     ids = (value.id for value in standard.values)
     bases = [
         one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
     ]
-    lack = _lack_resistance_factor(resistance, bases)
+    lack = _lack_resistance_factor(mode, resistance.basis, bases)
     # without a resistance there is no basis yet, and no factor to miss
     if bases and not resistance.basis and strength.lacks:
         lack = strength.lacks[0]
@@ -186,18 +211,14 @@ def lack_factor(factor: str) -> Message:
     return say("check.no_factor", factor=name("factor", factor), id=factor)
 
 
-def _lack_resistance_factor(
-    resistance: GivenResistance, known: Sequence[str]
-) -> Message:
+def _lack_resistance_factor(mode: str, basis: str, known: Sequence[str]) -> Message:
     """Lack of a factor of a mode; it may have one on other bases, which are known."""
-    mode = name_mode(resistance.mode)
     if not known:
-        factor = say("factor.resistance", mode=mode)
-        of_mode = f"resistance.{resistance.mode}"
-        return say("check.no_factor", factor=factor, id=of_mode)
+        factor = say("factor.resistance", mode=name_mode(mode))
+        return say("check.no_factor", factor=factor, id=f"resistance.{mode}")
     return say(
         "check.no_factor_of_basis",
-        mode=mode,
-        basis=name("basis", resistance.basis),
+        mode=name_mode(mode),
+        basis=name("basis", basis),
         known=tuple(name("basis", one) for one in known),
     )

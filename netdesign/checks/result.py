@@ -44,6 +44,8 @@ class GivenResistance:
         Pull-out tests in the place of a value.
     lack : Message or None
         Reason for a missing value, where "none is given" does not say it.
+    factored_as : tuple of str
+        Modes whose partial factors count, the largest of them; its own if empty.
     """
 
     member: str
@@ -54,6 +56,7 @@ class GivenResistance:
     type_id: str = ""
     tests: PullOutTests | None = None
     lack: Message | None = None
+    factored_as: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -84,6 +84,16 @@ def find_termination(kind: str) -> Datum:
     )
 
 
+def find_loop_efficiency() -> Datum:
+    """Least loss factor k_e of a rope anchor's loop [-]."""
+    table = load_catalogue()["loop"]
+    return Datum(
+        value=table["least"],
+        status=table["status"],
+        source=say("resistance_source.loop"),
+    )
+
+
 def list_terminations() -> dict[str, float]:
     """Loss factor by kind of termination [-]."""
     table = load_catalogue()["termination"]

@@ -29,8 +29,10 @@ from netdesign.site.type_resistances import (
     find_tests,
     lacks_ground,
     lacks_inner,
+    may_be_rope,
     read_inner,
     reduce_breaking,
+    reduce_loop,
 )
 from netdesign.structure.members import (
     END_MODES,
@@ -262,6 +264,9 @@ def _describe_type(
     derivation = resistance.derivation if is_given else None
     if mode == "rope" and is_given and not is_derived:
         value, derivation = reduce_breaking(kind)
+    is_rope = mode == "tendon" and may_be_rope(kind)
+    if is_rope and is_given:
+        value, derivation = reduce_loop(kind)
     place = kind["test_least"].place if tests else resistance.place
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
@@ -282,6 +287,7 @@ def _describe_type(
         drilled_length=kind["drilled_length"].given_si if is_anchor else None,
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
+        factored_as=("tendon", "rope") if is_rope else (),
     )
 
 

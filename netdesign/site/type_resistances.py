@@ -11,6 +11,7 @@ from netdesign.resistance.catalogue import (
     Datum,
     find_bond_stress,
     find_imperfection,
+    find_loop_efficiency,
     find_rope_factor,
     find_termination,
     list_constructions,
@@ -288,6 +289,26 @@ def reduce_breaking(row: Row) -> tuple[float, Message | None]:
         loss=loss.value,
         termination=name("termination", kind),
         origin=_describe_origin(loss),
+    )
+
+
+def may_be_rope(line: Row) -> bool:
+    """An anchor whose tendon is a rope, or of which nothing says what it is."""
+    if line["kind"].word:
+        return line["kind"].word == "rope anchor"
+    product = find_product(line["id"].word)
+    return product is None or not product.family.endswith("bar")
+
+
+def reduce_loop(row: Row) -> tuple[float, Message]:
+    """Resistance of a rope anchor's tendon with its loop [N], and how; (R31)."""
+    force, given = row["tendon"], row["loop_efficiency"]
+    loss, how = given.given_si, say("derivation.loop_given", place=given.place)
+    if loss is None:
+        least = find_loop_efficiency()
+        loss, how = least.value, _describe_origin(least)
+    return loss * force.si, say(
+        "derivation.loop", force=force.number, loss=loss, origin=how
     )
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import find_resistance
 from netdesign.checks.check import Change
+from netdesign.checks.comparison import find_partial_factor
 from netdesign.resistance.catalogue import (
     find_imperfection,
     find_rope_factor,
@@ -136,7 +137,7 @@ def _list_enough(
         if worn or find_short_post(other, basis):
             continue
         value = find_resistance(lasting, standard).value
-        factor = standard.find_resistance_factor(other.mode, other.basis)
+        factor = find_partial_factor(other, standard)
         if value is None or factor is None:
             continue
         _, unsure = find_lasting(basis, other, pull)

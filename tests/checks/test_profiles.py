@@ -58,16 +58,19 @@ def test_every_value_has_a_source_and_none_claims_to_be_read(name):
 @pytest.mark.parametrize(
     ("name", "tested", "tendon", "post"),
     [
-        ("nf-p-95-304-style", 1.35, 1.495, 1.05),
+        ("nf-p-95-304-style", 1.35, 1.5, 1.05),
         ("swiss-guideline-2007", 1.35, 1.35, 1.05),
-        ("eurocode", 1.15, 1.15, 1.0),
-        ("onr-24805-style", 1.2, 1.495, 1.1),
+        ("eurocode", 1.15, 1.5, 1.0),
+        ("onr-24805-style", 1.2, 1.5, 1.1),
     ],
 )
 def test_profiles_differ_by_their_resistance_factors_alone(
     tmp_path, name, tested, tendon, post
 ):
-    """Same demand under all four: they take the same load factor and end effect."""
+    """Same demand under all four: they take the same load factor and end effect.
+
+    Nobody says that the anchors are bars: the larger factor of tendon and rope counts.
+    """
     checks = judge_row(tmp_path, name, **ROW)
     assert checks["foot_anchor.tendon"].demand_kN == pytest.approx(
         1.5 * 94.18 * 1.00499, rel=1e-3

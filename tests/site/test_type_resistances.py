@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import render
+from tests.each import each
 
 
 def add_columns(sheets, name, **columns):
@@ -207,3 +208,33 @@ def test_a_bond_in_a_ground_without_bond_stress_is_refused(sheets, save, refused
     add_columns(sheets, "Anchors", **(BOND | {"ground": "scree"}))
     (finding,) = refused(save(sheets))
     assert "ground = 'scree': must be one of clay-soft" in str(finding)
+
+
+ROPE = ("tendon", "rope")  # factors of a tendon that may be a rope
+
+
+@each(
+    "name, kind, efficiency, share, factors",
+    [
+        ("A1", "bar", None, 1.0, ()),
+        ("A1", "micropile", None, 1.0, ()),
+        ("A1", "rope anchor", None, 0.8, ROPE),
+        ("A1", "rope anchor", 0.9, 0.9, ROPE),
+        ("A1", None, None, 0.8, ROPE),
+        ("A1", None, 1.0, 1.0, ROPE),
+        ("GEWI 32", None, None, 1.0, ()),  # a bar by its name
+    ],
+)
+def test_tendon_by_the_kind_of_anchor(
+    sheets, save, name, kind, efficiency, share, factors
+):
+    sheets["Anchors"] = [
+        ["id", "tendon resistance [kN]", "kind of anchor", "loop efficiency"],
+        [name, 431, kind, efficiency],
+    ]
+    sheets["Nets"] = [[*sheets["Nets"][0]], [*sheets["Nets"][1]]]
+    sheets["Nets"][1][sheets["Nets"][0].index("foot anchor")] = name
+    found = resistance(read_site(save(sheets)), "foot_anchor", "tendon")
+    assert found.value == pytest.approx(share * 431e3, rel=1e-12)
+    assert found.factored_as == factors
+    assert (found.derivation is None) is (not factors)

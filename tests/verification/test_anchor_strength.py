@@ -1,0 +1,43 @@
+"""Strength of anchors against the second derivation of the statics, and by hand."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import check_member, load_standard
+from netdesign.outcome import Verdict
+from tests.checks.entries import a_force, a_resistance
+from tests.each import each
+
+EUROCODE = load_standard("eurocode")
+ROPE = ("tendon", "rope")  # factors of a tendon that may be a rope
+
+
+@each(
+    "loop, utilisation",
+    [(None, 0.9793), (1.0, 1.277), (0.9, 1.419), (0.8, 1.597)],
+)
+def test_rope_anchor_of_r5_under_the_eurocodes(loop, utilisation):
+    """476.9 kN on a tendon of 560 kN: as a bar; as a rope with its loop."""
+    given = a_resistance(560e3 * (loop or 1.0), factored_as=ROPE if loop else ())
+    check = check_member(a_force(476.9e3 / 1.5), given, EUROCODE)
+    assert check.utilisation == pytest.approx(utilisation, abs=6e-4)
+    assert check.clause == ("EN 1993-1-11 6.2" if loop else "EN 1992-1-1 2.4.2.4")
+
+
+def test_the_larger_factor_counts_and_none_of_them_may_lack():
+    """ONR's class 3 asks more of a tendon than of a rope; nothing gets milder."""
+    onr = load_standard("onr-24805-style")
+    given = a_resistance(560e3, factored_as=ROPE)
+    for standard, factor in ((EUROCODE, 1.5), (onr, 1.5)):
+        assert check_member(a_force(1e5), given, standard).read("γ_R") == factor
+    values = tuple(
+        replace(one, value=1.725) if one.id == "resistance.tendon" else one
+        for one in onr.values
+    )
+    steel = check_member(a_force(1e5), given, replace(onr, values=values))
+    assert steel.read("γ_R") == 1.725
+    no_rope = tuple(one for one in onr.values if one.id != "resistance.rope")
+    open_ = check_member(a_force(1e5), given, replace(onr, values=no_rope))
+    assert open_.verdict is Verdict.NOT_PROVEN
+    assert "resistance.rope" in str(open_.reason)
