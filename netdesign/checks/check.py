@@ -200,7 +200,7 @@ class Check:
     case: CasePoint | None = None
     load_case: str = ""  # of the guideline: "load_case_1" or "load_case_2"
     load_inclination_deg: float | None = None  # of the net, where that is largest
-    resistance_basis: str = ""  # "tested", "computed", "declared"
+    resistance_basis: str = ""  # "tested", "computed", "report", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_years: int | None = None  # for which its steel lasts; None: not known

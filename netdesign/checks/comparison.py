@@ -11,7 +11,7 @@ from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.checks.forces import rate
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import GivenResistance
-from netdesign.checks.schema import ACTION_FACTOR, list_action_factors
+from netdesign.checks.schema import ACTION_FACTOR, BY_REPORT, list_action_factors
 from netdesign.checks.tested import find_tested_resistance
 from netdesign.outcome import Verdict
 from netdesign.units import kilonewton_from_newton
@@ -152,7 +152,7 @@ def _list_factors(
 ) -> list[tuple[str, StandardValue | None]]:
     """Factors by the modes that they are of."""
     modes = resistance.factored_as or (resistance.mode,)
-    basis = resistance.basis
+    basis = "tested" if resistance.basis == BY_REPORT else resistance.basis
     return [(mode, standard.find_resistance_factor(mode, basis)) for mode in modes]
 
 

@@ -267,7 +267,11 @@ def _describe_type(
     is_rope = mode == "tendon" and may_be_rope(kind)
     if is_rope and is_given:
         value, derivation = reduce_loop(kind)
-    place = kind["test_least"].place if tests else resistance.place
+    place = resistance.place
+    if tests and is_given:
+        derivation = say("derivation.one_test", force=resistance.number)
+    elif tests:
+        place = kind["test_least"].place
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     if mode == "pull_out" and basis == "computed" and is_given and not tests:

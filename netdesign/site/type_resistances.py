@@ -66,8 +66,14 @@ def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
 
 
 def find_tests(row: Row) -> PullOutTests | None:
-    """Pull-out tests of an anchor type; None where none, or refused ones, are given."""
+    """Pull-out tests of an anchor type; None where none, or refused ones, are given.
+
+    A tested resistance without a number of tests is that of one test.
+    """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
+    one = row["pull_out"]
+    if one.state == "given" and row["basis"].word == "tested":
+        return PullOutTests(count=1, least=one.si, mean=one.si)
     if any(reading.state != "given" for reading in (count, least, mean)):
         return None
     if least.si > mean.si:  # ``check_tests`` has refused it

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
 from netdesign.checks.check import SingleTest, TestSeries
 from netdesign.checks.comparison import find_missing_force
+from netdesign.checks.schema import BY_REPORT
 from netdesign.checks.tested import find_proof_factor
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import SingleTest as PullOutTest
@@ -240,6 +241,8 @@ def find_lasting(
     row = basis.row
     lasting, worn = corrode(given, basis)
     doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
+    if given.basis == BY_REPORT:
+        doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))
     return lasting, doubt or doubt_mortar(given, pull)
 
 

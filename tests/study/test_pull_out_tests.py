@@ -78,6 +78,28 @@ def test_number_and_mean_alone_are_enough(tmp_path):
     assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
 
 
+def judge_typed(tmp_path, **typed):
+    anchor = STEEL | {"pull-out resistance [kN]": 330} | typed
+    study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))
+    return next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
+
+
+def test_a_tested_number_without_a_count_is_that_of_one_test(tmp_path):
+    """1.40 for one test, by mean and least alike."""
+    check = judge_typed(tmp_path, basis="tested")
+    assert check.read("R_k") == pytest.approx(330.0 / 1.4)
+    assert (check.tests.count, check.resistance_cell) == (1, "Anchors!J2")
+    assert "330 kN as one test" in str(check.resistance_derivation)
+
+
+def test_a_value_by_report_counts_as_it_is_and_is_no_pass(tmp_path):
+    """Sheet Declared names the document; without it the check stays not proven."""
+    check = judge_typed(tmp_path, basis="by report")
+    assert check.read("R_k") == 330.0
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert "characteristic value of a report" in str(check.reason)
+
+
 BOND = {
     "tendon resistance [kN]": 500,
     "kind of anchor": "rope anchor",

@@ -5,7 +5,9 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import check_member, load_standard
+from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
+from netdesign.resistance.pull_out import PullOutTests
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 
@@ -41,3 +43,20 @@ def test_the_larger_factor_counts_and_none_of_them_may_lack():
     open_ = check_member(a_force(1e5), given, replace(onr, values=no_rope))
     assert open_.verdict is Verdict.NOT_PROVEN
     assert "resistance.rope" in str(open_.reason)
+
+
+def pull_out(value=None, **changes):
+    given = {"mode": "pull_out", "basis": "tested"}
+    return a_resistance(value, **(given | changes))
+
+
+@each("count, utilisation", [(1, 1.326), (2, 1.232), (3, 1.137)])
+def test_a_number_that_was_typed_and_the_same_from_tests(count, utilisation):
+    """0.9474 as a characteristic value; times 1.40, 1.30, 1.20 as that of tests."""
+    action = a_force(0.9474 * 380e3 / 1.15 / 1.5)
+    tests = PullOutTests(count=count, least=380e3, mean=380e3)
+    tested = check_member(action, pull_out(tests=tests), EUROCODE)
+    assert tested.utilisation == pytest.approx(utilisation, abs=6e-4)
+    typed = check_member(action, pull_out(380e3, basis=BY_REPORT), EUROCODE)
+    assert typed.utilisation == pytest.approx(0.9474, rel=1e-9)
+    assert typed.read("γ_R") == tested.read("γ_R") == 1.15
