@@ -58,6 +58,17 @@ def find_bond_stress(
     )
 
 
+def find_bond_span(ground: str = "") -> tuple[float, float]:
+    """Least and largest ultimate bond stress on a ground [kPa], however it is grouted.
+
+    Of all grounds together where it is not said, or the catalogue has none of it.
+    """
+    grounds = load_catalogue()["bond"]["ground"]
+    listed = [grounds[ground]] if ground in grounds else list(grounds.values())
+    spans = [span for one in listed for key, span in one.items() if key != "text"]
+    return float(min(low for low, _ in spans)), float(max(high for _, high in spans))
+
+
 def find_rope_factor(construction: str, factor: str) -> Datum:
     """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
     rope = load_catalogue()["rope"]

@@ -12,6 +12,7 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from statistics import median
 from typing import TypeAlias
 
+from netdesign.resistance.catalogue import find_bond_span
 from netdesign.resistance.products import find_product
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
@@ -19,7 +20,7 @@ from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_lines import name_bare
-from netdesign.site.type_resistances import list_beside
+from netdesign.site.type_resistances import find_bond, list_beside
 from netdesign.words.message import Message, say
 
 
@@ -110,6 +111,8 @@ _APART = 0.1  # between a resistance and what its dimensions give
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")
 _TESTED = ("pull_out", "test_mean")
+_TESTED_BEYOND = 1.5  # times a bond stress of the catalogue, and as much below
+_ANY_GROUND = say("plausible.any_ground")
 _MOST_TESTED = 1.12  # times the tendon, whose strength may be given as that of yield
 
 
@@ -135,7 +138,11 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         told = alone.get(key) or _doubt_beside(reading, line, alone)
         told = told or _doubt_tested(reading, key, line)
         if told:
+            alone[key] = told
             yield reading, told
+    for key in _TESTED if _TESTED[0] in line else ():
+        if key not in alone and (told := _doubt_bond(line[key], line)):
+            yield line[key], told
 
 
 def _is_meant(reading: Reading) -> bool:
@@ -207,6 +214,34 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     return say("plausible.tested", tendon=_name_with_value(tendon))
 
 
+def _doubt_bond(reading: Reading, line: Row) -> Message | None:
+    """A pull-out force is more than the ground holds on the bond, or hardly any of it.
+
+    One from a test may lie further beyond the catalogue than one that is worked out.
+    """
+    is_worked_out = reading.derivation is not None and reading.field.key == "pull_out"
+    if reading.state != "given" or is_worked_out:
+        return None
+    bond = find_bond(line, reading.si)
+    if bond is None:
+        return None
+    ground = line["ground"]
+    low, high = find_bond_span(ground.word)
+    is_computed = reading.field.key == "pull_out" and line["basis"].word == "computed"
+    room = 1.0 if is_computed else _TESTED_BEYOND
+    if low / room <= bond <= high * room:
+        return None
+    return say(
+        "plausible.bond",
+        bond=bond,
+        place=line["bond_length"].place,
+        ground=ground.field.name_word(ground.word) if ground.word else _ANY_GROUND,
+        low=low,
+        high=high,
+        source=say("resistance_source.bond"),
+    )
+
+
 def _name_with_value(reading: Reading) -> Message:
     return say(
         "plausible.named",
@@ -224,7 +259,10 @@ def _list_unlike(
     columns = {
         key: one.field.of_product for key, one in typed.items() if one.field.of_product
     }
-    product = find_product(line["id"].word) if columns else None
+    if not columns:
+        return
+    section = line["section"].word if "section" in line else ""
+    product = find_product(section) or find_product(line["id"].word)
     if product is None:
         return
     for key, names in columns.items():
@@ -286,6 +324,24 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
             yield from _list_outliers([one[key] for one in lines])
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])
+    if sheet == "Tests":
+        yield from _list_alike(lines)
+
+
+def _list_alike(lines: Sequence[Row]) -> Iterator[Doubt]:
+    """Lines that are one again: pasted twice, unless each is of another anchor."""
+    for number, line in enumerate(lines):
+        again = next((one for one in lines[:number] if _are_alike(one, line)), None)
+        if again is not None:
+            yield line["force"], say("plausible.same_line", place=again["force"].place)
+
+
+def _are_alike(one: Row, other: Row) -> bool:
+    """Nothing that both lines give tells them apart."""
+    pairs = [(one[key], reading) for key, reading in other.items()]
+    both = [pair for pair in pairs if all(each.state == "given" for each in pair)]
+    is_known = (one["force"], other["force"]) in both
+    return is_known and all(first.value == second.value for first, second in both)
 
 
 def _list_outliers(readings: Sequence[Reading]) -> Iterator[Doubt]:

@@ -90,6 +90,7 @@ from netdesign.site.type_lines import (
 )
 from netdesign.site.type_resistances import (
     check_ends,
+    check_section,
     check_tests,
     fill_in_resistances,
     fill_in_section,
@@ -483,5 +484,6 @@ def _read_types(
     for row in filled:  # a computed resistance beside tests is one too many, too
         check_tests(row, findings)
         check_ends(row, findings)
+        check_section(row, findings)
     by_id = index_lines(filled, "id", say("nets.ids_once"), findings)
     return by_id if "id" in table.columns else None

@@ -7,6 +7,7 @@ Tests, the chain of links behind it those of sheet Links.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -15,8 +16,8 @@ from statistics import fmean
 from netdesign.resistance.pull_out import SingleTest
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
-from netdesign.site.lines import Types, refuse_unknown_ids
-from netdesign.site.readings import Reading, Row, choose_given, refuse, refuse_beside
+from netdesign.site.lines import Types, index_lines, refuse_unknown_ids
+from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground
 from netdesign.words.message import say
 
@@ -161,6 +162,7 @@ def count_in_tests(
     """
     places = {line["id"].word: line["id"].place for line in lines}
     refuse_unknown_ids((test["type"] for test in tests), places, findings)
+    index_lines(tests, "anchor", say("tests.anchor_once"), findings)
     by_place: dict[tuple[str, str], list[Row]] = {}
     for test in tests:
         if test["force"].state == "given":
@@ -189,28 +191,42 @@ def _count(
     if own or (name, "") in by_place:
         tests = by_place.pop((name, own), None)
         if tests:
-            _refuse_beside(line, tests[0]["force"], findings)
+            _refuse_others(line, tests, findings)
         return [_fill_in(line, tests, line["ground"]) if tests else line]
     keys = [key for key in by_place if key[0] == name]
     if not keys:
         return [line]
     tested = [by_place.pop(key) for key in keys]
-    _refuse_beside(line, tested[0][0]["force"], findings)
+    for tests in tested:
+        _refuse_others(line, tests, findings)
     return [_fill_in(line, tests, tests[0]["ground"]) for tests in tested]
 
 
-def _refuse_beside(line: Row, test: Reading, findings: list[Finding]) -> None:
-    """Refuse tests of a type that has its number of tests on its own sheet."""
-    if line["test_count"].state == "given":
-        refuse_beside(test, line["test_count"], findings)
+_ROUNDED = 0.005  # by which a number typed beside single tests may differ from theirs
+
+
+def _refuse_others(line: Row, tests: Sequence[Row], findings: list[Finding]) -> None:
+    """Refuse tests beside a number of tests, least or mean that is not theirs."""
+    for key, number in zip(TEST_COLUMNS, _sum_up(tests), strict=True):
+        typed = line[key]
+        is_given = typed.state == "given"
+        if is_given and not math.isclose(typed.number, number, rel_tol=_ROUNDED):
+            rule = say("tests.other", number=number, name=typed.field.name)
+            beside = say("tests.beside", place=typed.place, text=quote(typed.text))
+            refuse(tests[0]["force"], rule, beside, findings)
+            return
+
+
+def _sum_up(tests: Sequence[Row]) -> tuple[float, float, float]:
+    """Number, least and mean of single tests, as `TEST_COLUMNS` has them."""
+    forces = [test["force"].number for test in tests]
+    return float(len(forces)), min(forces), fmean(forces)
 
 
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     """Line with number, least and mean of its tests, and their ground."""
-    forces = [test["force"].number for test in tests]
     first = tests[0]["force"]
     how = say("tests.counted", count=len(tests), place=first.place)
-    numbers = (float(len(forces)), min(forces), fmean(forces))
     counted = {
         key: replace(
             line[key],
@@ -219,12 +235,10 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
             derivation=how,
             cell=first.cell,
         )
-        for key, value in zip(TEST_COLUMNS, numbers, strict=True)
-        if line[key].state == "blank"
+        for key, value in zip(TEST_COLUMNS, _sum_up(tests), strict=True)
     }
-    if "test_count" in counted:
-        singles = tuple(map(_read_single, tests))
-        counted["test_count"] = replace(counted["test_count"], singles=singles)
+    singles = tuple(map(_read_single, tests))
+    counted["test_count"] = replace(counted["test_count"], singles=singles)
     field = line["ground"].field
     return {**line, **counted, "ground": replace(ground, field=field)}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -107,6 +108,18 @@ def check_ends(row: Row, findings: list[Finding]) -> None:
         refuse(row["termination"], rule, say("type.other_end"), findings)
 
 
+def check_section(row: Row, findings: list[Finding]) -> None:
+    """Refuse a section that is another than the one that its type is named after."""
+    typed = row.get("section")
+    if typed is None or typed.state != "given":
+        return
+    given, named = find_product(typed.word), find_product(row["id"].word)
+    if given and named and given.id != named.id:
+        place = row["id"].place
+        rule = say("type.other_section", section=given.id, place=place, name=named.id)
+        refuse(typed, rule, say("accepted.one_of_two"), findings)
+
+
 def _apply(key: str, row: Row, findings: list[Finding]) -> Row:
     field = row[key].field
     governing = _find_governing(key, row)
@@ -160,11 +173,11 @@ _LEAST_KNOWN = {"rope": ("rope_diameter",)}
 
 
 def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
-    """Resistances of steel and ropes as given, with what their dimensions give [N].
+    """Resistances as given, with what their dimensions give [N]; not of the bond.
 
     Where some of these are not given, with the most that they may give, if it is less.
     """
-    for key in ("tendon", "rope", "compression"):
+    for key in ("tendon", "rope", "compression", "bearing"):
         given = row.get(key)
         if given is None or given.state != "given" or given.derivation:
             continue
@@ -180,6 +193,18 @@ def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
             most = _compute_bare_rope(row) if key == "rope" else _RULES[key](row)[0]
             if not is_open or given.si > most:
                 yield given, most
+
+
+def find_bond(row: Row, pull_out: float) -> float | None:
+    """Mean bond stress under a pull-out force [N] over the bond length [kPa].
+
+    None without the dimensions of the bond.
+    """
+    parts = (row["drill_diameter"], row["bond_length"])
+    if any(one.state != "given" for one in parts):
+        return None
+    surface = math.pi * parts[0].si * parts[1].si
+    return pull_out / surface / 1e3
 
 
 def fill_in_section(row: Row) -> Row:
