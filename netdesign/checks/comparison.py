@@ -189,7 +189,9 @@ def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity
         if not 0.0 < value < math.inf:
             lack = say("check.resistance_not_usable", value=value, what=what)
             return given("R_k", None, "kN", source, lack=lack)
-        return given("R_k", kilonewton_from_newton(value), "kN", source)
+        ends = (value, max(value, resistance.best or 0.0))
+        low, high = map(kilonewton_from_newton, ends)
+        return given("R_k", low, "kN", source, band=(low, high))
     if tests is None:
         lack = resistance.lack or say("check.no_resistance", what=what)
         return given("R_k", None, "kN", source, lack=lack)

@@ -46,6 +46,8 @@ class GivenResistance:
         Reason for a missing value, where "none is given" does not say it.
     factored_as : tuple of str
         Modes whose partial factors count, the largest of them; its own if empty.
+    best : float or None
+        Value at the best end of what is assumed for it [N]; None where it is the same.
     """
 
     member: str
@@ -57,6 +59,7 @@ class GivenResistance:
     tests: PullOutTests | None = None
     lack: Message | None = None
     factored_as: tuple[str, ...] = ()
+    best: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

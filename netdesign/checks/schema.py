@@ -41,7 +41,8 @@ CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 ANCHOR_DISTANCE = "anchor.distance.min"
-POST_EFFICIENCY = "post.efficiency"
+# eta of a post where snow glides least, and its growth with the glide factor.
+POST_EFFICIENCY, POST_EFFICIENCY_GROWTH = "post.efficiency", "post.efficiency.per_glide"
 # On the strength of the ground that an anchor may pull out with itself.
 SOIL_COHESION, SOIL_FRICTION = "soil.cohesion", "soil.friction"
 TEST_COUNT = "tests.count"  # of each anchor type in each ground
@@ -111,6 +112,7 @@ MODEL_UNITS = {
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
     POST_EFFICIENCY: "-",
+    POST_EFFICIENCY_GROWTH: "-",
     TEST_COUNT: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.

@@ -121,6 +121,10 @@ class PostSection:
         Section modulus W and f_y [m3, Pa].
     critical, buckling : float
         N_cr and chi A f_y of `BucklingResistance` [N].
+    at_head, at_foot : float
+        Eccentricities of the compression at both ends [m].
+    efficiency : float or None
+        eta, where somebody gives it [-].
     """
 
     width: float
@@ -129,6 +133,9 @@ class PostSection:
     strength: float
     critical: float
     buckling: float
+    at_head: float
+    at_foot: float
+    efficiency: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse impossible numbers."""
@@ -138,6 +145,8 @@ class PostSection:
         require_positive("yield strength", self.strength, "Pa")
         require_positive("critical load", self.critical, "N")
         require_positive("buckling resistance", self.buckling, "N")
+        for eccentricity in (self.at_head, self.at_foot):
+            require_within("eccentricity", eccentricity, 0.0, 1.0, "m")
 
     @property
     def moment_resistance(self) -> float:
@@ -174,10 +183,37 @@ def compute_post_moment(
     return efficiency * pressure * section.width * section.length**2 / 8.0
 
 
+def add_end_moments(snow: float, head: float, foot: float) -> float:
+    """Largest moment of a hinged post under snow, with moments at its ends; (R11a).
+
+    Parameters
+    ----------
+    snow : float
+        Moment of the snow in the middle, of a parabola [N m].
+    head, foot : float
+        At the ends, bending it the same way [N m].
+
+    Returns
+    -------
+    float
+        [N m].
+
+    Verified by
+    -----------
+    tests/verification/test_members_by_hand.py
+    """
+    apart = abs(head - foot)
+    if apart >= 4.0 * snow:  # it falls from one end to the other
+        return max(head, foot)
+    return snow + 0.5 * (head + foot) + apart**2 / (16.0 * snow)
+
+
 def compute_bent_post_resistance(
     section: PostSection, *, moment: float, partial_factor: float
 ) -> float | None:
     """Compression that a post bears beside a moment; resistance/THEORY.md, (R11).
+
+    The compression acts beside the axis at both ends and brings moments of its own.
 
     Parameters
     ----------
@@ -201,11 +237,29 @@ def compute_bent_post_resistance(
     """
     require_within("design moment", moment, 0.0, math.inf, "N m")
     require_within("partial factor", partial_factor, 0.1, 10.0)
-    used = partial_factor * moment / section.moment_resistance
+    over = partial_factor / section.moment_resistance
+    used = over * moment
     if used >= 1.0:
         return None
-    buckling, amplified = partial_factor / section.buckling, 1.0 / section.critical
-    root = math.sqrt((buckling - amplified) ** 2 + 4.0 * buckling * amplified * used)
-    # the smaller root, in the form that does not cancel
-    design = 2.0 * (1.0 - used) / (buckling + amplified + root)
+    head, foot = section.at_head, section.at_foot
+    apart = abs(head - foot)
+    square = over * apart**2 / (16.0 * moment) if moment else 0.0
+    design = _solve(section, partial_factor, used, 0.5 * over * (head + foot), square)
+    if design * apart >= 4.0 * moment:
+        design = _solve(section, partial_factor, 0.0, over * max(head, foot), 0.0)
     return partial_factor * design
+
+
+def _solve(
+    section: PostSection, factor: float, used: float, linear: float, square: float
+) -> float:
+    """Design compression C [N] with all of the section used; (R11b).
+
+    (1 - factor C / N_k) (1 - C / N_cr) = used + linear C + square C^2.
+    """
+    buckling, amplified = factor / section.buckling, 1.0 / section.critical
+    slope = buckling + amplified + linear
+    bend = buckling * amplified - square
+    root = math.sqrt(max(slope**2 - 4.0 * bend * (1.0 - used), 0.0))
+    # the smaller root, in the form that does not cancel
+    return 2.0 * (1.0 - used) / (slope + root)

@@ -57,6 +57,9 @@ class Resistance(GivenResistance):
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
+    # told where what is assumed for it decides: between value and best, without a best
+    # in any case
+    doubt: Message | None = None
 
 
 def _name_column(key: str) -> Message:

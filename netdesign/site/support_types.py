@@ -26,6 +26,7 @@ from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
     compute_buckling,
+    find_depth,
     find_tests,
     lacks_ground,
     lacks_inner,
@@ -52,6 +53,7 @@ _AXES = {
     Member.UPHILL_ANCHOR: "uphill_axis",
     Member.DOWNHILL_ANCHOR: "downhill_axis",
 }
+TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
@@ -392,10 +394,25 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         strength=line["yield_strength"].si,
         critical=buckling.critical,
         buckling=buckling.value,
+        at_head=_find_eccentricity(line, "head_eccentricity"),
+        at_foot=_find_eccentricity(line, "foot_eccentricity"),
+        efficiency=line["efficiency"].given_si,
     )
     place = line["post_width"].place
     found = _open(named, Member.POST, mode, section, source=place)
     return replace(found, buckling_length=section.length)
+
+
+def _find_eccentricity(line: Row, key: str) -> float:
+    """Eccentricity of a post's compression at one end [m].
+
+    Where nobody gives it: none at a foot that turns freely, else half the depth.
+    """
+    typed = line[key].given_si
+    if typed is not None:
+        return typed
+    turns = key == "foot_eccentricity" and line["foot_joint"].word in TURNING
+    return 0.0 if turns else 0.5 * find_depth(line)
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

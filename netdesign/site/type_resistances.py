@@ -23,6 +23,7 @@ from netdesign.resistance.post import (
     compute_bearing_resistance,
     compute_buckling_resistance,
 )
+from netdesign.resistance.product_data import Product
 from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
@@ -216,9 +217,8 @@ def fill_in_section(row: Row) -> Row:
     is_post = "buckling_length" in row
     if not is_post or row["compression"].state == "given":
         return row
-    typed = row["section"] if row["section"].state == "given" else row["id"]
-    product = find_product(typed.word)
-    if product is None or product.family != "section":
+    typed, product = _find_section(row)
+    if product is None:
         return row
     filled = dict(row)
     how = say("derivation.product", product=product.id, sources=product.sources)
@@ -236,6 +236,26 @@ def fill_in_section(row: Row) -> Row:
             cell=typed.cell,
         )
     return filled
+
+
+def _find_section(row: Row) -> tuple[Reading, Product | None]:
+    """Cell that names the section of a post, and the product that it names."""
+    typed = row["section"] if row["section"].state == "given" else row["id"]
+    product = find_product(typed.word)
+    is_section = product is not None and product.family == "section"
+    return typed, product if is_section else None
+
+
+def find_depth(row: Row) -> float:
+    """Depth of a post's section in the plane across the row, at most [m].
+
+    By its name; else the width that the snow presses on, or 4 W / A: hollow sections
+    have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
+    """
+    _, product = _find_section(row)
+    if product is not None and "depth" in product.values:
+        return max(product.values["depth"][1], row["post_width"].si)
+    return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
 
 
 def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:

@@ -21,24 +21,13 @@ from netdesign.checks.comparison import (
 )
 from netdesign.checks.forces import resist_by_friction
 from netdesign.checks.schema import (
-    ACTION_FACTOR,
-    POST_EFFICIENCY,
     SOIL_COHESION,
     SOIL_FRICTION,
-)
-from netdesign.envelope.ranges import Ranges
-from netdesign.guideline.comparison import LoadCase, list_cases
-from netdesign.guideline.load_model import (
-    SnowLoad,
-    compute_snow_load,
-    read_load_model,
 )
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum
 from netdesign.resistance.post import (
     PostSection,
-    compute_bent_post_resistance,
-    compute_post_moment,
 )
 from netdesign.resistance.steel import (
     BARE,
@@ -64,23 +53,20 @@ from netdesign.resistance.wedge import (
 )
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
-from netdesign.study.effects import find_row_glide_factor, list_corners, load_guideline
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.member_force import MemberForce
-from netdesign.study.record_guideline import build_geometry
+from netdesign.study.posts import find_post_resistance
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 _LARGEST_ANGLE = math.radians(89.0)
-# Share of a post that the buckling length of its type may lack: lengths are rounded.
-_ROUNDED = 0.01
 
 
 def find_resistance_for_force(
-    given: Resistance, basis: Basis, pull: PullRecord | None
+    given: Resistance, basis: Basis, pull: PullRecord | None, width: LoadedWidth
 ) -> Resistance:
     """Resistance with the value that row, profile and pull give it; others as is."""
     match given.dimensions:
@@ -89,30 +75,9 @@ def find_resistance_for_force(
         case AnchorType() as anchor:
             return _find_bent_resistance(given, anchor, pull)
         case PostSection() as section:
-            return _find_post_resistance(given, section, basis)
+            return find_post_resistance(given, section, basis, width)
         case _:
             return given
-
-
-def find_short_post(given: Resistance, basis: Basis) -> Message | None:
-    """Lack of a post's resistance that was computed for a shorter post than the row's.
-
-    Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
-    inclinations.
-    """
-    if given.buckling_length is None:
-        return None
-    span = basis.site.ranges["inclination"]
-    places = (place_row(basis.row, one) for one in (span.low, span.high))
-    longest = max(place.post_length for place in places)
-    if given.buckling_length >= (1.0 - _ROUNDED) * longest:
-        return None
-    return say(
-        "check.short_buckling",
-        type=given.type_id,
-        length=given.buckling_length,
-        post=longest,
-    )
 
 
 def _find_bent_resistance(
@@ -238,91 +203,6 @@ def _find_ground_width(row: NetRow, pull: PullRecord) -> float:
     else:
         is_doubled = row.guys.count > 1 and not row.guys.are_shared
     return row.layout.post_spacing / (2.0 if is_doubled else 1.0)
-
-
-def _find_post_resistance(
-    given: Resistance, section: PostSection, basis: Basis
-) -> Resistance:
-    row, standard = basis.row, basis.standard
-    efficiency = standard.find(POST_EFFICIENCY)
-    on_action = standard.find(ACTION_FACTOR)
-    on_post = standard.find_resistance_factor(given.mode, given.basis)
-    if efficiency is None:
-        lack = lack_factor(POST_EFFICIENCY)
-        return replace(given, lack=lack)
-    if on_action is None or on_post is None:
-        return given
-    try:
-        pressure, case, load = find_snow_pressure(row, basis.site.ranges)
-    except ModelError as error:  # outside the guideline's closed forms
-        return replace(given, lack=error.message)
-    moment = compute_post_moment(
-        section, pressure=pressure, efficiency=efficiency.value
-    )
-    value = compute_bent_post_resistance(
-        section, moment=on_action.value * moment, partial_factor=on_post.value
-    )
-    told = {
-        "efficiency": efficiency.value,
-        "pressure": pressure / 1e3,
-        "density": case.density,
-        "gravity": read_load_model(load_guideline()).gravity,
-        "height": case.height_vertical,
-        "creep": load.creep_factor,
-        "glide": load.glide_factor,
-        "slope": degree_from_radian(row.slope_angle),
-        "modulus": 1e6 * section.modulus,
-        "strength": section.strength / 1e6,
-        "width": 1e3 * section.width,
-        "length": section.length,
-        "moment": moment / 1e3,
-        "resistance": section.moment_resistance / 1e3,
-        "buckling": kilonewton_from_newton(section.buckling),
-        "critical": kilonewton_from_newton(section.critical),
-        "action": on_action.value,
-        "factor": on_post.value,
-    }
-    if value is None:
-        return replace(given, lack=say("post_bending.too_much", **told))
-    return replace(given, value=value, derivation=say("post_bending.beside", **told))
-
-
-# Mean pressure of snow on a plane across the slope [Pa], and the load it is of.
-SnowPressure = tuple[float, LoadCase[float], SnowLoad[float]]
-
-
-def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
-    """Largest mean pressure of the snow on a plane across the slope.
-
-    The guideline's S'_N over the snow's thickness, of its two load cases and of the
-    densest snow, over the ranges of height and glide factor. Theory:
-    resistance/THEORY.md, (R10).
-    """
-    pressures = (
-        _press(one, case)
-        for one in list_corners(row, ranges)
-        for case in list_cases(
-            read_load_model(load_guideline()),
-            build_geometry(one, 0.0),
-            density=ranges["density"].high,
-            altitude=one.altitude,
-        )
-    )
-    return max(pressures, key=lambda one: one[0])
-
-
-def _press(row: NetRow, case: LoadCase[float]) -> SnowPressure:
-    load = compute_snow_load(
-        read_load_model(load_guideline()),
-        density=case.density,
-        height_vertical=case.height_vertical,
-        slope_angle=row.slope_angle,
-        glide_factor=find_row_glide_factor(row),
-        net_height=row.net_height,
-        inclination=0.0,
-    )
-    thickness = case.height_vertical * math.cos(row.slope_angle)
-    return load.rigid / thickness, case, load
 
 
 def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:

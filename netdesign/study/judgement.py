@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
-from netdesign.checks.check import SingleTest, TestSeries
+from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
 from netdesign.checks.comparison import find_missing_force
 from netdesign.checks.schema import BY_REPORT
 from netdesign.checks.tested import find_proof_factor
@@ -20,7 +20,6 @@ from netdesign.study.dependent import (
     connect,
     corrode,
     find_resistance_for_force,
-    find_short_post,
     resist,
 )
 from netdesign.study.geometry_checks import check_row_geometry
@@ -33,6 +32,7 @@ from netdesign.study.member_force import (
     lifts,
     name_unsaid,
 )
+from netdesign.study.posts import find_short_post
 from netdesign.study.pulls import (
     check_directions,
     doubt_mortar,
@@ -141,7 +141,7 @@ def _judge_member(
     pull = find_pull(known.pulls, given.member, width.position)
     given, unsure = find_lasting(known, given, pull)
     if force is not None:
-        given = find_resistance_for_force(given, known, pull)
+        given = find_resistance_for_force(given, known, pull, width)
     points = list(_list_open(known, given, width, force))
     if unsure:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
@@ -150,6 +150,9 @@ def _judge_member(
     if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
         given = replace(given, value=None, lack=short)
         check = judge_force(known, given, force, width, points)
+    met = rate_utilisation(*check.utilisation_band)
+    if given.doubt and (given.best is None or met is Verdict.NOT_PROVEN):
+        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, given.doubt)
     return MemberCheck(given=given, width=width, force=force, check=check, pull=pull)
 
 

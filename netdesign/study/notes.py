@@ -21,9 +21,9 @@ from netdesign.snowpack.model_code import find_model_code_density
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
-from netdesign.study.dependent import find_snow_pressure
 from netdesign.study.effects import list_assumed
 from netdesign.study.member_force import RowForces
+from netdesign.study.posts import find_snow_pressure
 from netdesign.study.pulls import may_share
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord

@@ -24,8 +24,9 @@ from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
-from netdesign.study.dependent import corrode, find_short_post
+from netdesign.study.dependent import corrode
 from netdesign.study.judgement import find_lasting
+from netdesign.study.posts import find_short_post
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known

@@ -69,6 +69,9 @@ POST = {
     "bearing stress [kPa]": 900,
     "post width [mm]": 120,
     "section modulus [cm3]": 144,
+    "eccentricity at the head [mm]": 0,
+    "eccentricity at the foot [mm]": 0,
+    "efficiency factor η": 2,
     "friction of the base": 0.6,
 }
 

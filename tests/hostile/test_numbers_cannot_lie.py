@@ -199,7 +199,7 @@ NOT_NEEDED = {
     "resistance.bending",
     "resistance.tension",
     *("resistance.wedge", "soil.cohesion", "soil.friction"),
-    "post.efficiency",
+    *("post.efficiency", "post.efficiency.per_glide"),
     "tests.count",  # no anchor here has single tests
 }
 LIMITS = {

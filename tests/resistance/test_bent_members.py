@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
     PostSection,
+    add_end_moments,
     compute_bent_post_resistance,
     compute_post_moment,
 )
@@ -26,6 +28,8 @@ POST = PostSection(
     strength=237e6,
     critical=6.9e5,
     buckling=3.96e5,
+    at_head=0.0,
+    at_foot=0.0,
 )
 
 
@@ -116,6 +120,35 @@ def test_compression_beside_a_moment_uses_all_of_the_post(moment):
     used = factor * (design / POST.buckling + amplified / POST.moment_resistance)
     assert used == pytest.approx(1.0, rel=1e-12)
     assert design < POST.critical
+
+
+@pytest.mark.parametrize("key", ["at_head", "at_foot", "moment"])
+def test_a_post_bears_less_with_each_eccentricity_without_a_jump(key):
+    found = []
+    for step in range(1200):
+        given = {"at_head": 0.03, "at_foot": 0.0, "moment": 2e3}
+        given[key] = step * (20.0 if key == "moment" else 1e-4)
+        moment = given.pop("moment")
+        post = replace(POST, **given)
+        found.append(
+            compute_bent_post_resistance(post, moment=moment, partial_factor=1.05)
+        )
+    steps = [one - two for one, two in pairwise(found)]
+    assert min(steps) >= 0.0
+    assert max(steps) < 0.004 * found[0]
+
+
+@pytest.mark.parametrize(
+    ("moment", "head", "foot"),
+    [(3.3e3, 0.06, 0.0), (3.3e3, 0.0, 0.2), (17.9e3, 0.06, 0.06), (0.0, 0.03, 0.01)],
+)
+def test_compression_beside_its_axis_uses_all_of_the_post(moment, head, foot):
+    post = replace(POST, at_head=head, at_foot=foot)
+    found = compute_bent_post_resistance(post, moment=moment, partial_factor=1.05)
+    force = found / 1.05
+    largest = add_end_moments(moment, force * head, force * foot)
+    bent = largest / (1.0 - force / POST.critical) / POST.moment_resistance
+    assert 1.05 * (force / POST.buckling + bent) == pytest.approx(1.0, rel=1e-12)
 
 
 def test_without_a_moment_it_is_the_buckling_resistance():

@@ -30,6 +30,8 @@ POST = {
     "strength": 2.35e8,
     "critical": 6.1e5,
     "buckling": 3.7e5,
+    "at_head": 0.061,
+    "at_foot": 0.0,
 }
 BUCKLING = {
     "area": 3.3e-3,
@@ -78,6 +80,8 @@ WITHIN = [
     (compute_bearing_resistance, PLATE, "plate_length", 0.05, 5.0, " m"),
     (compute_bearing_resistance, PLATE, "plate_width", 0.05, 5.0, " m"),
     (PostSection, POST, "width", 0.01, 1.0, " m"),
+    (PostSection, POST, "at_head", 0.0, 1.0, " m"),
+    (PostSection, POST, "at_foot", 0.0, 1.0, " m"),
     (press, SNOW, "efficiency", 0.1, 50.0, ""),
     (bend_post, MOMENT, "moment", 0.0, math.inf, " N m"),
     (bend_post, MOMENT, "partial_factor", 0.1, 10.0, ""),
@@ -119,6 +123,8 @@ NAMES = {
     (PostSection, "strength"): "yield strength",
     (PostSection, "critical"): "critical load",
     (PostSection, "buckling"): "buckling resistance",
+    (PostSection, "at_head"): "eccentricity",
+    (PostSection, "at_foot"): "eccentricity",
     (press, "pressure"): "snow pressure",
     (press, "efficiency"): "efficiency factor",
     (bend_post, "moment"): "design moment",

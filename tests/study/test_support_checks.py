@@ -252,11 +252,109 @@ def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
     assert found.resistance_basis == "declared"
 
 
-def test_profile_without_snow_on_posts_proves_none_of_them(tmp_path, folder_without):
-    mine = folder_without("model.toml", "post.efficiency")
-    verdict, text = told(judge(tmp_path, mine)["post.compression_bending"])
+@pytest.mark.parametrize("lost", ["post.efficiency", "post.efficiency.per_glide"])
+def test_profile_without_snow_on_posts_proves_none_of_them(
+    tmp_path, folder_without, lost
+):
+    mine = folder_without("model.toml", lost)
+    post = POST | {ETA: None}
+    verdict, text = told(judge(tmp_path, mine, post=post)["post.compression_bending"])
     assert verdict is Verdict.NOT_PROVEN
-    assert "its value post.efficiency" in text
+    assert f"its value {lost}," in text
+
+
+ETA, HEAD, FOOT_END = (
+    *("efficiency factor η", "eccentricity at the head [mm]"),
+    "eccentricity at the foot [mm]",
+)
+GLIDES = {"ground law": "sliding", "glide factor N": 2.4}  # eta up to 3.4
+
+
+def judge_post(tmp_path, eta, **changes):
+    post = POST | {ETA: eta} | changes.pop("post", {})
+    row = {"gap to next work [m]": 0.5} | GLIDES | changes
+    return judge(tmp_path, post=post, **row)
+
+
+@pytest.mark.parametrize(
+    ("pull", "typed"),
+    [
+        (-22.0, (Verdict.PASS, Verdict.PASS)),
+        (-38.0, (Verdict.PASS, Verdict.FAIL)),
+        (-68.0, (Verdict.FAIL, Verdict.FAIL)),
+    ],
+)
+def test_an_efficiency_that_nobody_gives_is_not_proven_where_it_decides(
+    tmp_path, pull, typed
+):
+    """Empty: the demand of the largest, a FAIL where the least fails as well."""
+    head = {"head": (1.0, pull)}
+    least, most = (
+        judge_post(tmp_path, eta, **head)["post.compression_bending"]
+        for eta in (1.0, 3.4)
+    )
+    found = judge_post(tmp_path, None, **head)["post.compression_bending"]
+    assert (least.verdict, most.verdict) == typed
+    assert found.utilisation == pytest.approx(most.utilisation, rel=1e-12)
+    assert found.utilisation_band == pytest.approx(
+        (least.utilisation_band[0], most.utilisation_band[1]), rel=1e-12
+    )
+    if typed == (Verdict.PASS, Verdict.FAIL):
+        assert found.verdict is Verdict.NOT_PROVEN
+        assert "anywhere from 1 to 3.4, which nobody gives" in str(found.reason)
+    else:
+        assert found.verdict is typed[0]
+        assert "nobody gives" not in str(found.reason)
+
+
+@pytest.mark.parametrize(
+    ("pull", "verdict"), [(-12.0, Verdict.NOT_PROVEN), (-98.0, Verdict.FAIL)]
+)
+def test_snow_that_may_be_too_much_alone_proves_nothing(tmp_path, pull, verdict):
+    thin = {"section modulus [cm3]": 45, "post width [mm]": 150}
+    head = {"head": (1.0, pull), "post": thin}
+    alone = judge_post(tmp_path, 3.4, **head)["post.compression_bending"]
+    assert alone.is_unbounded
+    least = judge_post(tmp_path, 1.0, **head)["post.compression_bending"]
+    found = judge_post(tmp_path, None, **head)["post.compression_bending"]
+    assert found.verdict is verdict
+    assert found.utilisation == pytest.approx(least.utilisation)
+    assert "which nobody excludes" in str(found.reason)
+
+
+@pytest.mark.parametrize("gap", [0.5, 1.9, 12.0])
+@pytest.mark.parametrize("eta", [1.0, 2.1, None])
+def test_the_end_post_has_the_larger_of_end_effect_and_efficiency(tmp_path, gap, eta):
+    """Their line loads are the same snow: the larger one, never the product."""
+    row = {"gap to next work [m]": gap, "head": (1.0, -15.0)}
+    checks = judge_post(tmp_path, eta, **row)
+    inside, end = (checks[f"post.compression_bending{one}"] for one in ("", ".end"))
+    factor = end.read("f_R")
+    for check, least in ((inside, 0.0), (end, 1.0 + factor)):
+        used = check.resistance_derivation.arguments["efficiency"]
+        assert used == pytest.approx(max(3.4 if eta is None else eta, least))
+
+
+@pytest.mark.parametrize(
+    ("post", "head", "foot"),
+    [
+        ({}, 84.7, 84.7),  # 4 W / A of a section that nobody names
+        ({"foot_joint": "hinge"}, 84.7, 0.0),
+        ({"foot_joint": "ball joint", FOOT_END: 20}, 84.7, 20.0),
+        ({"foot_joint": "plate", HEAD: 0}, 0.0, 84.7),
+        ({"profile": "HEB120"}, 60.0, 60.0),
+        ({"profile": "HEB120", HEAD: 25, FOOT_END: 10}, 25.0, 10.0),
+    ],
+)
+def test_a_post_whose_eccentricities_nobody_gives_rests_on_its_edges(
+    tmp_path, post, head, foot
+):
+    post = POST | {HEAD: None, FOOT_END: None} | post
+    joint = post.pop("foot_joint", None)
+    post["joint of the foot"] = joint
+    checks = judge(tmp_path, post=post, head=(1.0, -9.0))
+    told = checks["post.compression_bending"].resistance_derivation.arguments
+    assert (told["head"], told["foot"]) == pytest.approx((head, foot), abs=0.05)
 
 
 def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):

@@ -135,7 +135,11 @@ def evaluate(formula, values, end):
     def turn(function):
         return lambda angle: function(math.radians(angle))
 
-    names = {symbol: ends[end] for symbol, ends in values.items()}
+    below = re.findall(r"/ ([^\W\d](?:_?\w)*)", formula)  # the more, the less it is
+    names = {
+        symbol: ends[2 - end if symbol in below else end]
+        for symbol, ends in values.items()
+    }
     known = {f"s{k}": value for k, value in enumerate(names.values())}
     places = {symbol: f"s{k}" for k, symbol in enumerate(names)}
     text = formula.replace("·", "*").replace("−", "-").replace(";", ",")

@@ -13,6 +13,7 @@ from netdesign.calculation.quantity import given
 from netdesign.checks.forces import resist_by_friction
 from netdesign.resistance.post import (
     PostSection,
+    add_end_moments,
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
@@ -227,11 +228,133 @@ def test_post_under_snow():
         strength=235e6,
         critical=buckling.critical,
         buckling=buckling.value,
+        at_head=0.0,
+        at_foot=0.0,
     )
     moment = compute_post_moment(post, pressure=13.5e3, efficiency=2.0)
     assert moment == pytest.approx(5.462e3, **CLOSE)
     found = compute_bent_post_resistance(post, moment=1.5 * moment, partial_factor=1.05)
     assert found == pytest.approx(391.0e3, **CLOSE)
+
+
+# Posts of R1, R4, R5: h, A, I, l, W of HEB 120, 160, 200 in mm, cm2, cm4, m, cm3; then
+# density t/m3, vertical height m, slope, N; and the end post's E_d without end moments.
+ROWS = {
+    "R1": (120, 34.0, 317.5, 2.7, 144.1, 0.4, 2.5 / 0.8660254, 30.0, 1.2, 211.72154),
+    "R4": (160, 54.25, 889.2, 3.7, 311.5, 0.4, 3.9, 40.0, 1.8, 326.97850),
+    "R5": (200, 78.08, 2003, 4.2, 569.6, 0.4, 3.5 / 0.70710678, 45.0, 2.4, 569.43599),
+}
+
+
+def build_post(row, head, foot):
+    """Post of a row, and the moment of the snow at eta 1 [kN m], by hand.
+
+    p = rho g H K N / (2 cos psi),
+    K = sin 2 psi (2.5 rho^3 - 1.86 rho^2 + 1.06 rho + 0.54).
+    """
+    depth, area, second, length, modulus, density, height, slope, glide, _ = ROWS[row]
+    buckling = compute_buckling_resistance(
+        area=1e-4 * area,
+        second_moment=1e-8 * second,
+        length=length,
+        yield_strength=235e6,
+        modulus=210e9,
+        imperfection=0.49,
+    )
+    post = PostSection(
+        width=1e-3 * depth,
+        length=length,
+        modulus=1e-6 * modulus,
+        strength=235e6,
+        critical=buckling.critical,
+        buckling=buckling.value,
+        at_head=1e-3 * head,
+        at_foot=1e-3 * foot,
+    )
+    creep = 2.5 * density**3 - 1.86 * density**2 + 1.06 * density + 0.54
+    creep *= math.sin(2.0 * math.radians(slope))
+    weight = 10.0 * density * height / (2.0 * math.cos(math.radians(slope)))
+    pressure = weight * creep * glide
+    return post, pressure * 1e-3 * depth * length**2 / 8.0
+
+
+def use_post(row, eta, head, foot):
+    """Utilisation C_d / C_R of an end post: by the program, with gamma 1.5 and 1.05."""
+    post, moment = build_post(row, head, foot)
+    found = compute_bent_post_resistance(
+        post, moment=1.5e3 * eta * moment, partial_factor=1.05
+    )
+    return math.inf if found is None else 1.05 * ROWS[row][-1] / (1e-3 * found)
+
+
+def use_by_moments(row, eta, head, foot):
+    """The same by halving C: the moments of 4000 stations, each of them amplified."""
+    post, moment = build_post(row, head, foot)
+    low, high = 0.0, post.buckling / 1.05
+    for _ in range(60):
+        force = 0.5 * (low + high)
+        largest = max(
+            force * (1e-3 * head * (1.0 - x) + 1e-3 * foot * x)
+            + 1.5e3 * eta * moment * 4.0 * x * (1.0 - x)
+            for x in (step / 4000 for step in range(4001))
+        )
+        bent = 1.05 * largest / post.moment_resistance / (1.0 - force / post.critical)
+        if 1.05 * force / post.buckling + bent > 1.0:
+            high = force
+        else:
+            low = force
+    return 1e3 * ROWS[row][-1] / low
+
+
+TABLE_A6 = [
+    (0, (0.539, 0.669, 0.885)),
+    (25, (0.783, 0.859, 1.079)),
+    (50, (0.990, 1.028, 1.260)),
+    (None, (1.068, 1.221, 1.604)),  # h / 2
+    (100, (1.372, 1.346, 1.604)),
+]
+
+
+@pytest.mark.parametrize(("typed", "printed"), TABLE_A6)
+def test_end_posts_under_equal_eccentricities(typed, printed):
+    """Statics, table A6, column (R11), eta 2."""
+    for row, told in zip(ROWS, printed, strict=True):
+        shift = 0.5 * ROWS[row][0] if typed is None else typed
+        assert use_post(row, 2.0, shift, shift) == pytest.approx(told, abs=6e-4), row
+
+
+def test_end_posts_with_a_foot_that_turns():
+    """e_h = h / 2, e_f = 0, eta 2: 0.999, 1.031, 1.312; also by stations of M."""
+    for row, told in zip(ROWS, (0.999, 1.031, 1.312), strict=True):
+        depth = ROWS[row][0]
+        assert use_post(row, 2.0, 0.5 * depth, 0.0) == pytest.approx(told, abs=6e-4)
+    for row in ROWS:
+        for eta, head, foot in ((0.02, 90, 3), (1.0, 60, 0), (2.2, 0, 47), (3, 40, 40)):
+            exact = use_by_moments(row, eta, head, foot)
+            assert use_post(row, eta, head, foot) == pytest.approx(exact, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("eta", "printed"),
+    [(1.0, 0.687), (2.0, 0.885), (3.0, 1.173), (4.0, 1.646), (5.0, 2.597)],
+)
+def test_end_post_of_r5_under_snow_that_presses_round_it(eta, printed):
+    assert use_post("R5", eta, 0.0, 0.0) == pytest.approx(printed, abs=6e-4)
+
+
+def test_efficiency_by_the_glide_factor():
+    """1, 2.2 and 3.4 of N = 1.2, 1.8, 2.4: 0.511, 0.691, 1.331."""
+    for row, told in zip(ROWS, (0.511, 0.691, 1.331), strict=True):
+        eta = 1.0 + 2.0 * (ROWS[row][8] - 1.2)
+        assert use_post(row, eta, 0.0, 0.0) == pytest.approx(told, abs=6e-4)
+
+
+def test_end_moments_meet_where_the_largest_leaves_the_middle():
+    """At |M_1 - M_2| = 4 M_s both forms are one; M grows with each of the three."""
+    assert add_end_moments(2.0, 11.0, 3.0) == 11.0
+    assert add_end_moments(2.0, 11.0 - 1e-9, 3.0) == pytest.approx(11.0)
+    assert add_end_moments(0.0, 5.0, 5.0) == 5.0
+    assert add_end_moments(4.0, 6.0, 0.0) == 4.0 + 3.0 + 36.0 / 64.0
 
 
 def test_sliding_of_a_base_plate():

@@ -88,6 +88,7 @@ FORMULAS = (
         "Φ = (1 + α (λ − 0.2) + λ²) / 2, χ = min(1; 1 / (Φ + √(Φ² − λ²))), "
         "R_k = χ A f_y",
     ),
+    ("end_moments", "M = S + (H + F) / 2 + (H − F)² / (16 S) | max(H; F)"),
     ("height", "D_K ≥ max(1; r_h) d"),
     ("spacing", "L ≤ f_L D_K / cos ψ, f_L = 2 tan ψ / (tan ψ − tan φ)"),
 )

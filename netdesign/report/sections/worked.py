@@ -86,7 +86,8 @@ def _describe_given(one: Step, check: Check, words: Words) -> tuple[str, str] | 
         return words("show.nothing_resists"), UNBOUNDED
     if one.formula or one.symbol != "R_k" or not check.resistance_derivation:
         return None
-    return f"= {words.show(check.resistance_derivation)}", f"= {_show(one, words)}"
+    shown = append_unit(_show_interval(one, words), one.unit)
+    return f"= {words.show(check.resistance_derivation)}", f"= {shown}"
 
 
 def _show(step: Step, words: Words) -> str:
@@ -242,9 +243,13 @@ def _describe_step(step: Step, words: Words) -> str:
 
 def _show_step(step: Step, words: Words) -> str:
     """Value and its interval; its unit where that is no force."""
-    low, value, high = (_show_digits(one, words) for one in step.ends)
-    shown = value if low == value == high else f"{value} ({low}–{high})"
+    shown = _show_interval(step, words)
     return shown if step.unit in ("kN", "-") else append_unit(shown, step.unit)
+
+
+def _show_interval(step: Step, words: Words) -> str:
+    low, value, high = (_show_digits(one, words) for one in step.ends)
+    return value if low == value == high else f"{value} ({low}–{high})"
 
 
 def _show_digits(value: float | None, words: Words) -> str:

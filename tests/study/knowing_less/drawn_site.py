@@ -44,6 +44,7 @@ def draw_lines(seed, *, is_placed=False, is_tested=False):
     if is_placed and draw.random() < 0.5:
         _stand_in_ground(draw, lines)
     _complete_chain(random.Random(f"chain {seed}"), lines)
+    _say_more(random.Random(f"more {seed}"), lines)
     if is_tested:
         _test_one_by_one(lines)
     if net.get("row_end") == "continuous":
@@ -78,6 +79,8 @@ def list_groups(lines):
         PANEL_COLUMNS,
         ("kind",),
         ("kind", "inner_diameter", "lever_arm"),
+        ("ground_modulus",),
+        ("head_eccentricity", "foot_eccentricity", "foot_joint", "efficiency"),
         ("foot_axis", "uphill_axis", "downhill_axis", "anchor_axes"),
         ("guy_count", "guy_splay"),
         ("guy_anchors",),
@@ -417,6 +420,22 @@ def _draw_posts(draw):
         "bearing": _round(draw.uniform(200.0, 900.0)),
         "sliding": _round(draw.uniform(60.0, 300.0)),
     }
+
+
+def _say_more(draw, lines):
+    """Ends of a post, its line load, ground at a bore; none worse than assumed."""
+    post, anchors = lines["Posts"][0], lines["Anchors"]
+    for key, value in (
+        ("head_eccentricity", draw.choice((0.0, 25.0, 90.0))),
+        ("foot_joint", draw.choice(("hinge", "ball", "plate"))),
+        ("foot_eccentricity", 0.0),
+        ("efficiency", 1.0),
+    ):
+        if draw.random() < 0.6:
+            post[key] = value
+    for one in anchors:
+        if one.get("kind") in ("bar", "micropile") and draw.random() < 0.5:
+            one["ground_modulus"] = _round(draw.uniform(500.0, 5000.0))
 
 
 def _draw_ends(draw, net):

@@ -1,0 +1,243 @@
+"""Posts of a row: compression beside the snow that presses on them.
+
+Theory: resistance/THEORY.md, (R5) and (R10) to (R11b).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from netdesign.checks import Standard
+from netdesign.checks.comparison import lack_factor
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    POST_EFFICIENCY,
+    POST_EFFICIENCY_GROWTH,
+)
+from netdesign.envelope.ranges import Ranges
+from netdesign.guideline.comparison import LoadCase, list_cases
+from netdesign.guideline.load_model import (
+    SnowLoad,
+    compute_snow_load,
+    read_load_model,
+)
+from netdesign.outcome import ModelError
+from netdesign.resistance.post import (
+    PostSection,
+    compute_bent_post_resistance,
+    compute_post_moment,
+)
+from netdesign.site.model import NetRow, Resistance
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.effects import (
+    find_row_glide_factor,
+    list_corners,
+    load_glide_limits,
+    load_guideline,
+)
+from netdesign.study.record_guideline import build_geometry
+from netdesign.study.row_to_check import Basis
+from netdesign.study.sideways import place_row
+from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.words.message import Message, say
+
+# Share of a post that the buckling length of its type may lack: lengths are rounded.
+_ROUNDED = 0.01
+
+
+def find_short_post(given: Resistance, basis: Basis) -> Message | None:
+    """Lack of a post's resistance that was computed for a shorter post than the row's.
+
+    Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
+    inclinations.
+    """
+    if given.buckling_length is None:
+        return None
+    span = basis.site.ranges["inclination"]
+    places = (place_row(basis.row, one) for one in (span.low, span.high))
+    longest = max(place.post_length for place in places)
+    if given.buckling_length >= (1.0 - _ROUNDED) * longest:
+        return None
+    return say(
+        "check.short_buckling",
+        type=given.type_id,
+        length=given.buckling_length,
+        post=longest,
+    )
+
+
+def find_post_resistance(
+    given: Resistance, section: PostSection, basis: Basis, width: LoadedWidth
+) -> Resistance:
+    """Compression that a post bears beside the snow on it; (R10) to (R11b).
+
+    Where nobody gives eta, it is that of the largest, and ``best`` that of the least.
+    """
+    standard, row = basis.standard, basis.row
+    on_action = standard.find(ACTION_FACTOR)
+    on_post = standard.find_resistance_factor(given.mode, given.basis)
+    efficiencies = _list_efficiencies(section, standard, width)
+    if isinstance(efficiencies, Message):
+        return replace(given, lack=efficiencies)
+    if on_action is None or on_post is None:
+        return given
+    factors = (on_action.value, on_post.value)
+    try:
+        least, most = (
+            _load_post(section, row, basis.site.ranges, eta, factors)
+            for eta in efficiencies
+        )
+    except ModelError as error:  # outside the guideline's closed forms
+        return replace(given, lack=error.message)
+    if least.value is None:
+        return replace(given, lack=say("post_bending.too_much", **most.told))
+    told = say("post_bending.beside", **most.told)
+    if most.told["efficiency"] == least.told["efficiency"]:
+        return replace(given, value=most.value, derivation=told)
+    span = {
+        key: one.told["efficiency"] for key, one in (("low", least), ("high", most))
+    }
+    if most.value is None:  # no load is left to it at the worse end
+        told = say("post_bending.beside", **least.told)
+        doubt = say("post_bending.too_much_at_most", **span)
+        return replace(given, value=least.value, derivation=told, doubt=doubt)
+    doubt = say("post_bending.assumed", **span)
+    return replace(
+        given, value=most.value, best=least.value, derivation=told, doubt=doubt
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Efficiency:
+    """Factor of the line load on a post, by the glide factor; (R10a).
+
+    Snow that presses round the edge of a net, 1 + f_R, is the same snow as that which
+    presses round a member: the larger one counts, not their product.
+    """
+
+    least: float = 1.0
+    growth: float = 0.0
+    at_edge: float = 0.0
+
+    def at(self, glide: float) -> float:
+        """Factor eta at a glide factor [-]."""
+        beyond = max(0.0, glide - load_glide_limits()[0])
+        return max(self.least + self.growth * beyond, self.at_edge)
+
+
+def _list_efficiencies(
+    section: PostSection, standard: Standard, width: LoadedWidth
+) -> tuple[_Efficiency, _Efficiency] | Message:
+    """Least and largest factor of the line load on a post; or what is lacking."""
+    at_edge = 1.0 + width.end_factor if width.position == "edge" else 0.0
+    if section.efficiency is not None:
+        typed = _Efficiency(section.efficiency, at_edge=at_edge)
+        return typed, typed
+    least, growth = map(standard.find, (POST_EFFICIENCY, POST_EFFICIENCY_GROWTH))
+    if least is None or growth is None:
+        return lack_factor(POST_EFFICIENCY_GROWTH if least else POST_EFFICIENCY)
+    low = _Efficiency(least.value, at_edge=at_edge)
+    return low, replace(low, growth=growth.value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LoadedPost:
+    """Compression that a post bears under one line load [N], and what it follows from.
+
+    None where the snow's moment alone is too much.
+    """
+
+    value: float | None
+    told: Mapping[str, float]
+
+
+def _load_post(
+    section: PostSection,
+    row: NetRow,
+    ranges: Ranges,
+    efficiency: _Efficiency,
+    factors: tuple[float, float],
+) -> _LoadedPost:
+    on_action, on_post = factors
+    pressure, case, load = find_snow_pressure(row, ranges, efficiency)
+    eta = efficiency.at(load.glide_factor)
+    moment = compute_post_moment(section, pressure=pressure, efficiency=eta)
+    value = compute_bent_post_resistance(
+        section, moment=on_action * moment, partial_factor=on_post
+    )
+    return _LoadedPost(
+        value=value,
+        told={
+            "efficiency": eta,
+            "pressure": pressure / 1e3,
+            "density": case.density,
+            "gravity": read_load_model(load_guideline()).gravity,
+            "height": case.height_vertical,
+            "creep": load.creep_factor,
+            "glide": load.glide_factor,
+            "slope": degree_from_radian(row.slope_angle),
+            "modulus": 1e6 * section.modulus,
+            "strength": section.strength / 1e6,
+            "width": 1e3 * section.width,
+            "length": section.length,
+            "head": 1e3 * section.at_head,
+            "foot": 1e3 * section.at_foot,
+            "moment": moment / 1e3,
+            "resistance": section.moment_resistance / 1e3,
+            "buckling": kilonewton_from_newton(section.buckling),
+            "critical": kilonewton_from_newton(section.critical),
+            "action": on_action,
+            "factor": on_post,
+        },
+    )
+
+
+# Mean pressure of snow on a plane across the slope [Pa], and the load it is of.
+SnowPressure = tuple[float, LoadCase[float], SnowLoad[float]]
+
+
+def find_snow_pressure(
+    row: NetRow, ranges: Ranges, efficiency: _Efficiency = _Efficiency()
+) -> SnowPressure:
+    """Mean pressure of the snow on a plane across the slope, where it is largest.
+
+    The guideline's S'_N over the snow's thickness, of its two load cases and of the
+    densest snow, over the ranges of height and glide factor. Theory:
+    resistance/THEORY.md, (R10).
+
+    Parameters
+    ----------
+    row : NetRow
+        Whose snow it is.
+    ranges : Ranges
+        Of the site.
+    efficiency : _Efficiency
+        Factor with which the pressure is largest; 1 unless told otherwise.
+    """
+    pressures = (
+        _press(one, case)
+        for one in list_corners(row, ranges)
+        for case in list_cases(
+            read_load_model(load_guideline()),
+            build_geometry(one, 0.0),
+            density=ranges["density"].high,
+            altitude=one.altitude,
+        )
+    )
+    return max(pressures, key=lambda one: efficiency.at(one[2].glide_factor) * one[0])
+
+
+def _press(row: NetRow, case: LoadCase[float]) -> SnowPressure:
+    load = compute_snow_load(
+        read_load_model(load_guideline()),
+        density=case.density,
+        height_vertical=case.height_vertical,
+        slope_angle=row.slope_angle,
+        glide_factor=find_row_glide_factor(row),
+        net_height=row.net_height,
+        inclination=0.0,
+    )
+    thickness = case.height_vertical * math.cos(row.slope_angle)
+    return load.rigid / thickness, case, load
