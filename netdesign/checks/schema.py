@@ -35,6 +35,7 @@ HEIGHT_RATIO = "geometry.height.ratio"
 MAX_GAP = "geometry.gap.max"
 GROUND_FRICTION = "geometry.spacing.ground_friction"
 SPACING_CAP = "geometry.spacing.factor.max"
+DIMENSIONING = "load.dimensioning"  # form of the guideline's load
 LATERAL_SHARE = "lateral.share"
 CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
@@ -73,6 +74,7 @@ LIMIT_UNITS = {
     SPACING_CAP: "-",
     ROPE_ANGLE: "deg",
     ANCHOR_DISTANCE: "m",
+    DIMENSIONING: "kN/m3",
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
@@ -100,9 +102,10 @@ MODEL_UNITS = {
     "snow.altitude.top": "m",
     "snow.altitude.rate": "1/100 m",
     "snow.case_2.height": "-",
-    "snow.case_2.density": "t/m3",
     "snow.flexible": "-",
     "snow.normal": "-",
+    "snow.normal.loose": "-",
+    "snow.normal.dense": "-",
     "end.constant": "-",
     "end.per_glide": "-",
     "end.cap_constant": "-",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 from typing import Generic
 
 from netdesign.guideline.load_model import (
@@ -26,6 +27,7 @@ from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_table
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.structure.members import Member
 from netdesign.words.message import Message
 
 
@@ -62,21 +64,30 @@ class NetGeometry(Generic[Number]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadCase(Generic[Number]):
-    """Snow of one load case, on one net or on many.
+    """Load case, on one net or on many.
 
     Attributes
     ----------
     name : str
         "same_snow", "load_case_1" or "load_case_2".
     density : float or ndarray
-        Mean [kg/m3].
+        Mean, by which the load is found [kg/m3].
     height_vertical : float or ndarray
-        H [m].
+        H, by which the load is found [m].
+    normal_share : float or ndarray
+        a in (G4) [-].
+    settled : float or ndarray
+        Part of that height on which the load acts [-].
+    creep_factor : float, ndarray or None
+        K in the place of (G2): of the dimensioning form [-].
     """
 
     name: str
     density: Number
     height_vertical: Number
+    normal_share: Number
+    settled: Number
+    creep_factor: Number | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,12 +96,8 @@ class GuidelineResult:
 
     Attributes
     ----------
-    name : str
-        Of the load case.
-    density : float
-        Mean, of the snow [kg/m3].
-    height_vertical : float
-        H [m].
+    case : LoadCase
+        Its snow.
     load, pull : SnowLoad, NetPull or None
         For each metre of width; None where the closed forms do not hold.
     anchors : AnchorForces or None
@@ -99,9 +106,7 @@ class GuidelineResult:
         Why something is None.
     """
 
-    name: str
-    density: float
-    height_vertical: float
+    case: LoadCase[float]
     load: SnowLoad[float] | None = None
     pull: NetPull[float] | None = None
     anchors: AnchorForces | None = None
@@ -113,6 +118,13 @@ class GuidelineResult:
         if self.load is None or self.pull is None or self.anchors is None:
             return None
         return self.load, self.pull, self.anchors
+
+    @property
+    def foot(self) -> float | None:
+        """Force of the foot anchor [N]; None where the support has no equilibrium."""
+        if self.anchors is None:
+            return None
+        return self.anchors.member_forces[Member.FOOT_ANCHOR]
 
 
 def find_glide_factor(
@@ -153,9 +165,12 @@ def compare_with_guideline(
     *,
     density: float,
     altitude: float | None,
-    glide_factor: float,
+    glide_factors: tuple[float, float],
 ) -> tuple[GuidelineResult, ...]:
     """Solve the same snow as the governing case, then load cases 1 and 2.
+
+    The load cases are those for the height of the net, each by the share of the normal
+    part and the form that load the foot most.
 
     Parameters
     ----------
@@ -167,16 +182,22 @@ def compare_with_guideline(
         Of the governing case [kg/m3].
     altitude : float or None
         Of the row [m]; None is not known, and gets the largest factor.
-    glide_factor : float
-        N [-].
+    glide_factors : tuple of float
+        N of the snow of the governing case, and of snow as high as the net [-].
 
     Returns
     -------
     tuple of GuidelineResult
         Of each load case, in this order.
     """
-    cases = list_cases(model, net, density=density, altitude=altitude)
-    return tuple(solve_load_case(model, net, case, glide_factor) for case in cases)
+    same, *cases = list_cases(model, net, density=density, altitude=altitude)
+    of_same, of_net = glide_factors
+    results = [solve_load_case(model, net, case, of_net) for case in cases]
+    first, second = (
+        [one for one in results if one.case.name == name] for name in LOAD_CASES
+    )
+    worst = (max(one, key=lambda two: two.foot or 0.0) for one in (first, second))
+    return (solve_load_case(model, net, same, of_same), *worst)
 
 
 def list_cases(
@@ -186,7 +207,7 @@ def list_cases(
     density: float,
     altitude: float | None,
 ) -> tuple[LoadCase[float], ...]:
-    """Snow of a density on a net row, then the load cases of the guideline on it.
+    """Snow of a density on a net row, then the load cases for the net's height.
 
     Parameters
     ----------
@@ -199,15 +220,27 @@ def list_cases(
     altitude : float or None
         As `list_load_cases` takes it [m].
     """
-    height = net.snow_thickness / math.cos(net.slope_angle)
-    same = LoadCase(name="same_snow", density=density, height_vertical=height)
-    return (same, *list_load_cases(model, net, altitude))
+    same = LoadCase(
+        name="same_snow",
+        density=density,
+        height_vertical=net.snow_thickness / math.cos(net.slope_angle),
+        normal_share=model.normal,
+        settled=1.0,
+    )
+    full = replace(net, snow_thickness=net.net_height)
+    return (same, *list_load_cases(model, full, altitude))
+
+
+LOAD_CASES = ("load_case_1", "load_case_2")
 
 
 def list_load_cases(
     model: LoadModel, net: NetGeometry[Number], altitude: float | None
-) -> tuple[LoadCase[Number], LoadCase[Number]]:
-    """Load cases 1 and 2 of the guideline on a net row, or on each of many.
+) -> tuple[LoadCase[Number], ...]:
+    """Load cases of the guideline on a net row, or on each of many; (G4), (G6a).
+
+    Cases 1 and 2 under the net's snow with each share of the normal part, then, where
+    it counts, by the dimensioning form for the height of the net.
 
     Parameters
     ----------
@@ -218,19 +251,23 @@ def list_load_cases(
     altitude : float or None
         Of the row [m]; None is not known, and gets the largest factor.
     """
-    height = net.snow_thickness / math.cos(net.slope_angle)
-    factor = compute_altitude_factor(model, altitude)
-    return (
+    depth = net.snow_thickness
+    forms: list[tuple[Number, float | None]] = [(depth, None)]
+    if model.dimensioning_creep is not None:
+        forms.append((0.0 * depth + net.net_height, model.dimensioning_creep))
+    settled = zip(LOAD_CASES, (1.0, model.case_2_height), strict=True)
+    shares = (model.normal_loose, model.normal, model.normal_dense)
+    density = compute_altitude_factor(model, altitude) * model.density
+    return tuple(
         LoadCase(
-            name="load_case_1",
-            density=0.0 * height + factor * model.density,
-            height_vertical=height,
-        ),
-        LoadCase(
-            name="load_case_2",
-            density=0.0 * height + model.case_2_density,
-            height_vertical=model.case_2_height * height,
-        ),
+            name=name,
+            density=0.0 * depth + density,
+            height_vertical=thickness / math.cos(net.slope_angle),
+            normal_share=0.0 * depth + share,
+            settled=0.0 * depth + part,
+            creep_factor=None if creep is None else 0.0 * depth + creep,
+        )
+        for (thickness, creep), (name, part), share in product(forms, settled, shares)
     )
 
 
@@ -254,37 +291,13 @@ def solve_load_case(
         N [-].
     """
     try:
-        return _solve_case(model, net, case, glide_factor)
+        load, pull = find_pulls(model, net, case, glide_factor)
+        anchors = hold_net(net, pull)
     except ModelError as error:
-        return GuidelineResult(
-            name=case.name,
-            density=case.density,
-            height_vertical=case.height_vertical,
-            reason=error.message,
-        )
-
-
-def _solve_case(
-    model: LoadModel,
-    net: NetGeometry[float],
-    case: LoadCase[float],
-    glide_factor: float,
-) -> GuidelineResult:
-    load, pull = find_pulls(model, net, case, glide_factor)
-    anchors = hold_net(net, pull)
+        return GuidelineResult(case=case, reason=error.message)
     if isinstance(anchors, FailedSupport):
-        reason, found = anchors.reason, None
-    else:
-        reason, found = None, anchors
-    return GuidelineResult(
-        name=case.name,
-        density=case.density,
-        height_vertical=case.height_vertical,
-        load=load,
-        pull=pull,
-        anchors=found,
-        reason=reason,
-    )
+        return GuidelineResult(case=case, load=load, pull=pull, reason=anchors.reason)
+    return GuidelineResult(case=case, load=load, pull=pull, anchors=anchors)
 
 
 def hold_net(
@@ -345,13 +358,15 @@ def find_pulls(
         glide_factor=glide_factor,
         net_height=net.net_height,
         inclination=net.inclination,
+        normal_share=case.normal_share,
+        creep_factor=case.creep_factor,
     )
     filled = height * math.cos(net.slope_angle) / net.net_height
     pull = compute_net_pull(
         load.resultant,
         inclination=net.inclination,
         chord=net.net_height / find_cosine(net.inclination),
-        loaded_share=take_smaller(filled, 1.0),
+        loaded_share=case.settled * take_smaller(filled, 1.0),
         stiffness=net.stiffness,
         slack=net.slack,
     )

@@ -19,7 +19,12 @@ from netdesign.guideline.comparison import (
     place_head,
     solve_load_case,
 )
-from netdesign.guideline.load_model import LoadModel, NetPull, SnowLoad
+from netdesign.guideline.load_model import (
+    LoadModel,
+    NetPull,
+    SnowLoad,
+    compute_creep_factor,
+)
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
@@ -53,7 +58,7 @@ class NetRanges:
     inclinations : tuple of float
         Least and largest, from the slope normal [rad].
     thicknesses : tuple of float
-        Of the snow, held or not [m].
+        Of the snow, from the least to that of snow as high as the net [m].
     stiffnesses, slacks : tuple of float
         ES [N/m] and slack [-].
     find_glide_factors : callable
@@ -166,7 +171,7 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     Parameters
     ----------
     model : LoadModel
-        Numbers of the guideline.
+        Numbers of the guideline; with its dimensioning form, where that counts.
     ranges : NetRanges
         Nets that count.
     altitude : float or None
@@ -192,7 +197,7 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     found: dict[str, FloorForce] = {}
     for key, sizes in _list_sizes(reached).items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
-        point = tuple(points[:, number])
+        point = tuple(map(float, points[:, number]))
         at, snow, result = solve(point, int(case), int(end))
         if result.solved is None:
             return Floor(reason=_explain(at, result))
@@ -234,27 +239,19 @@ def _measure_head(largest: Floats) -> HeadSpan:
     """Span at head and foot, of the largest of all that is sought.
 
     A tension with a sign is that of the uphill guy, or less that of the downhill one.
-    Between nets with one sign and nets with the other lies one without tension.
+    Between a load with one sign and one with the other lies one without tension.
     """
-    at_head = largest[len(_LOADED) :]
-    pull, turn, less_turn, *signed = (float(one) for one in at_head)
-    tensions = [
-        max(0.0, -less, -most)
-        for most, less in zip(signed[::2], signed[1::2], strict=True)
-    ]
+    pull, turn, less_turn, most, less = (float(one) for one in largest[len(_LOADED) :])
     return HeadSpan(
         pull=pull,
-        least_tension=min(tensions),
+        least_tension=max(0.0, -less, -most),
         foot_least=-less_turn,
         foot_largest=turn,
     )
 
 
 def _spread(ranges: NetRanges) -> list[Floats]:
-    """Axes of a grid: inclinations, thicknesses, shares of the range of N.
-
-    Snow that just reaches the head is among the thicknesses: there forces have a kink.
-    """
+    """Axes of a grid: inclinations, thicknesses, shares of the range of N."""
     low, high = ranges.inclinations
     least, largest = ranges.find_glide_factors(np.array(ranges.thicknesses))
     spans = (
@@ -262,13 +259,10 @@ def _spread(ranges: NetRanges) -> list[Floats]:
         (*ranges.thicknesses, SCAN_PARTS),
         (0.0, 1.0 if (least < largest).any() else 0.0, SCAN_PARTS),
     )
-    axes = [
+    return [
         np.linspace(low, high, parts + 1) if low < high else np.array([low])
         for low, high, parts in spans
     ]
-    if axes[1][0] < ranges.net.net_height < axes[1][-1]:
-        axes[1] = np.union1d(axes[1], ranges.net.net_height)
-    return axes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -286,26 +280,20 @@ class _Scan:
         """Values that are made as large as they can be, at points, shape (3, n).
 
         Member forces, pull on the head, direction of the foot's pull and less that
-        direction, and of each load case the tension with a sign and less that.
+        direction, the tension of the guys with a sign and less that.
         """
         tried = self.try_points(points)
         turn = tried.foot_turn
         uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
         signed = uphill - downhill
         members = (tried.of_members[one] for one in _LOADED)
-        of_all = np.array([*members, tried.head_pull, turn, -turn]).max(axis=(1, 2))
-        of_case = np.array([signed, -signed]).max(axis=2)
-        return np.concatenate([of_all, *of_case.transpose(1, 0, 2)])
+        at_head = (tried.head_pull, turn, -turn, signed, -signed)
+        return np.array([*members, *at_head]).max(axis=(1, 2))
 
     def try_points(self, points: Floats) -> ManyForces:
-        """Forces by load case, end of the tension and point, shape (2, e, n)."""
-        net, glide = self._place(points)
-        cases = list_load_cases(self.model, net, self.altitude)
-        snow = LoadCase(
-            name="both",
-            density=np.array([[one.density] for one in cases]),
-            height_vertical=np.array([[one.height_vertical] for one in cases]),
-        )
+        """Forces by load case, end of the tension and point, shape (c, e, n)."""
+        net = self._place(points)
+        snow, glide = self._load(points)
         try:
             _, pull = find_pulls(self.model, net, snow, glide)
         except ModelError:
@@ -322,44 +310,86 @@ class _Scan:
         found[NetPart.MESH] = pull.largest_tension
         return replace(forces, of_members=found)
 
-    def _place(self, points: Floats) -> tuple[NetGeometry[Floats], Floats]:
-        """Nets and glide factors at points; the ends of the tension are rows."""
+    def _place(self, points: Floats) -> NetGeometry[Floats]:
+        """Nets at points; the ends of the tension are rows."""
         given = self.ranges
-        inclination, thickness, share = points
-        least, largest = given.find_glide_factors(thickness)
+        inclination, thickness, _ = points
         ends = np.array(_list_ends(given))
-        net = NetGeometry(
+        return NetGeometry(
             slope_angle=given.net.slope_angle,
-            snow_thickness=np.minimum(thickness, given.net.net_height),
+            snow_thickness=thickness,
             net_height=given.net.net_height,
             inclination=inclination,
             stiffness=ends[:, :1],
             slack=ends[:, 1:],
             layout=given.net.layout,
         )
-        return net, least + share * (largest - least)
+
+    def _load(self, points: Floats) -> tuple[LoadCase[Floats], Floats]:
+        """All load cases as one, and N, at points; shapes that go with (c, 1, n).
+
+        The dimensioning form has the height of the net at every point.
+        """
+        _, thickness, share = points
+        cases = list_load_cases(self.model, self.ranges.net, self.altitude)
+        numbers = [
+            (one.density, one.normal_share, one.settled, self._find_creep(one))
+            for one in cases
+        ]
+        density, normal, settled, creep = np.array(numbers).T[:, :, None, None]
+        glide = self._find_glide(thickness, share)
+        if self.model.dimensioning is not None:
+            has_form = np.array([[[one.creep_factor is not None]] for one in cases])
+            full = 0.0 * thickness + self.ranges.net.net_height
+            glide = np.where(has_form, self._find_glide(full, share), glide)
+            thickness = np.where(has_form, full, thickness)
+        snow = LoadCase(
+            name="all",
+            density=density,
+            height_vertical=thickness / math.cos(self.ranges.net.slope_angle),
+            normal_share=normal,
+            settled=settled,
+            creep_factor=creep,
+        )
+        return snow, glide
+
+    def _find_creep(self, case: LoadCase[float]) -> float:
+        """K of a load case [-]."""
+        if case.creep_factor is not None:
+            return case.creep_factor
+        slope = self.ranges.net.slope_angle
+        return compute_creep_factor(self.model, case.density, slope)
+
+    def _find_glide(self, thickness: Floats, share: Floats) -> Floats:
+        """N under snow of some thicknesses, at shares of its range [-]."""
+        least, largest = self.ranges.find_glide_factors(thickness)
+        return least + share * (largest - least)
 
     def solve_one(
         self, point: tuple[float, ...], case: int, end: int
     ) -> tuple[LoadedNet, LoadCase[float], GuidelineResult]:
         """One net and load case as everywhere else."""
-        nets, glide = self._place(np.array(point)[:, None])
+        inclination, thickness, share = point
+        stiffness, slack = _list_ends(self.ranges)[end]
         net = replace(
             self.ranges.net,
-            snow_thickness=float(nets.snow_thickness[0]),
-            inclination=float(point[0]),
-            stiffness=float(nets.stiffness[end, 0]),
-            slack=float(nets.slack[end, 0]),
+            snow_thickness=thickness,
+            inclination=inclination,
+            stiffness=stiffness,
+            slack=slack,
         )
-        at = LoadedNet(net=net, glide_factor=float(glide[0]))
         snow = list_load_cases(self.model, net, self.altitude)[case]
-        return at, snow, solve_load_case(self.model, net, snow, at.glide_factor)
+        depth = thickness if snow.creep_factor is None else net.net_height
+        glide = float(self._find_glide(np.array([depth]), np.array([share]))[0])
+        at = LoadedNet(net=replace(net, snow_thickness=depth), glide_factor=glide)
+        return at, snow, solve_load_case(self.model, at.net, snow, glide)
 
     def _find_failed(self, points: Floats) -> _FailedAtError:
         """First of the points at which a load case fails, and why."""
         ends = range(len(_list_ends(self.ranges)))
-        for point, case, end in product(points.T, (0, 1), ends):
-            at, _, result = self.solve_one(tuple(point), case, end)
+        count = len(list_load_cases(self.model, self.ranges.net, self.altitude))
+        for point, case, end in product(points.T, range(count), ends):
+            at, _, result = self.solve_one(tuple(map(float, point)), case, end)
             if result.anchors is None:
                 return _FailedAtError(_explain(at, result))
         raise AssertionError  # what fails for many fails for one of them
@@ -386,7 +416,7 @@ def _list_ends(ranges: NetRanges) -> list[tuple[float, float]]:
 def _explain(at: LoadedNet, result: GuidelineResult) -> Message:
     return say(
         "floor.not_available",
-        case=say(f"load_case.{result.name}"),
+        case=say(f"load_case.{result.case.name}"),
         inclination=math.degrees(at.net.inclination),
         reason=result.reason or "",
     )

@@ -48,12 +48,13 @@ class LoadModel:
         Growth of the altitude factor for each metre [1/m].
     case_2_height : float
         Snow height of load case 2 over that of load case 1 [-].
-    case_2_density : float
-        [kg/m3].
     flexible : float
         f_s on the pressure for nets [-].
-    normal : float
-        a in S'_Q = S'_N a / (N tan psi) [-].
+    normal, normal_loose, normal_dense : float
+        a in S'_Q = S'_N a / (N tan psi): usual, of loose and of dense snow [-].
+    dimensioning : float or None
+        c in S'_N = c N f_c H_K^2 f_s, by which a structure is dimensioned besides
+        [N/m3]; None where it is not.
     """
 
     gravity: float
@@ -63,9 +64,18 @@ class LoadModel:
     altitude_top: float
     altitude_rate: float
     case_2_height: float
-    case_2_density: float
     flexible: float
     normal: float
+    normal_loose: float
+    normal_dense: float
+    dimensioning: float | None = None
+
+    @property
+    def dimensioning_creep(self) -> float | None:
+        """K by which (G1) is the dimensioning form, whatever the slope; (G3a) [-]."""
+        if self.dimensioning is None:
+            return None
+        return 2.0 * self.dimensioning / (self.gravity * self.density)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,13 +105,17 @@ class SnowLoad(Generic[Number]):
     resultant: tuple[Number, Number]
 
 
-def read_load_model(standard: Standard) -> LoadModel:
+def read_load_model(
+    standard: Standard, dimensioning: float | None = None
+) -> LoadModel:
     """Load model of a profile.
 
     Parameters
     ----------
     standard : Standard
         The profile.
+    dimensioning : float or None
+        c of the dimensioning form [N/m3]; None where it does not count.
 
     Raises
     ------
@@ -130,9 +144,11 @@ def read_load_model(standard: Standard) -> LoadModel:
         altitude_top=read("altitude.top"),
         altitude_rate=read("altitude.rate") / 100.0,
         case_2_height=read("case_2.height"),
-        case_2_density=1e3 * read("case_2.density"),
         flexible=read("flexible"),
         normal=read("normal"),
+        normal_loose=read("normal.loose"),
+        normal_dense=read("normal.dense"),
+        dimensioning=dimensioning,
     )
 
 
@@ -212,6 +228,8 @@ def compute_snow_load(
     glide_factor: Number,
     net_height: float,
     inclination: Number,
+    normal_share: Number | None = None,
+    creep_factor: Number | None = None,
 ) -> SnowLoad[Number]:
     """Load of the guideline on a net; guideline/THEORY.md, eqs. (G1) to (G6).
 
@@ -233,6 +251,10 @@ def compute_snow_load(
         D_K, normal to the slope [m].
     inclination : float or ndarray
         Of the net from the slope normal, downslope positive [rad].
+    normal_share : float, ndarray or None
+        a [-]; None is the usual one.
+    creep_factor : float, ndarray or None
+        K in the place of (G2) [-]; None is (G2).
 
     Returns
     -------
@@ -252,11 +274,14 @@ def compute_snow_load(
     require_positive("net height", net_height, "m")
     require_within("slope angle", slope_angle, 0.05, 1.5, "rad")
     require_all_within("glide factor", glide_factor, 1.0, 20.0)
-    creep = compute_creep_factor(model, density, slope_angle)
+    creep = creep_factor
+    if creep is None:
+        creep = compute_creep_factor(model, density, slope_angle)
+    share = model.normal if normal_share is None else normal_share
     weight = density * model.gravity
     rigid = 0.5 * weight * height_vertical**2 * creep * glide_factor
     parallel = model.flexible * rigid
-    normal = parallel * model.normal / (glide_factor * math.tan(slope_angle))
+    normal = parallel * share / (glide_factor * math.tan(slope_angle))
     filled = take_smaller(height_vertical * math.cos(slope_angle), net_height)
     prism = 0.5 * weight * filled**2 * find_tangent(take_larger(inclination, 0.0))
     return SnowLoad(

@@ -130,6 +130,7 @@ class GuidelineCase:
     creep_factor: float | None
     glide_factor: float | None
     rigid_kN_per_m: float | None  # S'_N on a rigid wall
+    loaded_share: float = 1.0  # of the net's height, from the foot
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,6 +153,7 @@ class LoadOnNet:
     """The guideline's load on a net, for each metre of width."""
 
     load_case: str  # "load_case_1" or "load_case_2"
+    normal_share: float  # a of (G4): of the normal part
     inclination_deg: float  # of the net, where a force is largest
     snow_thickness_m: float  # of the snow that is held, there as well
     density_kg_m3: float

@@ -18,7 +18,14 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.numerics.arrays import Number
 from netdesign.site.model import NetRow
-from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
+from netdesign.snow.creep_law import CreepLaw
+from netdesign.snow.ground import (
+    DEFAULT_CREEP_LAW,
+    LARGEST_GLIDE_FACTOR,
+    GroundLaw,
+    compute_slip_length,
+    load_glide_tables,
+)
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -91,6 +98,19 @@ def find_glide_factors(row: NetRow, snow_thickness: Number) -> Number:
     if row.glide_factor is not None:
         return 0.0 * snow_thickness + max(row.glide_factor, limits[0])
     return find_glide_factor(row.ground, snow_thickness, limits)
+
+
+def find_solved_ground(row: NetRow, law: CreepLaw) -> GroundLaw:
+    """Ground that a row's forces are solved with; THEORY of the guideline, (G11).
+
+    It slips at least as far as the least glide factor of the guideline's tables says,
+    by the table of the creep law, or of the usual one where that has none.
+    """
+    if row.ground.kind == "free":
+        return row.ground
+    table = law.name if law.name in load_glide_tables() else DEFAULT_CREEP_LAW
+    least = compute_slip_length(load_glide_limits()[0], row.snow_thickness, table)
+    return GroundLaw(kind="sliding", slip_length=max(row.ground.slip_length, least))
 
 
 def find_altitude_factor(row: NetRow) -> float:

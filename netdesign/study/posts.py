@@ -32,7 +32,7 @@ from netdesign.resistance.post import (
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.effects import (
-    find_row_glide_factor,
+    find_glide_factors,
     list_corners,
     load_glide_limits,
     load_guideline,
@@ -177,6 +177,7 @@ def _load_post(
             "height": case.height_vertical,
             "creep": load.creep_factor,
             "glide": load.glide_factor,
+            "settled": case.settled,
             "slope": degree_from_radian(row.slope_angle),
             "modulus": 1e6 * section.modulus,
             "strength": section.strength / 1e6,
@@ -203,9 +204,9 @@ def find_snow_pressure(
 ) -> SnowPressure:
     """Mean pressure of the snow on a plane across the slope, where it is largest.
 
-    The guideline's S'_N over the snow's thickness, of its two load cases and of the
-    densest snow, over the ranges of height and glide factor. Theory:
-    resistance/THEORY.md, (R10).
+    The guideline's S'_N over the height on which it acts: of its two load cases for the
+    net's height, and of the densest snow, over the ranges of height and glide factor.
+    Theory: resistance/THEORY.md, (R10).
 
     Parameters
     ----------
@@ -230,14 +231,14 @@ def find_snow_pressure(
 
 
 def _press(row: NetRow, case: LoadCase[float]) -> SnowPressure:
+    thickness = case.height_vertical * math.cos(row.slope_angle)
     load = compute_snow_load(
         read_load_model(load_guideline()),
         density=case.density,
         height_vertical=case.height_vertical,
         slope_angle=row.slope_angle,
-        glide_factor=find_row_glide_factor(row),
+        glide_factor=find_glide_factors(row, thickness),
         net_height=row.net_height,
         inclination=0.0,
     )
-    thickness = case.height_vertical * math.cos(row.slope_angle)
-    return load.rigid / thickness, case, load
+    return load.rigid / (case.settled * thickness), case, load

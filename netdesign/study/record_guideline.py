@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from netdesign.checks import Standard
+from netdesign.checks.schema import DIMENSIONING
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
@@ -21,7 +22,7 @@ from netdesign.guideline.floor import (
     NetRanges,
     find_floor,
 )
-from netdesign.guideline.load_model import read_load_model
+from netdesign.guideline.load_model import LoadModel, read_load_model
 from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import GRAVITY
 from netdesign.structure.members import Member
@@ -52,12 +53,19 @@ from netdesign.words.names import name
 def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | None:
     """Forces that no demand of a row may lie below; None where a profile has no floor.
 
-    The load model is the guideline's own, whatever the profile.
+    The load model is the guideline's own, whatever the profile; that may add the
+    dimensioning form.
     """
     if standard.floor == "none":
         return None
-    model = read_load_model(load_guideline())
+    model = read_floor_model(standard)
     return find_floor(model, _list_nets(row, ranges), row.altitude)
+
+
+def read_floor_model(standard: Standard) -> LoadModel:
+    """Load model of the guideline, with the dimensioning form of a profile."""
+    form = standard.find(DIMENSIONING)
+    return read_load_model(load_guideline(), 1e3 * form.value if form else None)
 
 
 def _list_nets(row: NetRow, ranges: Ranges) -> NetRanges:
@@ -66,7 +74,7 @@ def _list_nets(row: NetRow, ranges: Ranges) -> NetRanges:
     return NetRanges(
         net=build_geometry(row, span.low),
         inclinations=(span.low, span.high),
-        thicknesses=(low.snow_thickness, high.snow_thickness),
+        thicknesses=(low.held_thickness, row.net_height),
         stiffnesses=(low.net_stiffness_per_m, high.net_stiffness_per_m),
         slacks=(low.slack, high.slack),
         find_glide_factors=lambda thickness: (
@@ -121,6 +129,7 @@ def list_load(one: FloorForce) -> dict[str, Any]:
     net, (along, across) = one.at.net, one.load.resultant
     return {
         "load_case": one.case.name,
+        "normal_share": one.case.normal_share,
         "inclination_deg": given_degree_from_radian(net.inclination),
         "snow_thickness_m": net.snow_thickness,
         "density_kg_m3": one.case.density,
@@ -155,12 +164,6 @@ def compare_forces(
 
 _DECIMALS = 3  # of heights on the net [m]
 _OTHER_DENSITY = 0.1  # share from which another density is told as a cause
-# Why the two differ, by the kind of ground.
-_SENTENCES = {
-    "free": "guideline.on_free_ground",
-    "sliding": "guideline.on_sliding_ground",
-    "no-slip": "guideline.without_slip",
-}
 
 
 def find_solved(result: CaseResult) -> tuple[float, float] | None:
@@ -174,7 +177,9 @@ def find_solved(result: CaseResult) -> tuple[float, float] | None:
     return load, result.member_forces[Member.FOOT_ANCHOR].value
 
 
-def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
+def record_guideline(
+    row: NetRow, result: CaseResult, standard: Standard
+) -> GuidelineRecord | None:
     """Record the guideline's load cases against one solved case of a row.
 
     None where the case has no solution to compare with.
@@ -185,12 +190,14 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     heights = solution.net_curve[1].round(_DECIMALS).tolist()
     pairs = zip(heights, list_pressures(solution), strict=True)
     return replace(
-        compare_case(row, result.case, *solved),
+        compare_case(row, result.case, solved, read_floor_model(standard)),
         along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
     )
 
 
-def compare_case(row: NetRow, case: Case, load: float, foot: float) -> GuidelineRecord:
+def compare_case(
+    row: NetRow, case: Case, solved: tuple[float, float], model: LoadModel
+) -> GuidelineRecord:
     """Record the guideline's load cases against the forces of one case.
 
     Parameters
@@ -199,19 +206,23 @@ def compare_case(row: NetRow, case: Case, load: float, foot: float) -> Guideline
         Net row.
     case : Case
         Solved case.
-    load : float
-        Along the slope on the net [N/m].
-    foot : float
-        Of the foot anchor [N].
+    solved : tuple of float
+        Load along the slope on the net [N/m], and force of the foot anchor [N].
+    model : LoadModel
+        Of the guideline.
     """
     standard = load_guideline()
-    row = row.at(case)
+    row, (load, foot) = row.at(case), solved
+    net = build_geometry(row, case.inclination)
     cases = compare_with_guideline(
-        read_load_model(standard),
-        build_geometry(row, case.inclination),
+        model,
+        net,
         density=case.density,
         altitude=row.altitude,
-        glide_factor=find_row_glide_factor(row),
+        glide_factors=(
+            find_row_glide_factor(row),
+            find_glide_factors(row, row.net_height),
+        ),
     )
     return GuidelineRecord(
         profile=standard.id,
@@ -219,7 +230,7 @@ def compare_case(row: NetRow, case: Case, load: float, foot: float) -> Guideline
         case=record_point(case),
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
-        cases=[_record_case(one, load, foot) for one in cases],
+        cases=[_record_case(one, net, solved) for one in cases],
         sentence=_explain_difference(row, case, foot, cases),
     )
 
@@ -229,16 +240,14 @@ def _explain_difference(
 ) -> Message:
     """Sentence on the larger of the two at the foot, its excess and known cause."""
     same, *governing = cases
-    forces = {one.name: _find_foot(one) for one in governing}
-    known = {name: force for name, force in forces.items() if force}
-    if not known or foot <= 0.0 or same.load is None:
-        return say(_SENTENCES[row.ground.kind])
-    largest = max(governing, key=lambda one: known.get(one.name, 0.0))
-    other = known[largest.name]
+    largest = max(governing, key=lambda one: one.foot or 0.0)
+    other = largest.foot
+    if not other or foot <= 0.0 or same.load is None:
+        return _name_cause(row)
     key = "guideline.larger" if other > foot else "guideline.smaller"
     return say(
         key,
-        case=name("load_case", largest.name),
+        case=name("load_case", largest.case.name),
         guideline=kilonewton_from_newton(other),
         coupled=kilonewton_from_newton(foot),
         percent=100.0 * (max(other, foot) / min(other, foot) - 1.0),
@@ -246,18 +255,14 @@ def _explain_difference(
     )
 
 
-def _find_foot(case: GuidelineResult) -> float | None:
-    forces = case.anchors.member_forces if case.anchors else {}
-    return forces.get(Member.FOOT_ANCHOR)
-
-
 def _list_causes(
     row: NetRow, case: Case, same: GuidelineResult, largest: GuidelineResult
 ) -> tuple[Message, ...]:
     """Causes that the numbers show: density, length; else those of ground and law."""
     causes = []
-    if not math.isclose(largest.density, case.density, rel_tol=_OTHER_DENSITY):
-        numbers = {"guideline": largest.density, "coupled": case.density}
+    density = largest.case.density
+    if not math.isclose(density, case.density, rel_tol=_OTHER_DENSITY):
+        numbers = {"guideline": density, "coupled": case.density}
         causes.append(say("guideline.other_density", **numbers))
     push = case.density * GRAVITY * row.snow_thickness * math.sin(row.slope_angle)
     weight = push * row.upslope_length
@@ -270,22 +275,32 @@ def _list_causes(
         }
         causes.append(say("guideline.knows_no_length", **length))
     else:
-        causes.append(say(_SENTENCES[row.ground.kind]))
+        causes.append(_name_cause(row))
     return tuple(causes)
 
 
-def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCase:
-    snow, forces = case.load, case.anchors.member_forces if case.anchors else {}
+def _name_cause(row: NetRow) -> Message:
+    """Cause of a difference that lies in ground and law."""
+    is_free = row.ground.kind == "free"
+    return say("guideline.on_free_ground" if is_free else "guideline.on_sliding_ground")
+
+
+def _record_case(
+    one: GuidelineResult, net: NetGeometry[float], solved: tuple[float, float]
+) -> GuidelineCase:
+    snow, forces = one.load, one.anchors.member_forces if one.anchors else {}
     along = snow.resultant[0] if snow else None
+    filled = one.case.height_vertical * math.cos(net.slope_angle) / net.net_height
     return GuidelineCase(
-        name=case.name,
-        density_kg_m3=case.density,
-        height_vertical_m=case.height_vertical,
+        name=one.case.name,
+        density_kg_m3=one.case.density,
+        height_vertical_m=one.case.height_vertical,
+        loaded_share=one.case.settled * min(filled, 1.0),
         creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
         rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
-        reason=case.reason,
-        **compare_forces(along, forces, (load, foot)),
+        reason=one.reason,
+        **compare_forces(along, forces, solved),
     )
 
 

@@ -16,6 +16,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
+from netdesign.study.effects import find_solved_ground
 from netdesign.words.message import Message, say
 
 
@@ -51,6 +52,8 @@ class RowToCheck(Basis):
 def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
     """Scene of one case of a net row, with what ranges as the case has it.
 
+    Its ground slips at least as far as the guideline's least glide factor says.
+
     Raises
     ------
     ModelError
@@ -65,7 +68,7 @@ def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
             density=case.density,
             layers=row.layers_at(case.density),
         ),
-        ground=row.ground,
+        ground=find_solved_ground(row, law),
         net=Net(
             height_normal=row.net_height,
             inclination=case.inclination,

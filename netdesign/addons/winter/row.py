@@ -6,6 +6,7 @@ Friction and inclination stand in the middle of their ranges, all else is as des
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import timedelta
 
 from netdesign.addons.winter.day import WinterRow
@@ -38,7 +39,8 @@ def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRo
         friction_angle=_find_middle(site, "friction_angle"),
         inclination=_find_middle(site, "inclination"),
     )
-    scene = build_scene(row, case, BOUTILLIER_2004)
+    # winters are compared with what was measured: on the ground as it is
+    scene = replace(build_scene(row, case, BOUTILLIER_2004), ground=row.ground)
     return WinterRow(
         id=row.id,
         scene=scene,
