@@ -166,6 +166,8 @@ _ROWS = (
     _row("height_vertical_m", "H", "m", 2),
     _row("creep_factor", "K", "", 3),
     _row("glide_factor", "N", "", 3),
+    _row("normal_share", "a", "", 2),
+    _row("loaded_share", "k", "", 2),
     _force("rigid_kN_per_m", "S'_N", "kN/m"),
     _force("load_kN_per_m", "R_x", "kN/m"),
     _force("force_kN", "E_g0"),

@@ -12,10 +12,13 @@ def compare_support(check) -> float:
     return (known["b_e"] / known["b"] if is_end else 1.0) * (known["k_q"] or 1.0)
 
 
-def bring(check, force: float) -> float:
-    """Force of the section on the member and its support [kN]."""
-    share, added = check.read("g"), check.read("A") or 0.0
+def bring(check, force: float, mark: str = "") -> float:
+    """Force of the section on the member and its support [kN].
+
+    With the mark "_g" that of the guideline, which has a load along the row of its own.
+    """
+    share, added = check.read("g"), check.read(f"A{mark}") or 0.0
     inside = (1.0 if share is None else share) * force + added
-    if check.read("B") is not None:  # of two guys on one anchor
-        inside = math.hypot(force, check.read("B"))
+    if check.read(f"B{mark}") is not None:  # of two guys on one anchor
+        inside = math.hypot(force, check.read(f"B{mark}"))
     return inside * compare_support(check)

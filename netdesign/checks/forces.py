@@ -8,7 +8,7 @@ resistance/THEORY.md, (R1), (R12), (R15). Forces in kN, lengths in m, angles in 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from netdesign.calculation.quantity import (
     Quantity,
@@ -87,33 +87,36 @@ def find_lateral_factor(share: Quantity) -> Quantity:
 
 
 def load_guy(
-    part: Quantity, share: Quantity, pull: Quantity, splay: Quantity
+    part: Quantity, share: Quantity, pull: Quantity, splay: Quantity, *, mark: str = ""
 ) -> MemberLoad:
-    """One of two splayed guys, which hold the load along the row."""
+    """One of two splayed guys, which hold the load along the row.
+
+    ``mark`` ends the symbol of what is added, here and below.
+    """
     return MemberLoad(
         share=(1 / (2 * cos(splay))).named("g", "-", "(S17)"),
-        added=(part * share * pull / sin(splay)).named("A", "kN", "(S17)"),
+        added=(part * share * pull / sin(splay)).named(f"A{mark}", "kN", "(S17)"),
     )
 
 
-def load_shared_anchor(
-    guys: Quantity, part: Quantity, share: Quantity, pull: Quantity, splay: Quantity
-) -> MemberLoad:
-    """Anchor that holds a guy of each of two neighbouring posts."""
-    of_one = (part * share * pull / sin(splay)).named("A", "kN", "(S17)")
-    return MemberLoad(across=(guys * of_one).named("B", "kN", "(S20)"))
+def load_shared_anchor(guys: Quantity, *along: Quantity, mark: str = "") -> MemberLoad:
+    """Anchor that holds a guy of each of two neighbours, each loaded ``along``."""
+    of_one = load_guy(*along, mark=mark).added
+    if of_one is None:
+        raise ValueError("a guy holds no load along the row")
+    return MemberLoad(across=(guys * of_one).named(f"B{mark}", "kN", "(S20)"))
 
 
 def load_shared_anchor_in_line(
-    guys: Quantity, part: Quantity, share: Quantity, pull: Quantity, splay: Quantity
+    guys: Quantity, *along: Quantity, mark: str = ""
 ) -> MemberLoad:
     """The same, the pulls of both guys added as numbers, as if they were in line."""
-    of_one = load_guy(part, share, pull, splay)
+    of_one = load_guy(*along, mark=mark)
     if of_one.share is None or of_one.added is None:
         raise ValueError("a guy holds no load along the row")
     return MemberLoad(
         share=(guys * of_one.share).named("g_2", "-", "(S20a)"),
-        added=(guys * of_one.added).named("B", "kN", "(S20a)"),
+        added=(guys * of_one.added).named(f"B{mark}", "kN", "(S20a)"),
     )
 
 
@@ -123,10 +126,12 @@ def load_post(
     pull: Quantity,
     splay: Quantity,
     least_tension: Quantity,
+    *,
+    mark: str = "",
 ) -> MemberLoad:
     """Post between splayed guys: the load along the row less what they hold anyway."""
     held = above_zero(share * pull / tan(splay) - least_tension)
-    return MemberLoad(added=(part * held).named("A", "kN", "(S18)"))
+    return MemberLoad(added=(part * held).named(f"A{mark}", "kN", "(S18)"))
 
 
 def bring_to_support(
@@ -154,17 +159,6 @@ def bring_to_support(
     if push is not None:
         force = force + push
     return force.named(symbol, "kN", "(V1)")
-
-
-def bring_floor_to_support(
-    symbol: str, inside: Quantity, load: MemberLoad, support: Support
-) -> Quantity:
-    """The same of the guideline's load, which has no band."""
-    added, across = (
-        None if one is None else at_value(one) for one in (load.added, load.across)
-    )
-    plain = replace(load, added=added, across=across)
-    return bring_to_support(symbol, inside, plain, support)
 
 
 def take_largest(symbol: str, *forces: Quantity) -> Quantity:
@@ -280,9 +274,9 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     """Characteristic force of a check from its leaves, whichever of them it has.
 
     ``E_s``, ``E_p0``, ``E_g0`` are the forces inside the row by section, panel and
-    guideline; ``V_s`` and so on those across a base that slides, with its tilt ``t``;
-    ``T_r`` alone is the rope of a member that holds the row's end, with the angle ``γ``
-    of its guy.
+    guideline, which has a pull on the head and a least tension of its own; ``V_s`` and
+    so on those across a base that slides, with its tilt ``t``; ``T_r`` alone is the
+    rope of a member that holds the row's end, with the angle ``γ`` of its guy.
     """
     support = _find_support(leaves)
     letter = "V" if "V_s" in leaves else "E"
@@ -299,7 +293,8 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     if in_panel is not None:
         by_panel = bring_to_support(f"{letter}_p", in_panel, load, support, push)
     if by_floor is not None:
-        guideline = bring_floor_to_support(f"{letter}_g", by_floor, load, support)
+        own = _find_load(leaves, mark="_g")
+        guideline = bring_to_support(f"{letter}_g", by_floor, own, support)
     loads = [one for one in (coupled, by_panel, guideline) if one is not None]
     action, tilt = take_largest(f"{letter}_k", *loads), leaves.get("t")
     return SupportForce(
@@ -339,14 +334,17 @@ def _find_support(leaves: Leaves) -> Support:
     )
 
 
-def _find_load(leaves: Leaves) -> MemberLoad:
+def _find_load(leaves: Leaves, mark: str = "") -> MemberLoad:
+    """Load along the row; with a mark that of the guideline's own pull on the head."""
+    along = [leaves[one] for one in ("k", f"P{mark}", "β") if one in leaves]
     for guys, load in _SHARED.items():
         if guys in leaves:
-            return load(*(leaves[one] for one in (guys, "c", "k", "P", "β")))
+            return load(leaves[guys], leaves["c"], *along, mark=mark)
     if "c" in leaves:
-        return load_guy(*(leaves[one] for one in ("c", "k", "P", "β")))
+        return load_guy(leaves["c"], *along, mark=mark)
     if "w" in leaves:
-        return load_post(*(leaves[one] for one in ("w", "k", "P", "β", "T_min")))
+        given = [leaves["w"], *along, leaves[f"T_min{mark}"]]
+        return load_post(*given, mark=mark)
     if "k" in leaves:
         return MemberLoad(lateral=find_lateral_factor(leaves["k"]))
     return MemberLoad()

@@ -288,7 +288,8 @@ class _Scan:
         signed = uphill - downhill
         members = (tried.of_members[one] for one in _LOADED)
         at_head = (tried.head_pull, turn, -turn, signed, -signed)
-        return np.array([*members, *at_head]).max(axis=(1, 2))
+        largest: Floats = np.array([*members, *at_head]).max(axis=(1, 2))
+        return largest
 
     def try_points(self, points: Floats) -> ManyForces:
         """Forces by load case, end of the tension and point, shape (c, e, n)."""
@@ -363,7 +364,8 @@ class _Scan:
     def _find_glide(self, thickness: Floats, share: Floats) -> Floats:
         """N under snow of some thicknesses, at shares of its range [-]."""
         least, largest = self.ranges.find_glide_factors(thickness)
-        return least + share * (largest - least)
+        found: Floats = least + share * (largest - least)
+        return found
 
     def solve_one(
         self, point: tuple[float, ...], case: int, end: int

@@ -105,9 +105,7 @@ class SnowLoad(Generic[Number]):
     resultant: tuple[Number, Number]
 
 
-def read_load_model(
-    standard: Standard, dimensioning: float | None = None
-) -> LoadModel:
+def read_load_model(standard: Standard, dimensioning: float | None = None) -> LoadModel:
     """Load model of a profile.
 
     Parameters

@@ -165,7 +165,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         forces=list(known.largest.values()),
-        guideline=record_guideline(row, foot.governing, task.standard) if foot else None,
+        guideline=record_guideline(row, foot, task.standard),
         floor=known.floor,
         model_form=model_form,
         panel=panel,

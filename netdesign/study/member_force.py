@@ -297,6 +297,7 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
         return [], 0.0  # it presses a post, (S18)
     splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
+    by_floor = _list_floor_leaves(forces, member, held)
     pull = given(
         *("P", held.pull_kN, "kN", "head_pull"),
         kind=Kind.SOLVED,
@@ -306,6 +307,7 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
         part: float = getattr(held, PARTS[member])
         leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
         rise = _high(load_guy(*leaves).added)
+        leaves += by_floor[:1]
         if not is_shared(forces.row, member):
             return leaves, rise
         cell = find_cell(forces.row, "guy_anchors")
@@ -318,9 +320,24 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     )
     # the least tension does not grow
     rise = _high(load_post(weight, share, pull, splay, nothing).added)
-    added = load_post(weight, share, pull, splay, least).added
-    is_none = added is not None and added.high == 0.0
-    return ([] if is_none else [weight, share, pull, splay, least]), rise
+    leaves = [weight, share, pull, splay, least]
+    added = [load_post(*leaves).added]
+    if by_floor:
+        of_floor, own = by_floor
+        added.append(load_post(weight, share, of_floor, splay, own).added)
+    return ([*leaves, *by_floor] if any(map(_high, added)) else []), rise
+
+
+def _list_floor_leaves(
+    forces: RowForces, member: str, held: HeldSidewaysRecord
+) -> list[Quantity]:
+    """Pull and least tension of the guideline's own load, where that loads a member."""
+    if forces.find_least(member) is None:
+        return []
+    return [
+        _solved("P_g", held.floor_pull_kN, "kN", "floor.head_pull"),
+        _solved("T_min_g", held.floor_tension_kN, "kN", "floor.least_tension"),
+    ]
 
 
 def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:

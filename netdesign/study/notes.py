@@ -132,6 +132,7 @@ def list_judged_notes(
         *list_row_notes(known),
         describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
+        *_list_base_notes(known.tilt, checks),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *list_guy_notes(row, ranges, checks, standard),
@@ -178,6 +179,12 @@ def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
     """How the pulls of two guys on one anchor are added, where some are."""
     told = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
     return [told] if may_share(row.guys) else []
+
+
+def _list_base_notes(tilt: float, checks: Sequence[Check]) -> list[Message]:
+    """What the utilisation of a base rests on that friction holds; (R12)."""
+    is_rubbed = any(one.read("μ_b") is not None for one in checks)
+    return [say("row.base_friction", tilt=tilt)] if is_rubbed else []
 
 
 def describe_model_code(row: NetRow, density: Interval) -> Message:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import DIMENSIONING
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
@@ -178,12 +179,15 @@ def find_solved(result: CaseResult) -> tuple[float, float] | None:
 
 
 def record_guideline(
-    row: NetRow, result: CaseResult, standard: Standard
+    row: NetRow, foot: Extreme | None, standard: Standard
 ) -> GuidelineRecord | None:
-    """Record the guideline's load cases against one solved case of a row.
+    """Record the guideline's load cases against the case that loads the foot most.
 
-    None where the case has no solution to compare with.
+    None where there is no solution to compare with.
     """
+    if foot is None:
+        return None
+    result = foot.governing
     solution, solved = result.solution, find_solved(result)
     if solution is None or solved is None:
         return None

@@ -79,8 +79,10 @@ def _record(
     }
     in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
     solved = min(head.tension for head in heads)
-    pull = _widen(row, heads, sum(hidden.values()), floor.pull if floor else 0.0)
-    least = _find_least_tension(row, solved - in_guys, floor)
+    pull = _widen(row, heads, sum(hidden.values()))
+    # Between two panels as they may be built, the guy of one side can give way to that
+    # of the other: then none is counted on.
+    least = 0.0 if row.panel_assumed else max(0.0, solved - in_guys)
     uphill, downhill, post = (
         _find_largest(heads, name)
         for name in ("largest_uphill", "largest_downhill", "post")
@@ -95,6 +97,8 @@ def _record(
         uphill_part=uphill,
         downhill_part=downhill,
         post_part=post,
+        floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
+        floor_tension_kN=kilonewton_from_newton(_find_floor_tension(row, floor)),
     )
 
 
@@ -114,17 +118,12 @@ def _fail(head: SupportState, share: float, splay: float) -> Message | None:
     return None if weigh_splay(head.points) else say("support.not_held_sideways")
 
 
-def _find_least_tension(row: NetRow, solved: float, floor: HeadSpan | None) -> float:
-    """Least tension of the guys at work that is counted on [N].
+def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
+    """Least tension of the guys at work under the guideline's load [N].
 
-    None where the panel is assumed: between two panels as they may be built, the guy of
-    one side can give way to that of the other. None where the guideline's load is that
-    of an altitude that is not known: a lower row has less.
+    None where the altitude is not known: a lower row has less.
     """
-    is_assumed = bool(row.panel_assumed)
-    if is_assumed or (floor is not None and row.altitude is None):
-        return 0.0
-    return min(max(0.0, solved), floor.least_tension if floor else math.inf)
+    return 0.0 if floor is None or row.altitude is None else floor.least_tension
 
 
 def check_sideways(
@@ -246,19 +245,14 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
     return max(extremes[name].hidden for name in names if name in extremes)
 
 
-def _widen(
-    row: NetRow, heads: Sequence[SupportState], hidden: float, least: float
-) -> Band:
-    """Largest pull on a head with its error and with what may hide [N].
-
-    None of its ends lies below ``least``, that of the floor.
-    """
+def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
+    """Largest pull on a head with its error and with what may hide [N]."""
     width = row.layout.post_spacing
     pulls = [(one.pull, one.head.error * width if one.head else 0.0) for one in heads]
     return Band(
-        low=max(least, *(pull - error for pull, error in pulls)),
-        value=max(least, *(pull for pull, _ in pulls)),
-        high=max(least, max(pull + error for pull, error in pulls) + hidden),
+        low=max(pull - error for pull, error in pulls),
+        value=max(pull for pull, _ in pulls),
+        high=max(pull + error for pull, error in pulls) + hidden,
     )
 
 

@@ -10,7 +10,8 @@ from netdesign.checks.forces import MemberLoad, Support, place_end_support
 
 UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg", "T_min": "kN"}
 UNITS |= {"T_r": "kN", "γ": "deg", "V_k": "kN", "R_k": "kN", "R_m": "kN", "R_min": "kN"}
-UNITS |= {"A": "kN", "Z": "kN", "E_k": "kN", "E_g0": "kN"}
+UNITS |= {"A": "kN", "Z": "kN", "E_k": "kN", "E_g0": "kN", "P_g": "kN"}
+UNITS |= {"T_min_g": "kN"}
 UNITS |= dict.fromkeys(("E_c", "E_p", "E_g"), "kN")
 
 
@@ -74,8 +75,40 @@ def test_a_force_inside_the_row_comes_to_its_support():
     assert ends(force) == pytest.approx((64.0, 72.0, 89.0), rel=1e-14)
     plain = formulas.bring_to_support("E_c", q("E_s", 100.0), MemberLoad(), Support())
     assert plain.value == 100.0
-    floor = formulas.bring_floor_to_support("E_g", q("E_g0", 100.0), load, END)
-    assert ends(floor) == pytest.approx((52.0, 52.0, 52.0), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("leaves", "coupled", "guideline"),
+    [
+        # 1 / (2 cos 60) = 1; 0.6 * 0.1 * P / sin 60 of 50 and of 20 kN
+        ({"c": 0.6}, 10.0 + 3.0 / math.sin(math.pi / 3), 1.2 / math.sin(math.pi / 3)),
+        # 1.4 (0.1 P / tan 60 - T): of 50 and 2 kN, of 20 and 1 kN
+        (
+            {"w": 1.4, "T_min": 2.0, "T_min_g": 1.0},
+            10.0 + 1.4 * (5.0 / math.sqrt(3.0) - 2.0),
+            1.4 * (2.0 / math.sqrt(3.0) - 1.0),
+        ),
+    ],
+)
+def test_guideline_has_the_load_along_the_row_of_its_own_pull(
+    leaves, coupled, guideline
+):
+    """Nothing of the coupled pull on the head stands in what is "by the guideline"."""
+    given_ = {**leaves, "k": 0.1, "β": 60.0, "P": 50.0, "P_g": 20.0}
+    given_ |= {"E_s": 10.0, "E_g0": 0.0}
+    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
+    assert force.coupled.value == pytest.approx(coupled, rel=1e-14)
+    assert force.guideline.value == pytest.approx(guideline, rel=1e-14)
+    assert force.action.value == pytest.approx(coupled, rel=1e-14)
+
+
+def test_shared_anchor_of_the_guideline_has_its_own_pull():
+    """(S20): 2 * 0.6 * 0.1 * 20 / sin 30 = 4.8 kN across 3.6: 6 kN, not of 50 kN."""
+    given_ = {"n_g": 2.0, "c": 0.6, "k": 0.1, "β": 30.0, "P": 50.0, "P_g": 20.0}
+    given_ |= {"E_s": 5.0, "E_g0": 3.6}
+    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
+    assert force.guideline.value == pytest.approx(6.0, rel=1e-14)
+    assert force.coupled.value == pytest.approx(13.0, rel=1e-14)
 
 
 def test_the_largest_force_counts_at_each_end():

@@ -3,6 +3,7 @@
 import math
 import random
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -133,7 +134,7 @@ def solve_dense(ranges, altitude, counts, at_ends=2):
     net = replace(
         ranges.net,
         inclination=lean,
-        snow_thickness=np.minimum(d, ranges.net.net_height),
+        snow_thickness=d,
         slack=slack,
         stiffness=stiffness,
     )
@@ -175,7 +176,10 @@ def require_largest(floor, dense, small):
 
 
 def test_foot_of_a_short_snowpack_by_hand():
-    """psi 45, D 4 m, N 2.4 at 30 degrees, chord and cable worked by hand."""
+    """psi 45, D 4 m, N 2.4 at 30 degrees, chord and cable worked by hand.
+
+    Both cases have the load of case 1; of the shares 0.2, 0.35, 0.5 the last counts.
+    """
     thickness, spacing, delta = 4.0, 3.3, math.radians(30.0)
     net = a_net(
         slope_angle=math.radians(45.0),
@@ -186,13 +190,13 @@ def test_foot_of_a_short_snowpack_by_hand():
         layout=replace(a_net().layout, post_spacing=spacing),
     )
     floor = find(build_ranges(net, 2.4, inclinations=(delta, delta)), 1500.0)
-    expected = []
-    for rho, share in ((0.27, 1.0), (0.40, 0.77)):
-        height = share * thickness / math.cos(math.radians(45.0))
+    expected, rho = [], 0.27
+    for normal, share in product((0.2, 0.35, 0.5), (1.0, 0.77)):
+        height = thickness / math.cos(math.radians(45.0))
         creep = 0.54 + 1.06 * rho - 1.86 * rho**2 + 2.5 * rho**3
         along = 0.8 * rho * 10.0 * height**2 / 2.0 * creep * 2.4
-        prism = rho * 10.0 * (share * thickness) ** 2 / 2.0 * math.tan(delta)
-        down = along * 0.35 / 2.4 + prism * math.sqrt(0.5)
+        prism = rho * 10.0 * thickness**2 / 2.0 * math.tan(delta)
+        down = along * normal / 2.4 + prism * math.sqrt(0.5)
         along += prism * math.sqrt(0.5)
         across = along * math.cos(delta) + down * math.sin(delta)
         v1, v2 = 1.0 - share / 2.0, share / 2.0
@@ -206,13 +210,13 @@ def test_foot_of_a_short_snowpack_by_hand():
         expected.append(spacing * foot)
     found = floor.find(Member.FOOT_ANCHOR)
     assert found.force / 1e3 == pytest.approx(max(expected), rel=1e-6)
-    assert found.case.name == "load_case_2"
-    assert max(expected) == expected[1] > 1.05 * expected[0]
+    assert (found.case.name, found.case.normal_share) == ("load_case_2", 0.5)
+    assert max(expected) == expected[-1] > 1.05 * expected[-2]
 
 
 @pytest.mark.parametrize(("degrees", "count"), [(11.81, 49), (0.1, 3), (0.0, 1)])
 def test_grid_has_the_distances_that_theory_tells(degrees, count):
-    """A quarter of a degree at most, eight parts of the others, snow to the head."""
+    """A quarter of a degree at most, eight parts of the others."""
     tried, glides = [], [1.3, 2.7]
 
     def find_glide_factors(d):
@@ -221,10 +225,10 @@ def test_grid_has_the_distances_that_theory_tells(degrees, count):
 
     ends = (0.43, 0.43 + math.radians(degrees))
     net = a_net()
-    for top, thicknesses, most in ((1.0, 9, 2.7), (1.3, 10, 2.7), (1.03, 10, 1.3)):
+    for most in (2.7, 1.3):
         tried.clear()
         glides[1] = most
-        wide = (0.5 * net.snow_thickness, top * net.net_height)
+        wide = (0.5 * net.snow_thickness, net.net_height)
         find(
             build_ranges(
                 net,
@@ -234,14 +238,9 @@ def test_grid_has_the_distances_that_theory_tells(degrees, count):
             )
         )
         _, grid, *_ = tried
-        assert grid.size == count * thicknesses * (9 if most > 1.3 else 1)
+        assert grid.size == count * 9 * (9 if most > 1.3 else 1)
         assert {grid.min(), grid.max()} == set(wide)
-        assert np.unique(grid).size == thicknesses
-        assert net.net_height in grid
-    tried.clear()
-    over = (1.07 * net.net_height, 1.31 * net.net_height)
-    find(build_ranges(net, thicknesses=over, find_glide_factors=find_glide_factors))
-    assert (tried[1].min(), tried[1].max()) == over
+        assert np.unique(grid).size == 9
 
 
 def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
@@ -250,7 +249,7 @@ def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
     Over wide ranges, so that some forces are largest inside them.
     """
     draw, inside = random.Random(3), 0
-    for _ in range(60):
+    for _ in range(160):
         low = math.radians(draw.uniform(0.0, 20.0))
         ends = (low, low + math.radians(draw.uniform(10.0, 35.0)))
         ranges = build_ranges(draw_net(draw), draw.uniform(1.2, 3.2), inclinations=ends)
@@ -276,7 +275,7 @@ def test_search_over_all_ranges_misses_less_than_a_hundred_thousandth():
         require_largest(floor, dense, 1e-5)
         for one in floor.forces:
             d = one.at.net.snow_thickness
-            is_end = d in (*ranges.thicknesses, ranges.net.net_height)
+            is_end = d in ranges.thicknesses
             inside |= set() if is_end or one.force == 0.0 else {one.member}
     assert tried >= 10
     assert DOWNHILL in inside  # corners alone would miss it
@@ -327,24 +326,23 @@ def test_largest_force_is_that_of_its_own_case_inclination_and_net():
             again = [
                 solve_load_case(MODEL, net, case, one.at.glide_factor) for case in cases
             ]
-            forces = {
-                k.name: {
+            forces = [
+                {
                     **k.anchors.member_forces,
                     NetPart.MESH: k.pull.largest_tension,
                 }[one.member]
                 for k in again
-            }
-            assert forces[one.case.name] == one.force == max(forces.values())
+            ]
+            assert forces[cases.index(one.case)] == one.force == max(forces)
             assert one.case in cases
-            (own,) = [k for k in again if k.name == one.case.name]
+            own = again[cases.index(one.case)]
             assert (own.load, own.pull) == (one.load, one.pull)
             low, high = ranges.inclinations
             assert low <= net.inclination <= high
             assert net.slack in ranges.slacks
             assert net.stiffness in ranges.stiffnesses
             least, most = ranges.find_glide_factors(np.array(net.snow_thickness))
-            if net.snow_thickness < net.net_height:
-                assert least - 1e-12 <= one.at.glide_factor <= most + 1e-12
+            assert least - 1e-12 <= one.at.glide_factor <= most + 1e-12
 
 
 def test_least_tension_is_none_where_either_guy_may_work():
@@ -370,13 +368,16 @@ def test_least_tension_is_none_where_either_guy_may_work():
         assert one.head.least_tension > 0.0
 
 
-def test_altitude_counts_in_load_case_1_alone():
+def test_altitude_counts_in_both_load_cases():
     low, high = (find(build_ranges(), altitude) for altitude in (1500.0, 2990.0))
     for below, above in zip(low.forces, high.forces, strict=True):
         assert above.force >= below.force
-    assert high.find(Member.UPHILL_GUY).case.name == "load_case_1"
-    ratio = high.find(Member.UPHILL_GUY).force / low.find(Member.UPHILL_GUY).force
-    assert 1.2 < ratio < 1.5
+    for member, case in (
+        (Member.UPHILL_GUY, "load_case_1"),
+        ("foot_anchor", "load_case_2"),
+    ):
+        assert high.find(member).case.name == case
+        assert 1.2 < high.find(member).force / low.find(member).force < 1.5
 
 
 def test_altitude_that_is_not_known_gets_the_largest_factor():

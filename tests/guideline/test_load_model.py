@@ -1,6 +1,7 @@
 """The guideline's load against the collection of standards, sections 2.2 and 2.3."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -62,15 +63,36 @@ def test_pressure_on_a_rigid_wall(height, density, glide, expected):
 
 
 def test_dimensioning_form_of_the_guideline():
-    """At 45 degrees S'_N = N f_c H^2 [kN/m] up to rounding of the factors."""
+    """At 45 degrees S'_N = N f_c H^2 [kN/m] up to rounding of the factors.
+
+    By (G3a) without rounding, at any slope and altitude: 2.0 * 1.2 * 9 = 21.6 kN/m.
+    """
     assert a_load().rigid / 1e3 == pytest.approx(2.0 * 3.0**2, rel=2e-3)
+    creep = replace(MODEL, dimensioning=1e3).dimensioning_creep
+    for slope in (31.7, 45.0, 52.3):
+        load = a_load(
+            density=1.2 * 270.0,
+            slope_angle=math.radians(slope),
+            creep_factor=creep,
+        )
+        assert load.rigid / 1e3 == pytest.approx(21.6, rel=1e-14)
+        assert load.creep_factor == pytest.approx(2.0 / 2.7, rel=1e-14)
+    assert MODEL.dimensioning_creep is None
+
+
+def test_share_of_the_normal_part():
+    """a = 0.5 in the place of 0.35; nothing else changes."""
+    usual, dense = a_load(), a_load(normal_share=0.5)
+    assert dense.normal == pytest.approx(usual.normal * 0.5 / 0.35, rel=1e-14)
+    assert dense.parallel == usual.parallel
 
 
 def test_two_load_cases_press_alike():
-    """0.77 of the height in snow of 0.40 t/m3 gives the same pressure within 3 %."""
-    second = a_load(
-        density=MODEL.case_2_density, height_vertical=3.0 * MODEL.case_2_height
-    )
+    """0.77 of the height in snow of 0.40 t/m3 gives the same pressure within 3 %.
+
+    Up to 1500 m; load case 2 takes the load of case 1 itself, at every altitude.
+    """
+    second = a_load(density=400.0, height_vertical=3.0 * MODEL.case_2_height)
     assert second.rigid == pytest.approx(a_load().rigid, rel=0.03)
 
 

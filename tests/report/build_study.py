@@ -14,7 +14,6 @@ from netdesign.checks import StandardValue
 from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind
 from netdesign.checks.forces import (
     MemberLoad,
-    bring_floor_to_support,
     bring_to_support,
     place_end_support,
     rate,
@@ -248,6 +247,7 @@ def build_floor(extreme: LargestForce) -> FloorRecord:
                 member=extreme.quantity,
                 force_kN=0.4 * extreme.value_kN / 1.1,
                 load_case="load_case_1",
+                normal_share=0.35,
                 inclination_deg=35.0,
                 snow_thickness_m=4.0,
                 slack=0.02,
@@ -550,7 +550,7 @@ def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     force = take_largest(
         "E_k",
         bring_to_support("E_c", solved, plain, support),
-        bring_floor_to_support("E_g", floor, plain, support),
+        bring_to_support("E_g", floor, plain, support),
     )
     return rate(
         force,

@@ -99,7 +99,7 @@ def test_every_demand_is_the_larger_of_both_and_says_which(solved):
             continue
         letter = check.name_force("g")[0]
         tilt = check.read("t") or 1.0
-        least = bring(check, floor[check.member].force_kN)
+        least = bring(check, floor[check.member].force_kN, "_g")
         assert check.read(f"{letter}_g") == pytest.approx(least, rel=1e-12)
         solved_kN = bring(check, check.read(f"{letter}_s"))
         value = max(solved_kN, least)
@@ -122,7 +122,7 @@ def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
     With the least and the largest glide factor of the guideline's tables.
     """
     model = [one for one in SWISS.values if one.id.startswith("snow.")]
-    assert len(model) == 13
+    assert len(model) == 14
     ends = ("glide.factor.north.1", "glide.factor.south.4")
     model += [one for one in SWISS.listed if one.id in ends]
     for profile, prefix in (("eurocode", "floor."), ("swiss-guideline-2007", "")):
@@ -131,14 +131,22 @@ def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
         for value in model:
             one = found[f"{prefix}{value.id}"]
             assert (one.value, one.status) == (value.value, value.status)
-        assert len(found) == len(standard.listed) + (15 if prefix else 0)
+        assert len(found) == len(standard.listed) + (16 if prefix else 0)
         none = record_profile(replace(standard, floor="none"))
         assert not [one for one in none.values if one.id.startswith("floor.")]
 
 
 @pytest.mark.parametrize("profile", ["eurocode", "nf-p-95-304-style"])
 def test_load_model_is_the_guideline_s_under_every_profile(profile):
-    assert a_floor(standard=load_standard(profile)) == a_floor()
+    """Without the dimensioning form, which is that of its own profile."""
+    plain = replace(
+        SWISS,
+        values=tuple(one for one in SWISS.values if one.id != "load.dimensioning"),
+    )
+    found = a_floor(standard=load_standard(profile))
+    assert found == a_floor(standard=plain) != a_floor()
+    for one in found.forces:
+        assert one.force <= a_floor().find(one.member).force
 
 
 def test_snow_of_a_profile_of_one_s_own_changes_no_floor_and_no_comparison(solved):
@@ -169,7 +177,9 @@ def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
     told = [str(one) for one in floor.assumed]
     assert told[0].endswith("is calculated with its largest altitude factor, 1.30")
     assert "factor of 1.1 lies below the smallest" in told[1]
-    assert told[1].endswith("the guideline's load is calculated with 1.2")
+    assert told[1].endswith(
+        "the coupled forces and the guideline's load are calculated with 1.2"
+    )
     assert [one for one in study.rows[0].notes if one in floor.assumed] == floor.assumed
     densities = {one.name: one.density_kg_m3 for one in study.rows[0].guideline.cases}
     assert densities["load_case_1"] == pytest.approx(351.0, rel=1e-12)
@@ -320,7 +330,7 @@ def test_comparison_ends_in_a_sentence_with_size_and_cause(solved):
     larger = cases["load_case_2"].foot_anchor_kN
     assert f"load case 2 gives {larger:.0f} kN" in told
     assert f"{100.0 * (larger / foot - 1.0):.0f} % more" in told
-    assert "Density: the guideline's snow has 400 kg/m³" in told
+    assert "Density" not in told  # 270 kg/m³ in both
     assert "kN/m over 5 m" in told
 
 
@@ -340,11 +350,11 @@ def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
     share = {"load_case_1": 1.0, "load_case_2": 0.77}[foot.load_case]
     lean, slope = math.radians(foot.inclination_deg), ROW.slope_angle
     height = foot.height_vertical_m
-    assert share * foot.snow_thickness_m / math.cos(slope) == pytest.approx(height)
+    assert foot.snow_thickness_m / math.cos(slope) == pytest.approx(height)
     unit = foot.density_kg_m3 * 10.0 / 1e3
     along = 0.4 * unit * height**2 * foot.creep_factor * foot.glide_factor
     prism = 0.5 * unit * (height * math.cos(slope)) ** 2 * math.tan(lean)
-    down = along * 0.35 / (foot.glide_factor * math.tan(slope))
+    down = along * foot.normal_share / (foot.glide_factor * math.tan(slope))
     down += prism * math.cos(slope)
     along += prism * math.sin(slope)
     assert foot.load_along_kN_per_m == pytest.approx(along, rel=1e-9)
@@ -413,7 +423,7 @@ def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
                 point["net_stiffness"],
             )
             thickness = point["snow_height"] * math.cos(ROW.slope_angle)
-            assert at.net.snow_thickness == pytest.approx(thickness, rel=1e-12)
+            assert thickness * (1.0 - 1e-12) <= at.net.snow_thickness <= ROW.net_height
             slip = GroundLaw(kind="sliding", slip_length=point["slip_length"])
             glide = find_glide_factor(slip, at.net.snow_thickness, (1.2, 3.2))
             assert at.glide_factor == pytest.approx(glide, rel=1e-12)

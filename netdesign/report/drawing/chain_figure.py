@@ -233,9 +233,10 @@ def _list_lines(
     for case in record.cases:
         if case.load_kN_per_m is None:
             continue
-        pressure = case.load_kN_per_m / height
+        top = case.loaded_share * height
+        pressure = case.load_kN_per_m / top
         shown = words.show_number("load_kN_per_m", case.load_kN_per_m)
         label = words(f"loads.{case.name}", load=shown)
         stroke, dashes = looks[case.name]
-        edge = [(0.0, 0.0), (pressure, 0.0), (pressure, height), (0.0, height)]
+        edge = [(0.0, 0.0), (pressure, 0.0), (pressure, top), (0.0, top)]
         yield _Line(label, stroke, dashes, edge)
