@@ -141,6 +141,16 @@ def test_largest_of_slope_and_dimensioning_form_counts(name):
 
 
 @each("name", ROWS)
+def test_dimensioning_form_has_the_net_s_height_whatever_snow_is_tried(name):
+    row = ROWS[name]
+    found, floor = find(row, WITH_FORM, (0.4 * row.net, 0.5 * row.net))
+    require_digits(found, TABLE["dimensioning"][list(ROWS).index(name)])
+    assert {
+        one.at.net.snow_thickness for one in floor.forces if one.case.creep_factor
+    } == {row.net}
+
+
+@each("name", ROWS)
 def test_program_is_the_closed_form_with_loose_and_dense_snow(name):
     row = ROWS[name]
     own = find_largest(row, "same resultant", normals=SHARES)

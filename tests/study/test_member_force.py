@@ -387,6 +387,21 @@ def test_altitude_of_the_row_counts_in_its_floor():
     assert unknown.find(Member.UPHILL_GUY).case.density == pytest.approx(351.0)
 
 
+@pytest.mark.parametrize("typed", [2.2, 3.0, 3.99, 4.6])
+def test_floor_is_that_of_a_net_full_of_snow(typed):
+    """Less snow than the net is high lightens no member, more does not load it more."""
+    plain = load_standard("nf-p-95-304-style")  # without the dimensioning form
+    full = a_floor(standard=plain)
+    other = a_floor(replace(ROW, snow_thickness=typed), plain)
+    for one in full.forces:
+        force = other.find(one.member)
+        assert force.force >= one.force * (1.0 - 1e-9)
+        if one.member not in (Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR):
+            assert force.force == pytest.approx(one.force, rel=1e-6)
+            if force.force > 0.0:
+                assert force.at.net.snow_thickness == pytest.approx(4.0, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     "ground", [GroundLaw(kind="no-slip"), GroundLaw(kind="sliding", slip_length=0.01)]
 )

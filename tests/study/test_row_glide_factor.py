@@ -1,24 +1,31 @@
-"""Glide factor by which the guideline and the ends of a row are loaded."""
+"""Glide factor by which the guideline, a row and its ends are loaded."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.guideline.comparison import find_glide_factor
+from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
+    DEFAULT_CREEP_LAW,
     LARGEST_GLIDE_FACTOR,
     GroundLaw,
     build_ground_from_glide_factor,
+    load_glide_tables,
 )
+from netdesign.solving.solve import solve_scene
 from netdesign.study.effects import (
     find_glide_factors,
     find_row_glide_factor,
+    find_solved_ground,
     load_glide_limits,
 )
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CaseSolver, build_scene
 from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site
 
@@ -87,6 +94,63 @@ def test_factors_of_many_thicknesses_are_those_of_each():
             find_row_glide_factor(replace(row, snow_thickness=d)) for d in thicknesses
         ]
         assert many.tolist() == each
+
+
+CASE = Case(density=347.0, friction_angle=0.41, inclination=0.47)
+
+
+def find_solved_slip(ground, thickness):
+    """Slip length of the ground that a row's case is solved with [m]."""
+    row = replace(a_row(ground), snow_thickness=thickness, net_height=thickness)
+    scene = build_scene(row, CASE, RUN.creep_law)
+    assert scene.ground.kind == "sliding"
+    return scene.ground.slip_length
+
+
+def test_forces_of_a_check_take_at_least_the_slip_of_the_least_factor():
+    """N = 1.2 lies between 1.1963 at 0.25 and 1.2330 at 0.315 of the thickness."""
+    least = 0.25 + (1.2 - 1.1963) / (1.2330 - 1.1963) * (0.315 - 0.25)
+    for d in (1.31, 2.47):
+        rough = find_solved_slip(GroundLaw(kind="no-slip"), d)
+        assert rough == pytest.approx(least * d, rel=1e-12)
+        slips = [0.01, 0.999 * least * d, 1.001 * least * d, 3.0 * d]
+        found = [
+            find_solved_slip(GroundLaw(kind="sliding", slip_length=one), d)
+            for one in slips
+        ]
+        assert found == pytest.approx([rough, rough, *slips[2:]], rel=1e-12)
+    free = build_scene(a_row(GroundLaw()), CASE, RUN.creep_law)
+    assert free.ground == GroundLaw()
+
+
+def test_other_creep_laws_have_the_slip_of_their_own_table():
+    row = replace(a_row(GroundLaw(kind="no-slip")), snow_thickness=2.0)
+    for law in CREEP_LAWS.values():
+        known = law.name if law.name in load_glide_tables() else DEFAULT_CREEP_LAW
+        expected = build_ground_from_glide_factor(1.2, 2.0, known)
+        assert find_solved_ground(row, law) == expected
+
+
+def test_rough_ground_has_the_forces_of_the_least_factor_and_more_than_without_slip():
+    """R1 of the example gains 8.5 to 9.8 % at its foot; here two grounds are one."""
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    d = a_row().snow_thickness
+    rows = [
+        a_row(GroundLaw(kind="no-slip")),
+        a_row(build_ground_from_glide_factor(1.2, d)),
+        a_row(build_ground_from_glide_factor(1.5, d)),
+    ]
+    rough, least, more = (
+        one.member_forces["foot_anchor"].value
+        for one in solver.solve_all([(row, CASE, RUN.creep_law) for row in rows])
+    )
+    assert rough == pytest.approx(least, rel=1e-12)
+    assert more > 1.1 * least
+    scene = build_scene(rows[0], CASE, RUN.creep_law)
+    bare = solve_scene(replace(scene, ground=GroundLaw(kind="no-slip")), RUN.settings)
+    slipping = solve_scene(scene, RUN.settings)
+    sizes = [math.hypot(one.foot.x, one.foot.y) for one in (bare, slipping)]
+    assert 1.07 < sizes[1] / sizes[0] < 1.14
 
 
 def study(glide_factor):

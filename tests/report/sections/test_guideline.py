@@ -69,6 +69,34 @@ def test_the_area_of_a_guideline_line_is_its_load():
     assert solved[0][0] - left == pytest.approx(unit, abs=0.2)
 
 
+def test_a_load_on_a_part_of_the_height_is_drawn_on_that_part():
+    """12 kN/m on 0.77 of 3 m: 5.19 kPa, and nothing above 2.31 m."""
+    record = replace(draw_record(1), along_net=[(0.1, 12.0 / 2.31), (2.9, 0.0)])
+    case = replace(record.cases[0], load_kN_per_m=12.0, loaded_share=0.77)
+    svg = draw_loads(replace(record, cases=[case]), 3.0, ENGLISH)
+    edges = re.findall(r'<polyline points="([^"]*)"', svg)
+    solved, guideline = (
+        [tuple(map(float, pair.split(","))) for pair in edge.split()]
+        for edge in (edges[0], edges[2])
+    )
+    (_, bottom), (right, _), (_, top), _ = guideline
+    assert right == pytest.approx(solved[0][0], abs=0.2)
+    unit = (bottom - solved[1][1]) / 2.9
+    assert bottom - top == pytest.approx(0.77 * 3.0 * unit, abs=0.3)
+
+
+def test_caption_says_of_which_line_the_area_is_the_load():
+    """The coupled line is pressure alone: its area lies 6 to 31 % below the load."""
+    for language in LANGUAGES:
+        told = Words(language)("why_more.caption", row="R1")
+        sentences = [one for one in told.split(". ") if one]
+        assert len(sentences) == 3
+    assert "guideline's line is its load downslope" in ENGLISH(
+        "why_more.caption", row="R1"
+    )
+    assert "less the friction" in ENGLISH("why_more.caption", row="R1")
+
+
 def test_ratios_are_those_of_the_forces():
     study = build_study()
     rows = [
