@@ -80,6 +80,7 @@ def _record(
     in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
     solved = min(head.tension for head in heads)
     pull = _widen(row, heads, sum(hidden.values()))
+    of_floor = _find_floor_tension(row, floor)
     # Between two panels as they may be built, the guy of one side can give way to that
     # of the other: then none is counted on.
     least = 0.0 if row.panel_assumed else max(0.0, solved - in_guys)
@@ -93,12 +94,12 @@ def _record(
         pull_low_kN=kilonewton_from_newton(pull.low),
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
-        least_tension_kN=kilonewton_from_newton(least),
+        least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
         uphill_part=uphill,
         downhill_part=downhill,
         post_part=post,
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
-        floor_tension_kN=kilonewton_from_newton(_find_floor_tension(row, floor)),
+        floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
     )
 
 
@@ -121,9 +122,11 @@ def _fail(head: SupportState, share: float, splay: float) -> Message | None:
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
     """Least tension of the guys at work under the guideline's load [N].
 
-    None where the altitude is not known: a lower row has less.
+    None where the altitude is not known: a lower row has less. Any without that load.
     """
-    return 0.0 if floor is None or row.altitude is None else floor.least_tension
+    if floor is None:
+        return math.inf
+    return 0.0 if row.altitude is None else floor.least_tension
 
 
 def check_sideways(
