@@ -17,6 +17,7 @@ Types = Mapping[str, Mapping[str, Row]]  # lines of the type sheets, by name and
 
 ALL_ROWS = ("all", "alle", "toutes")  # in place of an id, of every net row
 _MOST_PLACES = 5  # named in one finding
+_ENDS = 2  # of a row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,10 +162,14 @@ def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -
         findings.append(found)
 
 
-def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse neighbours that are no other net rows, and rows without any end.
+Neighbours = Mapping[str, Collection[str]]  # ids of rows that share an end, by row
 
-    Where the nets go on at one end alone, the row has its other end.
+
+def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
+    """Rows into which each row goes on, whichever of the two says so.
+
+    Refused are neighbours that are no other net rows, more or fewer than the two of a
+    row that goes on at both ends, and rows that close a ring.
     """
     ids = {row["id"].word for row in rows}
     going_on = {x["id"].word: x for x in rows if x["row_end"].word == "continuous"}
@@ -179,10 +184,33 @@ def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> None:
                 beside[own].add(name)
                 beside[name].add(own)
     for name, row in going_on.items():
-        has_ends = len(beside[name]) > 1 and _reach(name, beside) - going_on.keys()
-        if beside[name] and not has_ends:
-            rule = say("nets.one_end", ids=tuple(sorted(beside[name])))
-            refuse(row["row_end"], rule, say("nets.free_or_both"), findings)
+        if beside[name]:
+            _check_ends(name, row, beside, going_on, findings)
+    return beside
+
+
+def _check_ends(
+    name: str,
+    row: Row,
+    beside: Neighbours,
+    going_on: Collection[str],
+    findings: list[Finding],
+) -> None:
+    """Refuse a row that has not two neighbours, or one of them more, and a ring."""
+    ids = tuple(sorted(beside[name]))
+    crowded = [one for one in (name, *ids) if len(beside[one]) > _ENDS]
+    reached = _reach(name, beside)
+    links = sum(len(beside[one]) for one in reached) // 2
+    if crowded:
+        into = tuple(sorted(beside[crowded[0]]))
+        rule = say("nets.two_ends", id=crowded[0], ids=into)
+        refuse(row["neighbour"], rule, say("nets.free_or_both"), findings)
+    elif links >= len(reached):
+        rule = say("nets.ring", ids=tuple(sorted(reached)))
+        refuse(row["neighbour"], rule, say("nets.free_or_both"), findings)
+    elif len(ids) < _ENDS or reached <= set(going_on):
+        rule = say("nets.one_end", ids=ids)
+        refuse(row["row_end"], rule, say("nets.free_or_both"), findings)
 
 
 def _list_neighbours(row: Row) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
@@ -13,6 +13,7 @@ from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
+    Neighbours,
     Types,
     check_neighbours,
     index_lines,
@@ -64,6 +65,7 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
+from netdesign.structure.members import Member, NetPart
 from netdesign.words.message import Message, say
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
@@ -71,6 +73,17 @@ Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
 _CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
 _SIZES = ("snow_thickness", "snow_height")
+# Columns by which rows are alike, numbers within a tenth.
+_ALIKE = 0.1
+_OF_NET = (
+    *(Member.POST, Member.UPHILL_GUY, Member.DOWNHILL_GUY),
+    *(NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE),
+)
+_COMPARED = (
+    *("slope_angle", "snow_thickness", "net_height", "post_spacing", "ground_law"),
+    *("glide_factor", "net_stiffness", "slack", "post_tilt", "guy_count", *_OF_NET),
+)
+_SHARED = ("neighbour", "gap")  # of a row that goes on
 _GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 
 
@@ -96,10 +109,66 @@ def build_net_rows(
     if refusal := _judge_count(len(lines.nets)):
         findings.append(table.sheet.finding(*refusal))
     index_lines(lines.nets, "id", say("nets.ids_once"), findings)
-    check_neighbours(lines.nets, findings)
+    beside = check_neighbours(lines.nets, findings)
     built = [_build_net_row(row, lines, findings) for row in lines.nets]
+    built = _separate_unlike(built, beside, lines, findings)
     refuse_missing_sheets(table, lines, findings)
     return tuple(net_row for net_row in built if net_row is not None)
+
+
+def _separate_unlike(
+    built: Sequence[NetRow | None],
+    beside: Neighbours,
+    lines: Lines,
+    findings: list[Finding],
+) -> list[NetRow | None]:
+    """Rows of which those that go on into an unlike one have an end of their own."""
+    by_id = {row.id: row for row in built if row}
+    kept: list[NetRow | None] = []
+    for line, row in zip(lines.nets, built, strict=True):
+        if row and not row.has_end and line["row_end"].word == "continuous":
+            others = [by_id[one] for one in sorted(beside[row.id]) if one in by_id]
+            unlike = ((one.id, key) for one in others for key in list_unlike(row, one))
+            if found := next(unlike, None):
+                name = say(f"column.Nets.{found[1]}")
+                how = say("nets.unlike", id=found[0], name=name)
+                refuse(line["row_end"], how, "", findings, severity="note")
+                row = _build_net_row(_free(line, how), lines, [])
+        kept.append(row)
+    return kept
+
+
+def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
+    """Columns of sheet Nets by which two rows are not loaded and built alike.
+
+    Only alike rows load each other's ends as if the nets went on.
+    """
+    pairs = zip(_list_compared(one), _list_compared(other), strict=True)
+    for key, (mine, its) in zip(_COMPARED, pairs, strict=True):
+        is_near = isinstance(mine, float) and isinstance(its, float)
+        is_near = is_near and math.isclose(mine, its, rel_tol=_ALIKE)
+        if not is_near and mine != its:
+            yield key
+
+
+def _list_compared(row: NetRow) -> tuple[float | int | str, ...]:
+    layout, ground = row.layout, row.ground
+    parts = (*row.resistances, *row.net_parts)
+    types = {one.member: one.type_id for one in parts}
+    return (
+        *(row.slope_angle, row.snow_thickness, row.net_height),
+        *(layout.post_spacing, ground.kind, row.glide_factor or ground.slip_length),
+        *(row.net_stiffness_per_m, row.slack),
+        *(layout.post_base_distance or layout.post_tilt, row.guys.count),
+        *(types.get(member, "") for member in _OF_NET),
+    )
+
+
+def _free(line: Row, how: Message) -> Row:
+    """Line of a row whose ends are free, whatever it says."""
+    said = {key: replace(line[key], state="blank", value=None) for key in _SHARED}
+    end = replace(line["row_end"], value="free", derivation=how)
+    return {**line, **said, "row_end": end}
 
 
 def _judge_count(count: int) -> Refusal | None:
