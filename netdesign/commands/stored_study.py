@@ -63,7 +63,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
     StudyError
         If there is none.
     """
-    from netdesign.edge.given_files import is_there
+    from netdesign.edge.given_files import is_there, make_printable
 
     name = Path(study.provenance.site_file).name  # never a path out of these folders
     folder = study_file.absolute().parent
@@ -71,6 +71,10 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
     if site_file is not None:
         return _read_again(study, site_file)
     found = next((one for one in near if name and is_there(one)), None)
+    if found is None:  # a study has a blank for a sign that would steer a terminal
+        beside = (one for place in near for one in sorted(place.parent.iterdir()))
+        alike = (one for one in beside if make_printable(one.name) == name)
+        found = next(alike, None)
     if found is not None:
         return _read_again(study, found)
     with temporary_example() as path:

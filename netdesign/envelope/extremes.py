@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from netdesign.checks.result import Band
 from netdesign.envelope.run import CaseResult
 from netdesign.panel.solution import FailedPanel
-from netdesign.words.message import Message, say
+from netdesign.words.message import Message, group_reasons, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -70,11 +70,8 @@ def describe_gap(results: Sequence[CaseResult]) -> Message | None:
 
 
 def _describe_failed(key: str, failed: Sequence[CaseResult], count: int) -> Message:
-    reasons = {str(one.lack): one.lack for one in failed if one.lack is not None}
-    told = [reasons[text] for text in sorted(reasons)]
-    if key == "panel.failed_cases":  # one of each kind: every case has its own depth
-        told = list({one.key: one for one in told}.values())
-    return say(key, failed=len(failed), count=count, reasons=tuple(told))
+    told = group_reasons(one.lack for one in failed if one.lack is not None)
+    return say(key, failed=len(failed), count=count, reasons=told)
 
 
 def find_extreme(member: str, results: Sequence[CaseResult]) -> Extreme:

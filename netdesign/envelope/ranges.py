@@ -22,7 +22,7 @@ from netdesign.units import (
     newton_from_kilonewton,
     radian_from_degree,
 )
-from netdesign.words.message import Message, say
+from netdesign.words.message import Message, group_reasons, say
 
 Convert = Callable[[float], float]
 
@@ -317,7 +317,7 @@ def require_valid(scene: Scene, ranges: Ranges) -> None:
     Raises
     ------
     ModelError
-        With every distinct reason, its numbers in degrees and kN.
+        With every kind of reason, its numbers in degrees and kN.
     """
     count = len(ranges.axes)
     reasons: dict[Message, None] = {}
@@ -329,4 +329,4 @@ def require_valid(scene: Scene, ranges: Ranges) -> None:
         except ModelError as error:
             reasons.setdefault(show_given_units(error.message))
     if reasons:
-        raise ModelError(say("text.lines", lines=tuple(reasons)))
+        raise ModelError(say("text.lines", lines=group_reasons(reasons)))

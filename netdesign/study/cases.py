@@ -20,7 +20,7 @@ from netdesign.solving.runner import Runner
 from netdesign.structure.members import CONNECTED
 from netdesign.study.check_run import CheckRun
 from netdesign.study.row_to_check import build_scene
-from netdesign.words.message import Message, say
+from netdesign.words.message import Message, group_reasons, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. Beside the
 # envelope a row takes one for each other creep law.
@@ -183,6 +183,7 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         row_end=None,
         panel_lack=None,
         unsaid=(),
+        questions=(),
     )
     return _RowScenes(row=bare, law=law)
 
@@ -205,4 +206,4 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
         except ModelError as error:
             refused = say("study.net_row", row=row.id, reason=error.message)
             refusals.setdefault(refused)
-    raise ModelError(say("text.lines", lines=tuple(refusals)))
+    raise ModelError(say("text.lines", lines=group_reasons(refusals)))

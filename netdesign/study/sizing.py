@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
-from netdesign.outcome import Verdict
+from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import (
     END_MODES,
@@ -218,9 +218,49 @@ def _try_types(
     run: CheckRun,
     read: ReadInstead,
 ) -> Iterator[tuple[SizedCell, float]]:
-    """Cells that pass with their types of a trial, with their largest utilisations."""
-    site = read({slot.cell: kind for slot, kind in trial.items()})
-    wanted = {row_id for slot in trial for row_id in slot.checks}
+    """Cells that pass with their types of a trial, with their largest utilisations.
+
+    A type that raises a question leaves its row open, and one that is refused the whole
+    site: the types of other cells are then tried alone.
+    """
+    try:
+        site = read({slot.cell: kind for slot, kind in trial.items()})
+    except SiteDataError:
+        if len(trial) > 1:
+            for slot, kind in trial.items():
+                yield from _try_types({slot: kind}, solved, study, standard, run, read)
+        return
+    by_id = {row.id: row for row in solved.site.rows}
+    rows, judged = _judge_again(site, trial, solved, standard, run)
+    built = {row.id: row.checks for row in study.rows}
+    tried = {row.id: row.checks for row in judged.rows}
+    asked = {
+        row.id for row in rows if set(row.questions) - set(by_id[row.id].questions)
+    }
+    for slot, kind in trial.items():
+        if not asked.isdisjoint(slot.checks):
+            if len(trial) > 1:
+                alone = {slot: kind}
+                yield from _try_types(alone, solved, study, standard, run, read)
+            continue
+        used = [
+            _rate(slot.column, ids, built[row_id], tried[row_id])
+            for row_id, ids in slot.checks.items()
+            if row_id in tried  # its forces are known with this type
+        ]
+        if len(used) == len(slot.checks) and None not in used:
+            yield slot, max(one for one in used if one is not None)
+
+
+def _judge_again(
+    site: Site,
+    slots: Iterable[SizedCell],
+    solved: SolvedSite,
+    standard: Standard,
+    run: CheckRun,
+) -> tuple[Sequence[NetRow], Study]:
+    """Rows of some cells whose forces are known with other types, and their study."""
+    wanted = {row_id for slot in slots for row_id in slot.checks}
     old = zip(solved.site.rows, solved.rows, strict=True)
     by_id = {row.id: (row, of_row) for row, of_row in old}
     rows = [
@@ -231,22 +271,8 @@ def _try_types(
             row, site.ranges, by_id[row.id][0], solved.site.ranges, run
         )
     ]
-    judged = judge_site(
-        replace(site, rows=tuple(rows)),
-        [by_id[row.id][1] for row in rows],
-        standard,
-        run,
-    )
-    built = {row.id: row.checks for row in study.rows}
-    tried = {row.id: row.checks for row in judged.rows}
-    for slot in trial:
-        used = [
-            _rate(slot.column, ids, built[row_id], tried[row_id])
-            for row_id, ids in slot.checks.items()
-            if row_id in tried  # its forces are known with this type
-        ]
-        if len(used) == len(slot.checks) and None not in used:
-            yield slot, max(one for one in used if one is not None)
+    known = [by_id[row.id][1] for row in rows]
+    return rows, judge_site(replace(site, rows=tuple(rows)), known, standard, run)
 
 
 def _rate(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
@@ -54,6 +54,45 @@ class Message:
 def say(key: str, /, **arguments: Argument) -> Message:
     """Message with the arguments that the text of this key asks for."""
     return Message(key, MappingProxyType(arguments))
+
+
+def group_reasons(reasons: Iterable[Message]) -> tuple[Message, ...]:
+    """One reason of each kind, with its count: the most frequent first.
+
+    Parameters
+    ----------
+    reasons : iterable of Message
+        Of a kind are those that differ in numbers and names alone; the first in the
+        order of their texts stands for all.
+
+    Returns
+    -------
+    tuple of Message
+        ``12 times: no steady state was found ...``; one that stands alone as it is.
+    """
+    kinds: dict[_Kind, list[Message]] = {}
+    for one in sorted(reasons, key=lambda one: (str(one), repr(one))):
+        kinds.setdefault(_find_kind(one), []).append(one)
+    grouped = sorted(kinds.values(), key=lambda alike: -len(alike))
+    return tuple(
+        say("text.times", count=len(alike), reason=alike[0])
+        if len(alike) > 1
+        else alike[0]
+        for alike in grouped
+    )
+
+
+_Kind = tuple[Any, ...]
+
+
+def _find_kind(message: Message) -> _Kind:
+    """Keys of a message and of those in its gaps; of somebody's own words, these."""
+    if message.key == "text.as_given":
+        return (message.arguments["text"],)
+    given = [message.arguments[name] for name in sorted(message.arguments)]
+    parts = [one if isinstance(one, tuple) else (one,) for one in given]
+    inner = (one for part in parts for one in part if isinstance(one, Message))
+    return (message.key, *map(_find_kind, inner))
 
 
 def dump(message: Message) -> dict[str, Any]:

@@ -3,11 +3,18 @@
 import random
 import sqlite3
 from contextlib import closing
+from types import SimpleNamespace
+from unittest import mock
 
+import numpy as np
 import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import write_site
+from netdesign.commands import stored_study
+from netdesign.commands.stored_study import read_own_site
+from netdesign.edge.given_files import make_printable
 from netdesign.study import side_by_side
+from tests.each import each
 
 SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")
 
@@ -105,3 +112,25 @@ def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkey
         assert (ended.out, ended.code) == (bare.out, bare.code)
         kept = read_outputs(place / f"kept{k}")
         assert kept == read_outputs(place / f"bare{k}"), asked
+
+
+# --- fault 19: a name of a file with signs that steer a terminal ----------------------
+
+
+@each("seed", range(30))
+def test_a_site_is_found_by_its_name_whatever_signs_it_has(tmp_path_factory, seed):
+    """Drawn names: line ends, marks of direction, escapes, no-break spaces."""
+    folder = tmp_path_factory.mktemp("site")
+    rng = np.random.default_rng([61, 19, seed])
+    signs = [*"ab 1.", "\n", "\r", "\u202e", "\u2028", "\x1b", "\u00a0", "é", "\u200b"]
+    name = "s" + "".join(rng.choice(signs, 8)) + "x.xlsx"
+    site = folder / name
+    site.write_bytes(b"")
+    (folder / "other.xlsx").write_bytes(b"")
+    provenance = SimpleNamespace(site_file=make_printable(name))
+    study = SimpleNamespace(provenance=provenance)
+    with mock.patch.object(stored_study, "_read_again", lambda _, path: path):
+        assert read_own_site(study, folder / "study.json", None) == site
+        out = folder / "out" / "study.json"
+        out.parent.mkdir()
+        assert read_own_site(study, out, None) == site

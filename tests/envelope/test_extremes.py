@@ -4,6 +4,7 @@ import math
 import random
 from itertools import permutations
 
+import numpy as np
 import pytest
 
 from netdesign.checks.result import Band
@@ -11,6 +12,8 @@ from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError, Outcome
+from netdesign.words.message import group_reasons, say
+from netdesign.words.names import as_given
 from tests.each import each
 
 
@@ -30,7 +33,7 @@ def failed(density, outcome=Outcome.MAX_ITERATIONS, reason="60 rounds"):
     return CaseResult(
         case=Case(density=density, friction_angle=0.5, inclination=0.5),
         outcome=outcome,
-        reason=reason,
+        reason=as_given(reason),
         member_forces={},
     )
 
@@ -141,11 +144,33 @@ def test_gap_is_empty_only_if_every_case_converged():
     assert str(describe_gap([good, failed(300.0)])) == "1 of 2 cases failed (60 rounds)"
 
 
-def test_gap_counts_cases_and_names_each_reason_once():
+def test_gap_counts_cases_and_names_each_reason_once_with_its_count():
     results = [
         failed(250.0, reason="b"),
         failed(300.0, reason="a"),
         failed(350.0, reason="b"),
     ]
-    assert str(describe_gap(results)) == "3 of 3 cases failed (a; b)"
+    assert str(describe_gap(results)) == "3 of 3 cases failed (2 times: b; a)"
     assert describe_gap(results[::-1]) == describe_gap(results)
+
+
+@each("seed", range(20))
+def test_a_thousand_reasons_of_a_few_kinds_are_as_many_clauses(seed):
+    """Fault 19: drawn numbers in four kinds of reasons, in any order."""
+    rng = np.random.default_rng([61, 19, seed])
+    kinds = [
+        lambda: say("steady.layers_contrast", contrast=float(rng.uniform(2, 1e9))),
+        lambda: say("steady.much_slack", slack=float(rng.uniform(0.1, 0.3))),
+        lambda: say("balance.suction", share=float(rng.uniform()), accepted=0.05),
+        lambda: say("steady.still_moves", moved=float(rng.uniform()), rounds=60),
+    ]
+    drawn = [kinds[rng.integers(4)]() for _ in range(500)]
+    reasons = [
+        say("steady.not_found", what=one, causes=(kinds[0](),)) if k % 3 else one
+        for k, one in enumerate(drawn)
+    ]
+    told = group_reasons(reasons)
+    assert len(told) == 8
+    assert sum(int(str(one).split()[0]) for one in told) == 500
+    assert len("; ".join(map(str, told))) < 2000
+    assert group_reasons(reasons[::-1]) == told

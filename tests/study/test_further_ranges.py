@@ -15,7 +15,7 @@ from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
-from netdesign.study.cases import search_site
+from netdesign.study.cases import have_same_forces, search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point, record_point
@@ -139,3 +139,10 @@ def test_outputs_have_a_column_for_what_ranges(study):
 def test_without_further_ranges_a_case_has_three_values():
     point = record_point(Case(density=300.0, friction_angle=0.4, inclination=0.5))
     assert [*point.values] == ["density_kg_m3", "friction_deg", "inclination_deg"]
+
+
+def test_a_question_changes_no_force_of_layered_snow():
+    """Fault 17: a trial whose type is asked about kept its row out of the trial."""
+    row = sliding("layered", layers=LAYERS)
+    asked = replace(row, questions=(say("steady.needs_net"),))
+    assert have_same_forces(row, RANGES, asked, RANGES, RUN)

@@ -3,10 +3,11 @@
 import copy
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.outcome import Verdict
+from netdesign.outcome import SiteDataError, Verdict
 from netdesign.report.what_if import describe_sized
 from netdesign.report.words import Words
 from netdesign.site.reader import read_site
@@ -15,6 +16,7 @@ from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
 from tests.short_example import write_short_example
 from tests.site_lines import write_lines
 from tests.small_site import ROWS, RUN, build_site
@@ -220,3 +222,50 @@ def test_ranges_that_differ_are_solved_again():
     again = solve(replace(built, ranges=ranges), known)
     densities = {one.case.density for row in again.rows for one in row.results}
     assert max(densities) == 412.5
+
+
+# --- fault 17: a question, or a refusal, of one cell is not that of another -----------
+
+
+@pytest.fixture(scope="module")
+def two_open_cells(example):
+    """Cells of foot and uphill anchor of R7, neither of which passes; both solved."""
+    path, solved = example
+    changes = {"Nets!Q2": "A25-untested"}
+    read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
+    return replace(solved, site=read({})), read
+
+
+def find_types(two_open_cells, read):
+    solved, _ = two_open_cells
+    cells = size_site(solved, judge(solved), PROFILE, RUN, read)
+    return {one.column: one for one in cells}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_question_of_one_cell_leaves_the_types_of_the_other(two_open_cells, seed):
+    """Drawn types are asked about, or refused, in one of two cells."""
+    rng = np.random.default_rng([61, 17, seed])
+    _, read = two_open_cells
+    found = find_types(two_open_cells, read)
+    asked, other = ("foot_anchor", "uphill_anchor")[:: (-1) ** seed]
+    some = rng.choice(found[asked].types, 3, replace=False)
+    beside = found[asked].types[found[other].types.index(found[other].now)]
+    drawn = {*map(str, some), found[asked].now, beside}
+
+    def read_asking(instead):
+        site = read(instead)
+        if instead.get(found[asked].cell) not in drawn:
+            return site
+        if seed == 2:
+            raise SiteDataError([])
+        row = replace(site.rows[0], questions=(say("steady.needs_net"),))
+        return replace(site, rows=(row,))
+
+    again = find_types(two_open_cells, read_asking)
+    assert found[other].now
+    assert (again[other].now, again[other].used) == (
+        found[other].now,
+        found[other].used,
+    )
+    assert again[asked].now not in drawn
