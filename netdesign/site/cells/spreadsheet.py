@@ -229,6 +229,8 @@ _ZIP_MAGIC = b"PK"
 _FORBIDDEN = ("DTDForbidden", "EntitiesForbidden", "ExternalReferenceForbidden")
 _ACCEPTED_FILE = say("accepted.file")
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
+# Of "Strict Open XML Spreadsheet", whose sheets the reader of workbooks does not see.
+_STRICT = b"http://purl.oclc.org/ooxml/"
 _MACRO_PART = "xl/vbaProject.bin"
 
 _Content = tuple[
@@ -324,6 +326,11 @@ def _read_archive(
         guard_archive(file, content)
         with zipfile.ZipFile(BytesIO(content)) as archive:
             parts = archive.namelist()
+            is_strict = any(
+                _STRICT in archive.read(one) for one in parts if _is_root(one)
+            )
+        if is_strict:
+            raise refuse_file(file, say("book.strict"), _ACCEPTED_FILE)
         if "xl/workbook.bin" in parts:
             raise refuse_file(file, say("book.binary"), _ACCEPTED_FILE)
         if "content.xml" in parts:
@@ -332,9 +339,17 @@ def _read_archive(
     except DAMAGE as error:
         rule = say("book.unreadable", detail=_describe_damage(error))
         raise refuse_file(file, rule, _ACCEPTED_FILE) from error
+    sheets, left_out, _ = read
+    if not (sheets or left_out):
+        raise refuse_file(file, say("book.no_sheet"), _ACCEPTED_FILE)
     has_macros = _MACRO_PART in parts
     note = note_file(file, say("book.macros"))
     return *read, (note,) if has_macros else ()
+
+
+def _is_root(part: str) -> bool:
+    """Part that says of which kind the whole file is."""
+    return part.endswith("_rels/.rels") or part.endswith("workbook.xml")
 
 
 def _describe_damage(error: BaseException) -> Message:

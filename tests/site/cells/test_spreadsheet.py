@@ -1,7 +1,9 @@
 import hashlib
+import re
 import time
 import zipfile
 
+import numpy as np
 import openpyxl
 import pytest
 import xlsxwriter
@@ -10,6 +12,7 @@ from netdesign.outcome import NetDesignError, SiteDataError
 from netdesign.site.cells import cells as limits
 from netdesign.site.cells import spreadsheet
 from netdesign.site.cells.spreadsheet import read_workbook
+from tests.each import each
 
 
 def read_all(path):
@@ -241,3 +244,52 @@ def test_columns_far_right_are_refused(small):
     workbook["One"].cell(1, 201, 1.0)
     workbook.save(small)
     assert "has cells filled beyond column GR" in refusal_of(small)
+
+
+# --- fault 15: Strict Open XML, and a workbook of which no sheet is read ------------
+
+TRANSITIONAL = (
+    b"http://schemas.openxmlformats.org/spreadsheetml/2006/",
+    b"http://schemas.openxmlformats.org/officeDocument/2006/",
+)
+STRICT = (
+    b"http://purl.oclc.org/ooxml/spreadsheetml/",
+    b"http://purl.oclc.org/ooxml/officeDocument/",
+)
+
+
+def rewrite(path, change):
+    """The workbook with each part changed by its name and bytes."""
+    with zipfile.ZipFile(path) as archive:
+        parts = {one: archive.read(one) for one in archive.namelist()}
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(*change(name, content))
+
+
+@each("seed", range(8))
+def test_strict_open_xml_is_refused_by_its_name(tmp_path_factory, seed):
+    """Drawn parts are strict, of which one says of what kind the file is."""
+    path = tmp_path_factory.mktemp("strict") / "site.xlsx"
+    workbook = openpyxl.Workbook()
+    workbook.active["A1"] = 2.5
+    workbook.save(path)
+    rng = np.random.default_rng([61, 15, seed])
+    root = ("_rels/.rels", "xl/workbook.xml")[seed % 2]
+
+    def change(name, content):
+        if name == root or rng.uniform() < 0.5:
+            for old, new in zip(TRANSITIONAL, STRICT, strict=True):
+                content = content.replace(old, new)
+        return name, content
+
+    rewrite(path, change)
+    assert 'saved as "Strict Open XML Spreadsheet"' in refusal_of(path)
+
+
+def test_a_workbook_of_which_no_sheet_is_read_is_refused(tmp_path, small):
+    def change(name, content):
+        return name, re.sub(rb"<(/?)sheets>", rb"<\1s>", content)
+
+    rewrite(small, change)
+    assert "no sheet that can be read" in refusal_of(small)
