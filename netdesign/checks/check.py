@@ -206,6 +206,7 @@ class Check:
     resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestSeries | None = None  # of a pull-out resistance that is from them
+    proof_limit_kN: float | None = None  # of a test's load, by the tendon that it pulls
     changes: Items[Change] = field(default_factory=list)
 
     @cached_property

@@ -64,6 +64,23 @@ class PullOutTests:
         require_within("least tested resistance", self.least, 0.0, self.mean, "N")
 
 
+def limit_proof_load(proof: float, ultimate: float) -> float:
+    """Largest load of a test that its tendon allows; resistance/THEORY.md, (R32).
+
+    Parameters
+    ----------
+    proof, ultimate : float
+        Characteristic 0.1 % proof force and tensile strength of the tendon,
+        P_t0.1k and P_tk [N]; the first where the second is not known.
+
+    Returns
+    -------
+    float
+        min(0.95 P_t0.1k, 0.80 P_tk) [N].
+    """
+    return min(0.95 * proof, 0.80 * ultimate)
+
+
 def compute_pull_out_from_bond(
     *,
     drill_diameter: float,

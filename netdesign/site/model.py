@@ -60,6 +60,7 @@ class Resistance(GivenResistance):
     # told where what is assumed for it decides: between value and best, without a best
     # in any case
     doubt: Message | None = None
+    proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
 
 
 def _name_column(key: str) -> Message:

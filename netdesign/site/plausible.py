@@ -20,7 +20,11 @@ from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_lines import name_bare
-from netdesign.site.type_resistances import find_bond, list_beside
+from netdesign.site.type_resistances import (
+    find_bond,
+    find_proof_limit,
+    list_beside,
+)
 from netdesign.words.message import Message, say
 
 
@@ -113,7 +117,6 @@ _FORCES = ("tendon", "rope")
 _TESTED = ("pull_out", "test_mean")
 _TESTED_BEYOND = 1.5  # times a bond stress of the catalogue, and as much below
 _ANY_GROUND = say("plausible.any_ground")
-_MOST_TESTED = 1.12  # times the tendon, whose strength may be given as that of yield
 
 
 def list_doubts(line: Row) -> Iterator[Doubt]:
@@ -140,6 +143,12 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         if told:
             alone[key] = told
             yield reading, told
+    mean = line.get("test_mean")
+    if mean is not None and mean.state == "given" and mean.derivation:  # sheet Tests
+        told = _doubt_tested(mean, "test_mean", line)
+        if told:
+            alone["test_mean"] = told
+            yield mean, told
     for key in _TESTED if _TESTED[0] in line else ():
         if key not in alone and (told := _doubt_bond(line[key], line)):
             yield line[key], told
@@ -204,14 +213,14 @@ def _doubt_computed(reading: Reading, computed: float) -> Message | None:
 
 
 def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
-    """No test pulls more out of the ground than its tendon bears."""
-    tendon = line.get("tendon")
-    if key not in _TESTED or tendon is None or tendon.state != "given":
+    """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
+    if key not in _TESTED or (key == "pull_out" and line["basis"].word != "tested"):
         return None
-    is_tested = key == "test_mean" or line["basis"].word == "tested"
-    if not is_tested or reading.si <= _MOST_TESTED * tendon.si:
+    limit = find_proof_limit(line)
+    if limit is None or reading.si <= limit * (1.0 + 1e-9):
         return None
-    return say("plausible.tested", tendon=_name_with_value(tendon))
+    told = {"tendon": _name_with_value(line["tendon"]), "limit": limit / 1e3}
+    return say("plausible.tested", **told)
 
 
 def _doubt_bond(reading: Reading, line: Row) -> Message | None:

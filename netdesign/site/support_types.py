@@ -27,6 +27,8 @@ from netdesign.site.type_resistances import (
     SOIL_COLUMNS,
     compute_buckling,
     find_depth,
+    find_loop_loss,
+    find_proof_limit,
     find_tests,
     lacks_ground,
     lacks_inner,
@@ -294,6 +296,9 @@ def _describe_type(
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
+        proof_limit=find_proof_limit(kind, find_loop_loss(kind))
+        if mode == "pull_out"
+        else None,
     )
 
 

@@ -25,7 +25,11 @@ from netdesign.resistance.post import (
 )
 from netdesign.resistance.product_data import Product
 from netdesign.resistance.products import find_product
-from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
+from netdesign.resistance.pull_out import (
+    PullOutTests,
+    compute_pull_out_from_bond,
+    limit_proof_load,
+)
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import from_si, to_si
@@ -354,13 +358,42 @@ def may_be_rope(line: Row) -> bool:
 def reduce_loop(row: Row) -> tuple[float, Message]:
     """Resistance of a rope anchor's tendon with its loop [N], and how; (R31)."""
     force, given = row["tendon"], row["loop_efficiency"]
-    loss, how = given.given_si, say("derivation.loop_given", place=given.place)
-    if loss is None:
-        least = find_loop_efficiency()
-        loss, how = least.value, _describe_origin(least)
+    loss, how = find_loop_loss(row), say("derivation.loop_given", place=given.place)
+    if given.given_si is None:
+        how = _describe_origin(find_loop_efficiency())
     return loss * force.si, say(
         "derivation.loop", force=force.number, loss=loss, origin=how
     )
+
+
+def find_loop_loss(row: Row) -> float:
+    """Loss factor k_e of an anchor's loop [-]; 1 of one that has none."""
+    given = row["loop_efficiency"].given_si
+    if not may_be_rope(row):
+        return 1.0
+    return find_loop_efficiency().value if given is None else given
+
+
+def find_proof_limit(row: Row, loss: float = 1.0) -> float | None:
+    """Largest load of a test that the tendon of an anchor type allows [N]; (R32).
+
+    Of a bar its tensile strength is that of its product, or no more than it yields at.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of sheet Anchors.
+    loss : float
+        Loss factor of a rope anchor's loop [-].
+    """
+    tendon = row["tendon"].given_si
+    if tendon is None:
+        return None
+    product = None if may_be_rope(row) else find_product(row["id"].word)
+    ultimate, _ = (
+        product.values.get("ultimate_force", (0.0, 0.0)) if product else (0, 0)
+    )
+    return limit_proof_load(loss * tendon, max(loss * tendon, ultimate))
 
 
 def _rope(row: Row) -> tuple[float, Message]:

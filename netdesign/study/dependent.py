@@ -158,7 +158,7 @@ def _find_ground_resistance(
         return replace(given, lack=say("wedge.no_depth"))
     reduced = soil.reduce(on_cohesion, on_friction)
     depth, wedge = _find_weakest_wedge(reduced, row, pull, depths, width)
-    told = {
+    told: dict[str, float | Message] = {
         "depth": depth,
         "width": width,
         "plane": degree_from_radian(wedge.plane),

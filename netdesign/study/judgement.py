@@ -42,7 +42,7 @@ from netdesign.study.pulls import (
 from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import PullRecord
-from netdesign.units import kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
@@ -205,6 +205,7 @@ def judge_force(
         resistance_derivation=given.derivation,
         resistance_years=known.row.design_life if given.wear and not doubted else None,
         tests=_record_tests(given, standard),
+        proof_limit_kN=kilonewton_if_known(given.proof_limit),
     )
     lack = given.lack
     if lack == FOOT_LOOSE and force and force.action.low:

@@ -78,6 +78,17 @@ def test_number_and_mean_alone_are_enough(tmp_path):
     assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
 
 
+def test_no_proof_load_pulls_the_tendon_beyond_its_limit(tmp_path):
+    """500 kN with a loop of 0.8: at most 320 kN, whatever the anchor needs."""
+    row = ROW | {"foot": (60.0, 54.0)}
+    study = study_row(tmp_path, "eurocode", tests=TESTS, **row)
+    _, singles = show_tests(study.rows[0], Words("en"))
+    cell = singles.rows[0][6]
+    assert cell.number == 320.0
+    assert cell.text.startswith("320; ")
+    assert cell.text.endswith("needs a stronger tendon or more tests")
+
+
 def judge_typed(tmp_path, **typed):
     anchor = STEEL | {"pull-out resistance [kN]": 330} | typed
     study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))

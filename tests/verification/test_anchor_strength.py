@@ -7,7 +7,7 @@ import pytest
 from netdesign.checks import check_member, load_standard
 from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
-from netdesign.resistance.pull_out import PullOutTests
+from netdesign.resistance.pull_out import PullOutTests, limit_proof_load
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 
@@ -60,3 +60,28 @@ def test_a_number_that_was_typed_and_the_same_from_tests(count, utilisation):
     typed = check_member(action, pull_out(380e3, basis=BY_REPORT), EUROCODE)
     assert typed.utilisation == pytest.approx(0.9474, rel=1e-9)
     assert typed.read("γ_R") == tested.read("γ_R") == 1.15
+
+
+@each("tendon_kN, limit_kN", [(400, 320), (480, 384), (800, 640), (1400, 1120)])
+def test_proof_load_that_the_tendons_of_the_example_allow(tendon_kN, limit_kN):
+    assert limit_proof_load(tendon_kN, tendon_kN) == pytest.approx(limit_kN, rel=1e-12)
+
+
+@each("count, most_kN", [(1, 457), (2, 492), (3, 533), (5, 640)])
+def test_most_that_held_tests_show_of_a_tendon_of_800_kN(count, most_kN):
+    """640 kN over 1.40, 1.30, 1.20, 1.00: of tests alike the mean governs (R1).
+
+    The second derivation has 533 and 610 kN by the factors of the least alone.
+    """
+    load = limit_proof_load(800e3, 800e3)
+    tests = PullOutTests(count=count, least=load, mean=load)
+    check = check_member(a_force(1e5), pull_out(tests=tests), EUROCODE)
+    assert check.read("R_k") == pytest.approx(most_kN, abs=0.6)
+
+
+def test_a_bar_that_yields_early_bounds_the_proof_load_by_its_yield():
+    """GEWI 500/550: 0.80 x 550 below 0.95 x 500; 500/650: 0.95 x 500."""
+    assert limit_proof_load(500.0, 550.0) == pytest.approx(440.0)
+    assert limit_proof_load(500.0, 650.0) == pytest.approx(475.0)
+    at_bend = 500.0 * 0.95 / 0.80
+    assert limit_proof_load(500.0, at_bend) == pytest.approx(475.0)

@@ -46,7 +46,7 @@ from netdesign.report.sections.checks import (
     show_changes,
     show_used,
 )
-from netdesign.report.sections.schedule import find_largest
+from netdesign.report.sections.schedule import find_largest, show_proof_load
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
     MISSING,
@@ -141,7 +141,7 @@ def _show_single(
         number_cell(words, "demand_kN", one.proof_load_kN),
         text_cell(MISSING if moved is None else words.write(f"{moved:.1f}")),
         text_cell(words(f"tested.{outcome}")),
-        Cell(text=words.show_minimum(wanted), number=wanted),
+        show_proof_load(wanted, [check], words),
         text_cell(words(f"tested.{_judge(one, wanted)}")),
     )
 

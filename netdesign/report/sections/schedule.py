@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -311,7 +312,18 @@ def _show_proof(line: _Line, factor: float | None, words: Words) -> Cell:
     pulled = [one for one in line.checks if one.mode == "pull_out"]
     force = find_largest(pulled, "E_d")
     load = None if factor is None or force is None else factor * force
-    return Cell(text=words.show_minimum(load), number=load)
+    return show_proof_load(load, pulled, words)
+
+
+def show_proof_load(load: float | None, pulled: Sequence[Check], words: Words) -> Cell:
+    """Load of a test [kN]; no more than the tendon allows, and what it would take."""
+    known = [one.proof_limit_kN for one in pulled if one.proof_limit_kN is not None]
+    wanted = words.show_minimum(load)
+    if load is None or not known or load <= min(known):
+        return Cell(text=wanted, number=load)
+    limit = math.floor(min(known))
+    told = words("quantities.proof_limited", limit=f"{limit}", load=wanted)
+    return Cell(text=told, number=float(limit))
 
 
 def _show_each(sizes: Sequence[float | None], words: Words) -> Cell:

@@ -244,7 +244,7 @@ def _draw_anchors(draw):
         "id": "turning",
         "kind": "rope anchor",
         "tendon": _round(330.0 * scale),
-        "pull_out": _round(270.0 * scale),
+        "pull_out": _round(255.0 * scale),
         "basis": draw.choice(("tested", "computed")),
         "sleeve": "no",
     }
@@ -256,12 +256,12 @@ def _draw_anchors(draw):
         "bar_diameter": diameter,
         "bar_strength": 500.0,
         "lever_arm": draw.choice((0.0, _round(draw.uniform(2.0, 60.0)))),
-        "pull_out": _round(bears * draw.uniform(0.6, 1.05)),
+        "pull_out": _round(bears * draw.uniform(0.5, 0.78)),
         "basis": "tested",
     }
     diameter, inner = _round(draw.uniform(52.0, 73.0)), _round(draw.uniform(25.0, 45.0))
     bears = 0.25 * math.pi * (diameter**2 - inner**2) * 0.54  # [kN]
-    mean = _round(bears * draw.uniform(0.6, 1.05))
+    mean = _round(bears * draw.uniform(0.5, 0.78))
     yield {
         "id": "hollow",
         "kind": "micropile",
@@ -278,8 +278,8 @@ def _draw_anchors(draw):
         "kind": "rope anchor",
         "tendon": _round(400.0 * scale),
         "test_count": draw.choice((1, 3)),
-        "test_least": _round(350.0 * scale),
-        "test_mean": _round(390.0 * scale),
+        "test_least": _round(285.0 * scale),
+        "test_mean": _round(310.0 * scale),
     }
     yield {
         "id": "drilled",
