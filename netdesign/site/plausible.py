@@ -143,14 +143,8 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         if told:
             alone[key] = told
             yield reading, told
-    mean = line.get("test_mean")
-    if mean is not None and mean.state == "given" and mean.derivation:  # sheet Tests
-        told = _doubt_tested(mean, "test_mean", line)
-        if told:
-            alone["test_mean"] = told
-            yield mean, told
     for key in _TESTED if _TESTED[0] in line else ():
-        if key not in alone and (told := _doubt_bond(line[key], line)):
+        if key not in alone and (told := _doubt_pulled(line[key], key, line)):
             yield line[key], told
 
 
@@ -221,6 +215,13 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
         return None
     told = {"tendon": _name_with_value(line["tendon"]), "limit": limit / 1e3}
     return say("plausible.tested", **told)
+
+
+def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
+    """Doubt about a pull-out force, also about the mean of the lines of sheet Tests."""
+    is_counted = key == "test_mean" and reading.derivation is not None
+    told = _doubt_tested(reading, key, line) if is_counted else None
+    return told or _doubt_bond(reading, line)
 
 
 def _doubt_bond(reading: Reading, line: Row) -> Message | None:

@@ -136,7 +136,7 @@ def test_a_bond_that_its_ground_does_not_have_is_asked_about(tmp_path, ground, b
                 pull = round(bond * SURFACE, 1)
                 if not 45.0 < pull < 2300.0:  # asked about in any case
                     continue
-                strong = round(min(pull / 0.8, 2400.0), 1)
+                strong = round(min(pull / 0.78, 2400.0), 1)
                 cells = BOND | {"basis": basis, "ground": ground, "tendon": strong}
                 cells |= {"pull_out": pull}
                 said, told = read_with(tmp_path, seed, "Anchors", cells)
