@@ -213,8 +213,8 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     limit = find_proof_limit(line)
     if limit is None or reading.si <= limit * (1.0 + 1e-9):
         return None
-    told = {"tendon": _name_with_value(line["tendon"]), "limit": limit / 1e3}
-    return say("plausible.tested", **told)
+    tendon = _name_with_value(line["tendon"])
+    return say("plausible.tested", tendon=tendon, limit=limit / 1e3)
 
 
 def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
