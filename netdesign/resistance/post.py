@@ -79,32 +79,71 @@ def compute_buckling_resistance(
     )
 
 
-def compute_bearing_resistance(
-    *, plate_length: float, plate_width: float, bearing_stress: float
-) -> float:
-    """Resistance of the ground under a base plate; resistance/THEORY.md, eq. (R6).
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BasePlate:
+    """Plate of a post on ground.
+
+    Attributes
+    ----------
+    length, width : float
+        Of the plate [m].
+    stress : float
+        Characteristic bearing resistance of the ground to a load across it [Pa].
+    """
+
+    length: float
+    width: float
+    stress: float
+
+    def __post_init__(self) -> None:
+        """Refuse impossible numbers."""
+        require_within("plate length", self.length, 0.05, 5.0, "m")
+        require_within("plate width", self.width, 0.05, 5.0, "m")
+        require_positive("bearing stress", self.stress, "Pa")
+
+
+def find_inclination_factor(plate: BasePlate, tilt: float) -> float:
+    """Share of a plate's resistance under a load that leans, i_gamma; (R6a).
 
     Parameters
     ----------
-    plate_length, plate_width : float
-        Of the plate that lies on the ground [m].
-    bearing_stress : float
-        Characteristic bearing resistance of the ground across the plate [Pa].
+    plate : BasePlate
+        On the ground.
+    tilt : float
+        Force along the slope over that across it, uphill [-].
 
     Returns
     -------
     float
-        Against the post's force, taken across the plate [N].
+        0 where the load leans by 45 degrees and more.
 
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
+    Verified by
+    -----------
+    tests/verification/test_members_by_hand.py
     """
-    require_within("plate length", plate_length, 0.05, 5.0, "m")
-    require_within("plate width", plate_width, 0.05, 5.0, "m")
-    require_positive("bearing stress", bearing_stress, "Pa")
-    return plate_length * plate_width * bearing_stress
+    require_within("tilt of the load", tilt, 0.0, 10.0)
+    ratio = min(plate.length, plate.width) / max(plate.length, plate.width)
+    power = (2.0 + ratio) / (1.0 + ratio)
+    return float(max(0.0, 1.0 - tilt) ** (power + 1.0))
+
+
+def compute_bearing_resistance(plate: BasePlate, tilt: float = 0.0) -> float:
+    """Resistance of the ground under a base plate; resistance/THEORY.md, (R6), (R6a).
+
+    Parameters
+    ----------
+    plate : BasePlate
+        On the ground.
+    tilt : float
+        As that of `find_inclination_factor`; 0 of a load across the plate.
+
+    Returns
+    -------
+    float
+        Against the post's force across the plate [N].
+    """
+    across = plate.length * plate.width * plate.stress
+    return find_inclination_factor(plate, tilt) * across
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

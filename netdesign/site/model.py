@@ -12,7 +12,7 @@ from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
-from netdesign.resistance.post import PostSection
+from netdesign.resistance.post import BasePlate, PostSection
 from netdesign.resistance.steel import Link, Wear
 from netdesign.resistance.wedge import AnchorType
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
@@ -52,7 +52,7 @@ class Resistance(GivenResistance):
 
     member: Member | EndMember | NetPart
     derivation: Message | None = None  # how it follows from dimensions
-    dimensions: AnchorType | PostSection | Link | float | None = None
+    dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown

@@ -34,6 +34,7 @@ from netdesign.site.type_resistances import (
     lacks_inner,
     may_be_rope,
     read_inner,
+    read_plate,
     reduce_breaking,
     reduce_loop,
 )
@@ -284,6 +285,7 @@ def _describe_type(
     return Resistance(
         member=member,
         mode=mode,
+        dimensions=read_plate(kind) if is_derived and mode == "bearing" else None,
         value=value,
         basis="tested" if tests else basis if is_given else "",
         type_id=kind["id"].word,

@@ -19,6 +19,7 @@ from netdesign.resistance.catalogue import (
     load_catalogue,
 )
 from netdesign.resistance.post import (
+    BasePlate,
     BucklingResistance,
     compute_bearing_resistance,
     compute_buckling_resistance,
@@ -464,18 +465,21 @@ def _buckling(row: Row) -> tuple[float, Message]:
     )
 
 
+def read_plate(row: Row) -> BasePlate:
+    """Base plate of a post, all of it given."""
+    return BasePlate(
+        length=row["plate_length"].si,
+        width=row["plate_width"].si,
+        stress=row["bearing_stress"].si,
+    )
+
+
 def _bearing(row: Row) -> tuple[float, Message]:
-    length, width, stress = (
-        row[key] for key in ("plate_length", "plate_width", "bearing_stress")
-    )
-    value = compute_bearing_resistance(
-        plate_length=length.si, plate_width=width.si, bearing_stress=stress.si
-    )
-    return value, say(
+    return compute_bearing_resistance(read_plate(row)), say(
         "derivation.bearing",
-        length=length.number,
-        width=width.number,
-        stress=stress.number,
+        length=row["plate_length"].number,
+        width=row["plate_width"].number,
+        stress=row["bearing_stress"].number,
     )
 
 

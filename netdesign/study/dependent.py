@@ -26,9 +26,7 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum
-from netdesign.resistance.post import (
-    PostSection,
-)
+from netdesign.resistance.post import BasePlate, PostSection
 from netdesign.resistance.steel import (
     BARE,
     SHACKLE,
@@ -55,7 +53,7 @@ from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.member_force import MemberForce
-from netdesign.study.posts import find_post_resistance
+from netdesign.study.posts import find_plate_resistance, find_post_resistance
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
@@ -76,6 +74,8 @@ def find_resistance_for_force(
             return _find_bent_resistance(given, anchor, pull)
         case PostSection() as section:
             return find_post_resistance(given, section, basis, width)
+        case BasePlate() as plate:
+            return find_plate_resistance(given, plate, basis)
         case _:
             return given
 

@@ -1,6 +1,6 @@
-"""Posts of a row: compression beside the snow that presses on them.
+"""Posts of a row: compression beside the snow that presses on them, and the ground.
 
-Theory: resistance/THEORY.md, (R5) and (R10) to (R11b).
+Theory: resistance/THEORY.md, (R5), (R6a) and (R10) to (R11b).
 """
 
 from __future__ import annotations
@@ -25,9 +25,12 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
+    BasePlate,
     PostSection,
+    compute_bearing_resistance,
     compute_bent_post_resistance,
     compute_post_moment,
+    find_inclination_factor,
 )
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.row_position import LoadedWidth
@@ -66,6 +69,32 @@ def find_short_post(given: Resistance, basis: Basis) -> Message | None:
         length=given.buckling_length,
         post=longest,
     )
+
+
+def find_plate_resistance(
+    given: Resistance, plate: BasePlate, basis: Basis
+) -> Resistance:
+    """Bearing resistance of the ground to a post's force, which leans; (R6a).
+
+    Uphill, since the post's head is downslope of its base. A load that leans downhill
+    fails towards the slope's free side: nothing is known of it.
+    """
+    span = basis.site.ranges["inclination"]
+    heads = [place_row(basis.row, one) for one in (span.low, span.high)]
+    tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in heads]
+    if min(tilts) < 0.0:
+        return replace(given, value=None, lack=say("bearing.downhill"))
+    factor = find_inclination_factor(plate, max(tilts))
+    told = say(
+        "bearing.inclined",
+        of=given.derivation or "",
+        factor=factor,
+        tilt=degree_from_radian(math.atan(max(tilts))),
+    )
+    if not factor:
+        return replace(given, value=None, lack=say("bearing.too_far"))
+    value = compute_bearing_resistance(plate, max(tilts))
+    return replace(given, value=value, derivation=told)
 
 
 def find_post_resistance(

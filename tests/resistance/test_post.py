@@ -1,12 +1,14 @@
 """Buckling and bearing against hand calculations and limits."""
 
 import math
+from itertools import pairwise
 
 import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_imperfection
 from netdesign.resistance.post import (
+    BasePlate,
     compute_bearing_resistance,
     compute_buckling_resistance,
 )
@@ -57,10 +59,20 @@ def test_imperfection_grows_from_curve_to_curve(curve, factor):
 
 
 def test_plate_on_ground():
-    found = compute_bearing_resistance(
-        plate_length=0.5, plate_width=0.4, bearing_stress=600e3
-    )
-    assert found == pytest.approx(120e3, rel=1e-15)
+    plate = BasePlate(length=0.5, width=0.4, stress=600e3)
+    assert compute_bearing_resistance(plate) == pytest.approx(120e3, rel=1e-15)
+
+
+def test_a_plate_bears_less_the_more_its_load_leans_without_a_jump():
+    for sides in ((0.5, 0.5), (0.3, 0.9), (0.9, 0.3)):
+        plate = BasePlate(length=sides[0], width=sides[1], stress=600e3)
+        found = [
+            compute_bearing_resistance(plate, 1.2 * step / 400) for step in range(401)
+        ]
+        steps = [one - two for one, two in pairwise(found)]
+        assert min(steps) >= 0.0
+        assert max(steps) < 0.01 * found[0]
+        assert found[-1] == 0.0
 
 
 @pytest.mark.parametrize("length", [0.0, -1.0, math.nan])

@@ -6,11 +6,12 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
+    BasePlate,
     PostSection,
-    compute_bearing_resistance,
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
+    find_inclination_factor,
 )
 from netdesign.resistance.pull_out import (
     PullOutTests,
@@ -41,7 +42,7 @@ BUCKLING = {
     "modulus": 2.1e11,
     "imperfection": 0.49,
 }
-PLATE = {"plate_length": 0.37, "plate_width": 0.29, "bearing_stress": 4.1e5}
+PLATE = {"length": 0.37, "width": 0.29, "stress": 4.1e5}
 BOND = {
     "drill_diameter": 0.09,
     "bond_length": 3.1,
@@ -66,6 +67,10 @@ def bend(**changes):
     return compute_bent_bar_resistance(SECTION, **changes)
 
 
+def lean(**changes):
+    return find_inclination_factor(BasePlate(**PLATE), **changes)
+
+
 def press(**changes):
     return compute_post_moment(PostSection(**POST), **changes)
 
@@ -77,8 +82,9 @@ def bend_post(**changes):
 WITHIN = [
     (compute_buckling_resistance, BUCKLING, "yield_strength", 1e8, 1e9, " Pa"),
     (compute_buckling_resistance, BUCKLING, "imperfection", 0.0, 1.0, ""),
-    (compute_bearing_resistance, PLATE, "plate_length", 0.05, 5.0, " m"),
-    (compute_bearing_resistance, PLATE, "plate_width", 0.05, 5.0, " m"),
+    (BasePlate, PLATE, "length", 0.05, 5.0, " m"),
+    (BasePlate, PLATE, "width", 0.05, 5.0, " m"),
+    (lean, {"tilt": 0.31}, "tilt", 0.0, 10.0, ""),
     (PostSection, POST, "width", 0.01, 1.0, " m"),
     (PostSection, POST, "at_head", 0.0, 1.0, " m"),
     (PostSection, POST, "at_foot", 0.0, 1.0, " m"),
@@ -103,7 +109,7 @@ POSITIVE = [
     (compute_buckling_resistance, BUCKLING, "second_moment", " m4"),
     (compute_buckling_resistance, BUCKLING, "length", " m"),
     (compute_buckling_resistance, BUCKLING, "modulus", " Pa"),
-    (compute_bearing_resistance, PLATE, "bearing_stress", " Pa"),
+    (BasePlate, PLATE, "stress", " Pa"),
     (PostSection, POST, "length", " m"),
     (PostSection, POST, "modulus", " m3"),
     (PostSection, POST, "strength", " Pa"),
@@ -117,6 +123,10 @@ NAMES = {
     (compute_buckling_resistance, "second_moment"): "second moment of area",
     (compute_buckling_resistance, "length"): "buckling length",
     (compute_buckling_resistance, "imperfection"): "imperfection factor",
+    (BasePlate, "length"): "plate length",
+    (BasePlate, "width"): "plate width",
+    (BasePlate, "stress"): "bearing stress",
+    (lean, "tilt"): "tilt of the load",
     (PostSection, "width"): "post width",
     (PostSection, "length"): "buckling length",
     (PostSection, "modulus"): "section modulus",

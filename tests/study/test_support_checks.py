@@ -237,6 +237,34 @@ def test_moment_of_the_snow_that_is_too_much_alone_fails(tmp_path):
     assert "alone is too much" in text
 
 
+@pytest.mark.parametrize(
+    ("tilt", "typed"), [(15.0, None), (10.0, None), (15.0, 210.0), (0.0, None)]
+)
+def test_a_plate_bears_the_load_that_leans_as_the_post_does(tmp_path, tilt, typed):
+    """0.6 x 0.5 m, 900 kPa; m = 2.8333 / 1.8333 = 1.5455: (1 - tan 15)^2.5455 = 0.4521.
+
+    A typed resistance is one to that load already.
+    """
+    post = POST | {"bearing resistance [kN]": typed}
+    for key in ("plate length [m]", "plate width [m]", "bearing stress [kPa]"):
+        if typed:
+            del post[key]
+    found = judge(tmp_path, post=post, **{"post tilt [deg]": tilt})["post_base.bearing"]
+    expected = typed or 270.0 * (1.0 - math.tan(math.radians(tilt))) ** 2.545455
+    assert found.read("R_k") == pytest.approx(expected, rel=1e-6)
+    assert typed or f"a load that leans by {tilt:g}°" in str(
+        found.resistance_derivation
+    )
+
+
+def test_a_plate_under_a_post_that_leans_uphill_is_not_proven(tmp_path):
+    verdict, text = told(
+        judge(tmp_path, **{"post tilt [deg]": -5.0})["post_base.bearing"]
+    )
+    assert verdict is Verdict.NOT_PROVEN
+    assert "leans downhill" in text
+
+
 def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
     tmp_path,
 ):

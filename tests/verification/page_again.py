@@ -285,8 +285,8 @@ def work_out_rope(told):
 
 
 def work_out_bearing(told):
-    length, width, stress = list_numbers(told)[:3]
-    return length * width * stress
+    length, width, stress, factor = list_numbers(told)[:4]
+    return length * width * stress * factor
 
 
 def work_out_buckling(told):
