@@ -253,7 +253,7 @@ def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
     width = row.layout.post_spacing
     pulls = [(one.pull, one.head.error * width if one.head else 0.0) for one in heads]
     return Band(
-        low=max(pull - error for pull, error in pulls),
+        low=max(0.0, *(pull - error for pull, error in pulls)),
         value=max(pull for pull, _ in pulls),
         high=max(pull + error for pull, error in pulls) + hidden,
     )
