@@ -12,6 +12,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,
+    END_ANCHORS,
     END_MODES,
     MEMBER_MODES,
     NET_MODES,
@@ -30,6 +31,7 @@ TURNS = AnchorType(
     drilled=6.0,
     least_cover=0.2,
     least_edge=2.0,
+    across=1e7,
 )
 LASTS = Wear(kind="rope", protected_years=100)
 EYE = Link(kind="eye", breaking=1e8, limit=None, count=1, angle=None, source="Links!C2")
@@ -46,7 +48,7 @@ RANGES = Ranges.of(
 
 def resist(value=STRONG, **special):
     """Resistances of all members; ``special`` maps ``member__mode`` to a value."""
-    return tuple(
+    of_forces = tuple(
         Resistance(
             member=member,
             mode=mode,
@@ -59,6 +61,28 @@ def resist(value=STRONG, **special):
         )
         for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)
     )
+    return (*of_forces, *turn(ANCHORS))
+
+
+def turn(anchors):
+    """Resistances of rope anchors that turn to their pull, with a head of theirs."""
+    return tuple(
+        Resistance(
+            member=one,
+            mode="direction",
+            type_id="T1",
+            source="Anchors!B2",
+            dimensions=TURNS,
+        )
+        for one in anchors
+    )
+
+
+def name_directions(*, has_end=False):
+    """Ids of the checks of directions on a row with an end, in their order."""
+    at_end = [*ANCHORS, *(END_ANCHORS if has_end else ())]
+    names = [f"{one}.direction" for one in ANCHORS]
+    return [*names, *(f"{one}.direction.end" for one in at_end)]
 
 
 def name_force_checks(*, has_ropes=False, has_end=False):

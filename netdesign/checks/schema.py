@@ -41,6 +41,7 @@ CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
+LEAST_DIP = "anchor.dip.min"  # of a bore below the horizontal, so that mortar fills it
 ANCHOR_DISTANCE = "anchor.distance.min"
 # eta of a post where snow glides least, and its growth with the glide factor.
 POST_EFFICIENCY, POST_EFFICIENCY_GROWTH = "post.efficiency", "post.efficiency.per_glide"
@@ -51,7 +52,7 @@ ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design f
 MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
     *("bending", "compression_bending", "sliding", "tension"),
-    *("mesh", "connection", "wedge"),
+    *("mesh", "connection", "wedge", "direction"),
 )
 BASES = ("tested", "computed", "declared")
 BY_REPORT = "report"  # a characteristic value; it has the factor of tests
@@ -73,6 +74,7 @@ LIMIT_UNITS = {
     GROUND_FRICTION: "-",
     SPACING_CAP: "-",
     ROPE_ANGLE: "deg",
+    LEAST_DIP: "deg",
     ANCHOR_DISTANCE: "m",
     DIMENSIONING: "kN/m3",
 }

@@ -1,6 +1,6 @@
 """Anchor in its ground, and what it may pull out with itself: between two planes.
 
-Theory: resistance/THEORY.md, (R18), (R19) and (R30).
+Theory: resistance/THEORY.md, (R18) to (R20) and (R30).
 """
 
 from __future__ import annotations
@@ -182,6 +182,63 @@ def compute_slab_stability(soil: Soil, depth: float, slope: float) -> float:
     return held / driving if driving else math.inf
 
 
+def compute_cone_resistance(
+    soil: Soil, *, depth: float, slope: float, pull: tuple[float, float, float]
+) -> WedgeResistance:
+    """Least pull that lifts a cone of the ground out of which a single anchor is drawn.
+
+    Its apex is the bond's middle, it opens by the friction angle about the way that it
+    moves, which may turn to any side; resistance/THEORY.md, (R20).
+
+    Parameters
+    ----------
+    soil : Soil
+        With its design strength.
+    depth : float
+        Of the bond's middle, normal to the slope [m].
+    slope : float
+        Of the surface [rad].
+    pull : tuple of float, shape (3,)
+        Its direction: downslope, out of the ground, along the slope; of length 1.
+
+    Returns
+    -------
+    WedgeResistance
+        Its plane is the flattest line of the cone.
+
+    Raises
+    ------
+    ModelError
+        If the depth is not above 0.
+
+    Verified by
+    -----------
+    tests/verification/test_wedge.py
+    """
+    require_positive("depth of the bond", depth, "m")
+    phi = soil.friction
+    rises = np.linspace(phi + _LEAST, 0.5 * math.pi, _NARROWINGS * _PLANES)
+    flat, steep = np.cos(rises), np.sin(rises)
+    front, rear = np.sin(rises - phi), np.sin(rises + phi)
+    half = depth * math.sin(phi) / np.sqrt(front * rear)  # width of its mouth
+    area = 0.5 * depth**2 * math.sin(2.0 * phi) / (front * rear)
+    lengths = depth / front + depth / rear
+    size = math.pi / 3.0 * half * area
+    held = 0.5 * math.pi * half * soil.cohesion * math.cos(phi) * lengths
+    held += size * (soil.weight - soil.uplift) * math.cos(slope) * steep
+    slides = size * soil.weight * math.sin(slope) * flat  # as it moves straight down
+    along, out, aside = pull[0] * flat, pull[1] * steep, pull[2] * flat
+    working = held * out + slides * along
+    root = working**2 - (out**2 - along**2 - aside**2) * (held**2 - slides**2)
+    divisor = working + np.sqrt(np.maximum(root, 0.0))
+    pulls = np.full_like(rises, math.inf)
+    np.divide(held**2 - slides**2, divisor, out=pulls, where=divisor > 0.0)
+    pulls[held <= slides] = 0.0
+    weakest = int(np.argmin(pulls))
+    plane = float(rises[weakest]) - phi
+    return WedgeResistance(value=float(pulls[weakest]), plane=plane)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorType:
     """What an anchor is, beside its resistances along its axis.
@@ -201,6 +258,9 @@ class AnchorType:
         The section is that of a tube at the head.
     drilled, bond : float or None
         Lengths from the ground's surface, and of the bond at its end [m].
+    across : float or None
+        Resistance of a block or tube at its head to a force across the axis [N]; None
+        where none is given.
     least_cover, least_edge : float or None
         As the geotechnical engineer asks of the ground around the bond [m].
     soil : Soil or None
@@ -212,6 +272,7 @@ class AnchorType:
     lever: float | None
     ground_lever: float = 0.0
     has_tube: bool = False
+    across: float | None = None
     drilled: float | None = None
     bond: float | None = None
     least_cover: float | None = None

@@ -31,6 +31,7 @@ from netdesign.site.tables import read_rows
 from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,
+    END_ANCHORS,
     END_MODES,
     LIFTED_MODE,
     MEMBER_MODES,
@@ -158,7 +159,7 @@ _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 _OF_DIRECTIONS = (
     *(
         (anchor, mode)
-        for anchor in _ANCHORS
+        for anchor in (*_ANCHORS, *END_ANCHORS)
         for mode in ("bending", "wedge", "direction")
     ),
     (Member.POST, "lateral"),

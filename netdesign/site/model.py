@@ -55,6 +55,7 @@ class Resistance(GivenResistance):
     dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
+    flattest_test: float | None = None  # dip of the flattest bore that was tested [rad]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
     # told where what is assumed for it decides: between value and best, without a best
@@ -88,7 +89,9 @@ class RowEnd:
         Of the lateral anchor from the foot anchor [m], and its inclination against the
         slope [rad]; None where none is given.
     resistances : tuple of Resistance
-        Of all ``END_MODES``, given or not.
+        Of all ``END_MODES``, given or not, and what follows the demand.
+    anchors : tuple of (EndMember, AnchorType)
+        Those that have a type.
     """
 
     guy_angle: float | None
@@ -97,6 +100,7 @@ class RowEnd:
     lateral_distance: float | None = None
     lateral_axis: float | None = None
     resistances: tuple[Resistance, ...]
+    anchors: tuple[tuple[EndMember, AnchorType], ...] = ()
 
     @property
     def guy(self) -> EndGuy | None:
@@ -105,15 +109,9 @@ class RowEnd:
             return None
         return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
 
-    def list_unsaid_places(self) -> tuple[Message, ...]:
-        """Names of what is not given of the places of its anchors."""
-        said = {
-            "lateral_distance": self.lateral_distance,
-            "lateral_axis": self.lateral_axis,
-            "end_guy_angle": self.guy_angle,
-        }
-        lacking = (key for key, value in said.items() if value is None)
-        return tuple(_name_column(f"Ends.{key}") for key in lacking)
+    def find_anchor_type(self, anchor: str) -> AnchorType | None:
+        """What one of its anchors is; None where its type is not given."""
+        return next((kind for one, kind in self.anchors if one == anchor), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,16 +199,35 @@ class NetRow:
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
 
-    def find_axis(self, anchor: Member) -> float | None:
+    def find_axis(self, anchor: str) -> float | None:
         """Given inclination of an anchor's axis [rad]."""
-        return dict(self.axes).get(anchor)
+        if anchor == EndMember.LATERAL_ANCHOR:
+            return self.row_end.lateral_axis if self.row_end else None
+        return next((axis for one, axis in self.axes if one == anchor), None)
+
+    def list_unsaid_places(self) -> tuple[Message, ...]:
+        """Names of what is not given of the places of its end's anchors."""
+        end = self.row_end
+        if end is None:
+            return ()
+        axis = 0.0 if self.drills_along_pull else end.lateral_axis
+        said = {
+            "lateral_distance": end.lateral_distance,
+            "lateral_axis": axis,
+            "end_guy_angle": end.guy_angle,
+        }
+        lacking = (key for key, value in said.items() if value is None)
+        return tuple(_name_column(f"Ends.{key}") for key in lacking)
 
     def find_anchor_type(
-        self, anchor: Member, position: Position = "intermediate"
+        self, anchor: str, position: Position = "intermediate"
     ) -> AnchorType | None:
         """What an anchor is; None where its type is not given."""
+        if self.row_end is not None and anchor in tuple(EndMember):
+            return self.row_end.find_anchor_type(anchor)
         at_end = position == "edge" and self.end_anchors is not None
-        return dict(self.end_anchors or () if at_end else self.anchors).get(anchor)
+        known = self.end_anchors or () if at_end else self.anchors
+        return next((kind for one, kind in known if one == anchor), None)
 
     def list_unsaid_grounds(self, given: Resistance) -> tuple[Message, ...]:
         """Names of the grounds that nobody gives, of row and type of a pull-out.
@@ -223,14 +240,13 @@ class NetRow:
         names = {say("column.Nets.ground"): self.ground_type, of_type: given.ground}
         return tuple(name for name, word in names.items() if not word)
 
-    def list_unsaid_cover(
-        self, anchor: Member, position: Position
-    ) -> tuple[Message, ...]:
+    def list_unsaid_cover(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Names of what is not given of the ground around an anchor."""
         kind = self.find_anchor_type(anchor, position)
+        sheet = "Ends" if anchor in tuple(EndMember) else "Nets"
         said: dict[str, float | None] = {
             "Nets.edge_distance": self.edge_distance,
-            f"Nets.{anchor}": 1.0 if kind else None,
+            f"{sheet}.{anchor}": 1.0 if kind else None,
         }
         if kind is not None:
             said |= {
@@ -240,9 +256,7 @@ class NetRow:
             }
         return tuple(_name_column(key) for key, value in said.items() if not value)
 
-    def list_unsaid_bore(
-        self, anchor: Member, position: Position
-    ) -> tuple[Message, ...]:
+    def list_unsaid_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Name of an anchor's drilled length, where nobody gives it."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None

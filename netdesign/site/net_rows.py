@@ -238,7 +238,6 @@ def _compose_net_row(
     thickness, layers, ground = snow
     gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
     has_end = gap is None or gap > 0.0
-    has_ropes = row["panel_system"].word != "none"
     at_end = replace_types(row, end) if has_end else row
     is_other = has_end and not has_same_types(at_end, row)
     return NetRow(
@@ -271,7 +270,7 @@ def _compose_net_row(
         anchors=read_anchor_types(row, types),
         panels=build_panels(row, types["Ropes"]),
         panel_assumed=list_assumed(row, types["Ropes"]),
-        row_end=build_row_end(end, types) if has_end and has_ropes else None,
+        row_end=build_row_end(row, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
         panel_lack=explain_panel_lack(row),
         unsaid=list_unsaid(row),

@@ -7,8 +7,10 @@ slides on what presses it. Here stand the dimensions that the study works it out
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
+from typing import TypeVar
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import PostSection
@@ -39,6 +41,7 @@ from netdesign.site.type_resistances import (
     reduce_loop,
 )
 from netdesign.structure.members import (
+    END_ANCHORS,
     END_MODES,
     LIFTED_MODE,
     MEMBER_MODES,
@@ -57,6 +60,8 @@ _AXES = {
     Member.DOWNHILL_ANCHOR: "downhill_axis",
 }
 TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
+_BENDING = ("bar", "micropile")  # kinds of anchors that bend; others turn to the pull
+AnyMember = TypeVar("AnyMember", Member, EndMember)
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
@@ -84,12 +89,19 @@ def read_axes(row: Row) -> tuple[tuple[Member, float], ...]:
 
 def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType], ...]:
     """Kind and steel of each anchor whose type is in its sheet."""
+    ground = row["ground"].word
+    return tuple(_read_anchors(row, tuple(_AXES), types, ground).items())
+
+
+def _read_anchors(
+    row: Row, members: Sequence[AnyMember], types: Types, ground: str
+) -> dict[AnyMember, AnchorType]:
     lines = types["Anchors"]
-    return tuple(
-        (member, _read_anchor(lines[row[member].word], row["ground"].word))
-        for member in _AXES
+    return {
+        member: _read_anchor(lines[row[member].word], ground)
+        for member in members
         if row[member].word in lines
-    )
+    }
 
 
 def _read_anchor(line: Row, ground: str = "") -> AnchorType:
@@ -104,6 +116,7 @@ def _read_anchor(line: Row, ground: str = "") -> AnchorType:
         lever=line["lever_arm"].given_si,
         ground_lever=_yield_at_mouth(section, line, ground) if section else 0.0,
         has_tube=has_tube,
+        across=line["head_across"].given_si,
         drilled=line["drilled_length"].given_si,
         bond=line["bond_length"].given_si,
         least_cover=line["least_cover"].given_si,
@@ -165,22 +178,34 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     """
     anchors, post = dict(read_anchor_types(row, types)), row[Member.POST]
     line = types["Posts"].get(post.word)
-    bent = (_bend_anchor(row[one], one, anchors.get(one), types) for one in _AXES)
     return (
         *(
             _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
             for member, mode in MEMBER_MODES
         ),
-        *(one for one in bent if one is not None),
-        *(
-            _hold_by_ground(row[one], one, kind, types)
-            for one, kind in anchors.items()
-            if kind.soil
-        ),
+        *_list_beside_axis(row, tuple(_AXES), anchors, types),
         _bend_post(post, line),
         _slide(post, line),
         _hold_foot(post, line),
     )
+
+
+def _list_beside_axis(
+    row: Row,
+    members: Sequence[AnyMember],
+    anchors: Mapping[AnyMember, AnchorType],
+    types: Types,
+) -> Iterator[Resistance]:
+    """Resistances of anchors that follow how they are pulled, and of their ground."""
+    bent = (_bend_anchor(row[one], one, anchors.get(one), types) for one in members)
+    yield from (one for one in bent if one is not None)
+    for one, kind in anchors.items():
+        if kind.soil:
+            yield _hold_by_ground(row[one], one, kind, types)
+    for one in members:
+        of_one = anchors.get(one)
+        if of_one is None or of_one.kind not in _BENDING:
+            yield _open(row[one], one, "direction", of_one)
 
 
 def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
@@ -192,21 +217,35 @@ def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     )
 
 
-def build_row_end(end: Row | None, types: Types) -> RowEnd:
-    """Members that hold a row along itself, all of them, given or not."""
-    lack = say("row_end.no_members")
+def build_row_end(row: Row, end: Row | None, types: Types) -> RowEnd | None:
+    """Members that hold a row along itself, all of them, given or not.
+
+    None of a row without ropes between its posts.
+    """
+    if row["panel_system"].word == "none":
+        return None
+    if end is None:
+        lack = say("row_end.no_members")
+        beside = product(END_ANCHORS, ("bending", "direction"))
+        return RowEnd(
+            guy_angle=None,
+            resistances=tuple(
+                Resistance(member=member, mode=mode, source="Ends", lack=lack)
+                for member, mode in (*END_MODES, *beside)
+            ),
+        )
+    anchors = _read_anchors(end, END_ANCHORS, types, row["ground"].word)
     return RowEnd(
-        guy_angle=end["end_guy_angle"].given_si if end else None,
-        guy_from_base=end["end_guy_place"].given_si if end else None,
-        ropes_slide=end is not None and end["ropes_at_supports"].word == "slide",
-        lateral_distance=end["lateral_distance"].given_si if end else None,
-        lateral_axis=end["lateral_axis"].given_si if end else None,
-        resistances=tuple(
-            _find_resistance(end[member], mode, member, types)
-            if end
-            else Resistance(member=member, mode=mode, source="Ends", lack=lack)
-            for member, mode in END_MODES
+        guy_angle=end["end_guy_angle"].given_si,
+        guy_from_base=end["end_guy_place"].given_si,
+        ropes_slide=end["ropes_at_supports"].word == "slide",
+        lateral_distance=end["lateral_distance"].given_si,
+        lateral_axis=end["lateral_axis"].given_si,
+        resistances=(
+            *(_find_resistance(end[one], mode, one, types) for one, mode in END_MODES),
+            *_list_beside_axis(end, END_ANCHORS, anchors, types),
         ),
+        anchors=tuple(anchors.items()),
     )
 
 
@@ -262,8 +301,7 @@ def _describe_type(
     is_derived = is_given and resistance.derivation is not None
     # A pull-out resistance says how it is known; the others are makers' values.
     basis = kind["basis"].word if mode == "pull_out" else "declared"
-    if is_derived:
-        basis = "computed"
+    basis = "computed" if is_derived else basis
     is_strut = is_derived and mode == "compression"
     value = resistance.si if is_given and not tests else None
     derivation = resistance.derivation if is_given else None
@@ -295,6 +333,7 @@ def _describe_type(
         lack=say(key, id=kind["id"].word) if key else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
         drilled_length=kind["drilled_length"].given_si if is_anchor else None,
+        flattest_test=kind["tested_dip"].given_si if is_anchor else None,
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
@@ -337,7 +376,7 @@ def _find_sleeve(word: str) -> str:
 
 
 def _bend_anchor(
-    named: Reading, member: Member, anchor: AnchorType | None, types: Types
+    named: Reading, member: Member | EndMember, anchor: AnchorType | None, types: Types
 ) -> Resistance | None:
     """Resistance of an anchor to bending; None of a rope anchor, which turns."""
     if anchor is None:
@@ -356,7 +395,7 @@ def _bend_anchor(
 
 
 def _hold_by_ground(
-    named: Reading, member: Member, anchor: AnchorType, types: Types
+    named: Reading, member: Member | EndMember, anchor: AnchorType, types: Types
 ) -> Resistance:
     """Resistance of the ground that an anchor may pull out with itself."""
     place = types["Anchors"][named.word]["soil_cohesion"].place
@@ -365,7 +404,7 @@ def _hold_by_ground(
 
 def _open(
     named: Reading,
-    member: Member,
+    member: Member | EndMember,
     mode: str,
     dimensions: AnchorType | PostSection | float | None = None,
     lack: Message | None = None,

@@ -50,7 +50,7 @@ class PullRange:
 
     @property
     def mean(self) -> float:
-        """Middle of the two, the axis of an anchor that has none given [rad]."""
+        """Middle of the two [rad]."""
         return 0.5 * (self.least + self.largest)
 
     def find_largest_angle(self, axis: float) -> float:
@@ -86,30 +86,6 @@ def measure_pull(x: Number, y: Number, anchor: str) -> Number:
     """
     facing = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
     return measure_turn(facing * x, y)
-
-
-def find_dip(axis: float, slope: float, anchor: str) -> float:
-    """Dip of an anchor below the horizontal; structure/THEORY.md, eq. (S14a).
-
-    Parameters
-    ----------
-    axis : float
-        As `measure_pull` counts it [rad].
-    slope : float
-        Slope angle [rad].
-    anchor : str
-        Which of the three it is.
-
-    Returns
-    -------
-    float
-        Negative of a borehole that rises from its mouth [rad].
-
-    Verified by
-    -----------
-    tests/verification/test_anchor_dip.py
-    """
-    return axis + slope if anchor == Member.DOWNHILL_ANCHOR else axis - slope
 
 
 def turn_by_splay(inclination: float, splay: float) -> float:

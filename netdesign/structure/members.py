@@ -123,16 +123,17 @@ END_MODES: tuple[tuple[EndMember, str], ...] = (
     (EndMember.END_GUY_ANCHOR, "tendon"),
     (EndMember.END_GUY_ANCHOR, "pull_out"),
 )
+END_ANCHORS = (EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR)
 # Members whose chain of links is checked, and the anchor that pulls at its end.
-CONNECTED: Mapping[str, Member | None] = {
+CONNECTED: Mapping[str, Member | EndMember | None] = {
     Member.FOOT_ANCHOR: Member.FOOT_ANCHOR,
     Member.UPHILL_GUY: Member.UPHILL_ANCHOR,
     Member.UPHILL_ANCHOR: Member.UPHILL_ANCHOR,
     Member.DOWNHILL_GUY: Member.DOWNHILL_ANCHOR,
     Member.DOWNHILL_ANCHOR: Member.DOWNHILL_ANCHOR,
-    EndMember.LATERAL_ANCHOR: None,
-    EndMember.END_GUY: None,
-    EndMember.END_GUY_ANCHOR: None,
+    EndMember.LATERAL_ANCHOR: EndMember.LATERAL_ANCHOR,
+    EndMember.END_GUY: EndMember.END_GUY_ANCHOR,
+    EndMember.END_GUY_ANCHOR: EndMember.END_GUY_ANCHOR,
     NetPart.RIDGE_ROPE: None,
     NetPart.LOWER_ROPE: None,
 }

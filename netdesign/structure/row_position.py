@@ -9,6 +9,8 @@ from itertools import combinations, product
 from typing import Literal
 
 from netdesign.outcome import require_positive, require_within
+from netdesign.structure.members import EndMember, Member
+from netdesign.structure.splay import Place
 
 Position = Literal["intermediate", "edge"]
 
@@ -165,8 +167,6 @@ def list_supports(
     return (inside,) if edge is None else (inside, edge)
 
 
-Place = tuple[float, float, float]
-
 _LONG = 60.0  # of an anchor whose length is not given [m]
 
 
@@ -274,4 +274,112 @@ def _go(bore: Bore, way: float, length: float) -> Place:
         start + min(max(way, 0.0), length) * slope
         for start, slope in zip(bore.start, bore.direction, strict=True)
     )
+    return x, y, z
+
+
+def find_dip(axis: float, slope: float, anchor: str) -> float:
+    """Dip of an anchor below the horizontal; structure/THEORY.md, eq. (S14a).
+
+    Parameters
+    ----------
+    axis : float
+        As `measure_pull` counts it; of a lateral anchor from the row's line [rad].
+    slope : float
+        Slope angle [rad].
+    anchor : str
+        Which anchor it is.
+
+    Returns
+    -------
+    float
+        Negative of a borehole that rises from its mouth [rad].
+
+    Verified by
+    -----------
+    tests/verification/test_anchor_dip.py
+    """
+    if anchor == EndMember.LATERAL_ANCHOR:
+        return math.asin(math.sin(axis) * math.cos(slope))
+    if anchor != Member.DOWNHILL_ANCHOR:
+        return axis - slope
+    dip = axis + slope
+    return min(dip, math.pi - dip)  # one beyond the vertical leans upslope
+
+
+def find_axis_at_dip(dip: float, slope: float, anchor: str) -> float:
+    """Axis of a bore with a dip below the horizontal, as `find_dip` has it [rad].
+
+    The flattest axis of a lateral anchor on a slope too steep for any: straight down.
+
+    Parameters
+    ----------
+    dip : float
+        Below the horizontal [rad].
+    slope, anchor : float, str
+        As there.
+
+    Verified by
+    -----------
+    tests/verification/test_anchor_dip.py
+    """
+    if anchor == EndMember.LATERAL_ANCHOR:
+        return math.asin(min(1.0, math.sin(dip) / math.cos(slope)))
+    return dip - slope if anchor == Member.DOWNHILL_ANCHOR else dip + slope
+
+
+def measure_fall(way: Place, slope: float) -> float:
+    """Sine of the dip of a bore below the horizontal; structure/THEORY.md, (S14c).
+
+    Parameters
+    ----------
+    way : tuple of float, shape (3,)
+        Into the ground, of length 1: downslope, normal to the slope, along the row.
+    slope : float
+        Slope angle [rad].
+    """
+    return way[0] * math.sin(slope) - way[1] * math.cos(slope)
+
+
+def measure_angle(one: Place, other: Place) -> float:
+    """Angle between two directions of length 1 [rad]."""
+    return 2.0 * math.asin(min(1.0, 0.5 * math.dist(one, other)))
+
+
+def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
+    """Middle of some ways into the ground, turned down where its bore is too flat.
+
+    Theory: structure/THEORY.md, eq. (S14c).
+
+    Parameters
+    ----------
+    ways : sequence of tuple of float, shape (3,)
+        As `measure_fall` has them, less than a right angle apart.
+    slope : float
+        Slope angle [rad].
+    dip : float
+        That the bore has at least [rad].
+
+    Returns
+    -------
+    tuple of float, shape (3,)
+        Of length 1.
+
+    Verified by
+    -----------
+    tests/verification/test_anchor_dip.py
+    """
+    mean = _shorten([sum(parts) for parts in zip(*ways, strict=True)])
+    fall = measure_fall(mean, slope)
+    if fall >= math.sin(dip):
+        return mean
+    down = (math.sin(slope), -math.cos(slope), 0.0)
+    level = _shorten([a - fall * b for a, b in zip(mean, down, strict=True)])
+    flat, steep = math.cos(dip), math.sin(dip)
+    return _shorten([flat * a + steep * b for a, b in zip(level, down, strict=True)])
+
+
+def _shorten(way: Sequence[float]) -> Place:
+    """The same of length 1."""
+    length = math.hypot(*way)
+    x, y, z = (one / length for one in way)
     return x, y, z

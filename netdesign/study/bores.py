@@ -1,4 +1,4 @@
-"""Anchors of a row in the ground, and how near they come to each other."""
+"""Anchors of a row in the ground, how near they come, and what ground they lift."""
 
 from __future__ import annotations
 
@@ -8,24 +8,33 @@ from dataclasses import replace
 from itertools import chain, product
 
 from netdesign.checks import Check, OpenKind
-from netdesign.checks.comparison import compare, leave_open
-from netdesign.checks.schema import ANCHOR_DISTANCE
+from netdesign.checks.comparison import compare, lack_factor, leave_open
+from netdesign.checks.schema import ANCHOR_DISTANCE, SOIL_COHESION, SOIL_FRICTION
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow
+from netdesign.resistance.wedge import (
+    AnchorType,
+    Soil,
+    WedgeResistance,
+    compute_cone_resistance,
+    compute_slab_stability,
+    compute_wedge_resistance,
+)
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Bore,
     find_distance_to_row_above,
     find_least_distance,
     measure_distance,
 )
-from netdesign.structure.splay import EndGuy
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
+from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
@@ -107,16 +116,16 @@ def place_end_anchors(
                 x, y, z = bore.start
                 yield anchor, replace(bore, start=(x, y, -z))
     end = row.row_end
-    if end is None or end.lateral_distance is None or end.lateral_axis is None:
+    if end is None or end.lateral_distance is None:
         return
-    drilled = {one.member: one.drilled_length for one in end.resistances}
-    guy, axis = end.guy or EndGuy(angle=0.0), end.lateral_axis
-    sideways = (0.0, -math.sin(axis), -math.cos(axis))
-    for member, start, way in (
-        (EndMember.LATERAL_ANCHOR, (0.0, 0.0, -end.lateral_distance), sideways),
-        (EndMember.END_GUY_ANCHOR, guy.find_anchor(points), guy.find_way(points)),
-    ):
-        yield member, Bore(start=start, direction=way, length=drilled.get(member))
+    starts = {EndMember.LATERAL_ANCHOR: (0.0, 0.0, -end.lateral_distance)}
+    if end.guy is not None:
+        starts[EndMember.END_GUY_ANCHOR] = end.guy.find_anchor(points)
+    for one, start in starts.items():
+        pull, kind = find_pull(pulls, one, "edge"), end.find_anchor_type(one)
+        if pull is not None:
+            length = kind.drilled if kind else None
+            yield one, Bore(start=start, direction=pull.way, length=length)
 
 
 def check_cover(known: RowForces, gap: Message | None) -> Check | None:
@@ -160,9 +169,9 @@ def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
 
 
 def _find_lack(row: NetRow, pulls: Sequence[PullRecord]) -> Message | None:
-    if any(not one.is_axis_known for one in pulls):
+    if any(not x.is_axis_known for x in pulls if x.anchor in tuple(Member)):
         return say("bending.no_axis")
-    names = row.row_end.list_unsaid_places() if row.row_end else ()
+    names = row.list_unsaid_places()
     of_end = say("check.unsaid", names=names) if names else None
     return lack_sharing(row.guys) or of_end
 
@@ -220,3 +229,87 @@ def _spread(
         turned = math.atan2(aside, abs(reach))
         yield aside, turned
         yield -aside, -turned
+
+
+def find_ground_resistance(
+    given: Resistance,
+    anchor: AnchorType,
+    soil: Soil,
+    basis: Basis,
+    pull: PullRecord | None,
+) -> Resistance:
+    """Resistance of the weakest wedge of ground in front of an anchor's bond.
+
+    Theory: resistance/THEORY.md, (R18) to (R20) and (R30).
+    """
+    row, standard = basis.row, basis.standard
+    factors = [standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
+    for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
+        if factor is None:
+            return replace(given, lack=lack_factor(key))
+    on_cohesion, on_friction = (one.value for one in factors if one)
+    if pull is None:
+        return given
+    if not pull.is_axis_known:
+        return replace(given, lack=say("bending.no_axis"))
+    depths = anchor.list_depths(pull.axis)
+    if not depths:
+        names = row.list_unsaid_bore(pull.anchor, pull.position)
+        return replace(given, lack=say("check.unsaid", names=names))
+    if not min(depths) > 0.0:
+        return replace(given, lack=say("wedge.no_depth"))
+    reduced = soil.reduce(on_cohesion, on_friction)
+    told: dict[str, float | Message] = {
+        "cohesion": soil.cohesion / 1e3,
+        "friction": degree_from_radian(soil.friction),
+        "weight": soil.weight / 1e3,
+        "on_cohesion": on_cohesion,
+        "on_friction": on_friction,
+        "water": say("wedge.drained" if soil.is_drained else "wedge.seepage"),
+    }
+    stability = compute_slab_stability(reduced, max(depths), row.slope_angle)
+    if stability < 1.0:
+        told |= {"depth": max(depths), "stability": stability}
+        return replace(given, lack=say("wedge.slab", **told))
+    width = _find_ground_width(row, pull)
+    found = {one: _lift_ground(reduced, basis, pull, one, width) for one in depths}
+    depth = min(found, key=lambda one: found[one].value)
+    plane = degree_from_radian(found[depth].plane)
+    told |= {"depth": depth, "width": width, "plane": plane}
+    key = "wedge.lifts_cone" if pull.anchor in END_ANCHORS else "wedge.lifts"
+    return replace(given, value=found[depth].value, derivation=say(key, **told))
+
+
+def _lift_ground(
+    soil: Soil, basis: Basis, pull: PullRecord, depth: float, width: float
+) -> WedgeResistance:
+    """Wedge that an anchor lifts, or the cone about one that has no neighbours."""
+    row, span = basis.row, basis.site.ranges["inclination"]
+    slope, guy = row.slope_angle, row.row_end.guy if row.row_end else None
+    if pull.anchor not in END_ANCHORS:
+        return compute_wedge_resistance(
+            soil,
+            depth=depth,
+            width=width,
+            slope=-slope if pull.anchor == Member.DOWNHILL_ANCHOR else slope,
+            least_pull=pull.pulls.least,
+            largest_pull=pull.pulls.largest,
+        )
+    ways = [(0.0, 0.0, -1.0)]  # of the lower rope
+    if pull.anchor == EndMember.END_GUY_ANCHOR and guy is not None:
+        ways = [guy.find_way(place_row(row, one)) for one in (span.low, span.high)]
+    pulls = [(-x, -y, -z) for x, y, z in ways]
+    found = (
+        compute_cone_resistance(soil, depth=depth, slope=slope, pull=one)
+        for one in pulls
+    )
+    return min(found, key=lambda one: one.value)
+
+
+def _find_ground_width(row: NetRow, pull: PullRecord) -> float:
+    """Width of ground that one anchor has along the row [m]."""
+    if pull.anchor == Member.FOOT_ANCHOR:
+        is_doubled = any(one.has_mid_anchors for one in row.panels)
+    else:
+        is_doubled = row.guys.count > 1 and not row.guys.are_shared
+    return row.layout.post_spacing / (2.0 if is_doubled else 1.0)

@@ -2,28 +2,21 @@
 
 Of anchors, their ground, posts and their bases; of steel at the end of the design life;
 of the links between a rope and its anchor. Theory: resistance/THEORY.md, (R7) to (R12),
-(R18), (R19) and (R30).
+(R18) to (R20) and (R30).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.quantity import given as quantity
 from netdesign.checks import Standard
-from netdesign.checks.comparison import (
-    find_action_factor,
-    find_resistance,
-    lack_factor,
-)
+from netdesign.checks.comparison import find_action_factor, find_resistance
 from netdesign.checks.forces import resist_by_friction
-from netdesign.checks.schema import (
-    SOIL_COHESION,
-    SOIL_FRICTION,
-)
+from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum
 from netdesign.resistance.post import BasePlate, PostSection
@@ -42,16 +35,10 @@ from netdesign.resistance.steel import (
     leave_area,
     resist_link,
 )
-from netdesign.resistance.wedge import (
-    AnchorType,
-    Soil,
-    WedgeResistance,
-    compute_slab_stability,
-    compute_wedge_resistance,
-)
-from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.members import Member
+from netdesign.resistance.wedge import AnchorType, Soil
+from netdesign.site.model import Resistance
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.bores import find_ground_resistance
 from netdesign.study.member_force import MemberForce
 from netdesign.study.posts import find_plate_resistance, find_post_resistance
 from netdesign.study.row_to_check import Basis
@@ -64,12 +51,21 @@ _LARGEST_ANGLE = math.radians(89.0)
 
 
 def find_resistance_for_force(
-    given: Resistance, basis: Basis, pull: PullRecord | None, width: LoadedWidth
+    given: Resistance,
+    basis: Basis,
+    pull: PullRecord | None,
+    width: LoadedWidth,
+    force: Quantity,
 ) -> Resistance:
-    """Resistance with the value that row, profile and pull give it; others as is."""
+    """Resistance with the value that row, profile and pull give it; others as is.
+
+    ``force`` is the characteristic one [kN].
+    """
+    if given.mode == "direction":
+        return _find_head_resistance(given, basis.standard, pull, force)
     match given.dimensions:
         case AnchorType(soil=Soil() as soil) as anchor if given.mode == "wedge":
-            return _find_ground_resistance(given, anchor, soil, basis, pull)
+            return find_ground_resistance(given, anchor, soil, basis, pull)
         case AnchorType() as anchor:
             return _find_bent_resistance(given, anchor, pull)
         case PostSection() as section:
@@ -111,6 +107,36 @@ def _find_bent_resistance(
     return replace(given, value=worst.value, derivation=told)
 
 
+def _find_head_resistance(
+    given: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
+) -> Resistance:
+    """Resistance to the pull of what takes the force across the axis at its head.
+
+    Theory: resistance/THEORY.md, (R9c).
+    """
+    if pull is None:
+        return given
+    if not pull.is_axis_known:
+        return replace(given, lack=say("bending.no_axis"))
+    limit = standard.find(ROPE_ANGLE)
+    told = {"angle": pull.angle_deg, "most": limit.value if limit else 0.0}
+    if pull.angle > _LARGEST_ANGLE:
+        return replace(given, lack=say("direction.rope_beyond", **told))
+    across, anchor = math.sin(pull.angle), given.dimensions
+    holds = anchor.across if isinstance(anchor, AnchorType) else None
+    if holds is None:
+        factor = find_action_factor(standard).value or 1.0
+        told |= {"force": factor * across * (force.high or 0.0)}
+        return replace(given, lack=say("direction.no_head", **told))
+    told |= {"across": kilonewton_from_newton(holds)}
+    return replace(
+        given,
+        value=holds / across,
+        basis="declared",
+        derivation=say("direction.by_head", **told),
+    )
+
+
 def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:
     """Angle up to the largest at which axial force and bending use most [rad]."""
     bending = lever * section.axial_resistance / section.moment_resistance
@@ -130,79 +156,6 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
         moment=kilonewton_from_newton(section.moment_resistance),
         shear=kilonewton_from_newton(section.shear_resistance),
     )
-
-
-def _find_ground_resistance(
-    given: Resistance,
-    anchor: AnchorType,
-    soil: Soil,
-    basis: Basis,
-    pull: PullRecord | None,
-) -> Resistance:
-    """Resistance of the weakest wedge of ground in front of an anchor's bond."""
-    row, standard = basis.row, basis.standard
-    factors = [standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
-    for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
-        if factor is None:
-            return replace(given, lack=lack_factor(key))
-    on_cohesion, on_friction = (one.value for one in factors if one)
-    if pull is None:
-        return given
-    if not pull.is_axis_known:
-        return replace(given, lack=say("bending.no_axis"))
-    depths, width = anchor.list_depths(pull.axis), _find_ground_width(row, pull)
-    if not depths:
-        names = row.list_unsaid_bore(pull.anchor, pull.position)
-        return replace(given, lack=say("check.unsaid", names=names))
-    if not min(depths) > 0.0:
-        return replace(given, lack=say("wedge.no_depth"))
-    reduced = soil.reduce(on_cohesion, on_friction)
-    depth, wedge = _find_weakest_wedge(reduced, row, pull, depths, width)
-    told: dict[str, float | Message] = {
-        "depth": depth,
-        "width": width,
-        "plane": degree_from_radian(wedge.plane),
-        "cohesion": soil.cohesion / 1e3,
-        "friction": degree_from_radian(soil.friction),
-        "weight": soil.weight / 1e3,
-        "on_cohesion": on_cohesion,
-        "on_friction": on_friction,
-        "water": say("wedge.drained" if soil.is_drained else "wedge.seepage"),
-    }
-    stability = compute_slab_stability(reduced, max(depths), row.slope_angle)
-    if stability < 1.0:
-        told |= {"depth": max(depths), "stability": stability}
-        return replace(given, lack=say("wedge.slab", **told))
-    return replace(given, value=wedge.value, derivation=say("wedge.lifts", **told))
-
-
-def _find_weakest_wedge(
-    soil: Soil, row: NetRow, pull: PullRecord, depths: Sequence[float], width: float
-) -> tuple[float, WedgeResistance]:
-    """Depth of a bond's middle that resists least, and its wedge."""
-    is_pulled_up = pull.anchor == Member.DOWNHILL_ANCHOR
-    found = {
-        depth: compute_wedge_resistance(
-            soil,
-            depth=depth,
-            width=width,
-            slope=-row.slope_angle if is_pulled_up else row.slope_angle,
-            least_pull=pull.pulls.least,
-            largest_pull=pull.pulls.largest,
-        )
-        for depth in depths
-    }
-    depth = min(found, key=lambda one: found[one].value)
-    return depth, found[depth]
-
-
-def _find_ground_width(row: NetRow, pull: PullRecord) -> float:
-    """Width of ground that one anchor has along the row [m]."""
-    if pull.anchor == Member.FOOT_ANCHOR:
-        is_doubled = any(one.has_mid_anchors for one in row.panels)
-    else:
-        is_doubled = row.guys.count > 1 and not row.guys.are_shared
-    return row.layout.post_spacing / (2.0 if is_doubled else 1.0)
 
 
 def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:

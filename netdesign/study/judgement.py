@@ -34,7 +34,7 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.posts import find_short_post
 from netdesign.study.pulls import (
-    check_directions,
+    check_direction,
     doubt_mortar,
     find_pull,
     lack_sharing,
@@ -47,8 +47,10 @@ from netdesign.words.message import Message, say
 
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
-# without any; a foot without hold.
-UNBOUNDED = ("post_bending.too_much", "wedge.slab", LOOSE_LIFTS.key)
+UNBOUNDED = (
+    *("post_bending.too_much", "wedge.slab", "direction.rope_beyond"),
+    LOOSE_LIFTS.key,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,14 +107,37 @@ def judge_members(known: RowForces) -> list[MemberCheck]:
         if _concerns(known, given)
     ]
     checked += [(at_end, given) for given in (*parts, *held)]
+    turned = [one for one in checked if one[1].mode == "direction"]
     judged = []
     for width, given in checked:
+        if given.mode == "direction":
+            continue
         judged.append(_judge_member(known, given, width))
         is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
         if is_rope and "connections" not in not_checked:
             chain = _find_chain(known, given, width)
             judged.append(_judge_member(known, chain, width))
-    return judged
+    gap = find_open(row, judged)
+    return judged + [
+        _judge_direction(known, given, width, gap) for width, given in turned
+    ]
+
+
+def _judge_direction(
+    known: RowForces, given: Resistance, width: LoadedWidth, gap: Message | None
+) -> MemberCheck:
+    """Check of a rope anchor's angle; beyond what it turns by, of its head."""
+    pull = find_pull(known.pulls, given.member, width.position)
+    check = check_direction(pull, known.standard, gap) if pull else None
+    if check is None:
+        return _judge_member(known, given, width)
+    is_at_end = width.position == "edge"
+    check = replace(
+        check,
+        id=f"{check.id}.end" if is_at_end else check.id,
+        position=width.position,
+    )
+    return MemberCheck(given=given, width=width, check=check, pull=pull)
 
 
 def _concerns(known: RowForces, given: Resistance) -> bool:
@@ -141,7 +166,7 @@ def _judge_member(
     pull = find_pull(known.pulls, given.member, width.position)
     given, unsure = find_lasting(known, given, pull)
     if force is not None:
-        given = find_resistance_for_force(given, known, pull, width)
+        given = find_resistance_for_force(given, known, pull, width, force.action)
     points = list(_list_open(known, given, width, force))
     if unsure:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
@@ -247,7 +272,7 @@ def find_lasting(
     doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
     if given.basis == BY_REPORT:
         doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))
-    return lasting, doubt or doubt_mortar(given, pull)
+    return lasting, doubt or doubt_mortar(given, pull, basis.standard)
 
 
 def _find_unsaid(
@@ -311,12 +336,9 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 
 
 def check_others(known: RowForces, judged: Sequence[MemberCheck]) -> Iterator[Check]:
-    """Checks that compare no force: load along the row, directions, geometry."""
+    """Checks that compare no force: load along the row, geometry."""
     gap = find_open(known.row, judged)
     yield check_sideways(known.row, known.held, known.standard, gap)
-    for place, one in check_directions(known.pulls, known.standard, gap):
-        is_at_end = place == "edge"
-        yield replace(one, id=f"{one.id}.end" if is_at_end else one.id, position=place)
     for found in (check_anchor_distance(known, gap), check_cover(known, gap)):
         if found is not None:
             yield found

@@ -24,15 +24,13 @@ from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.effects import list_assumed
 from netdesign.study.member_force import RowForces
 from netdesign.study.posts import find_snow_pressure
-from netdesign.study.pulls import may_share
+from netdesign.study.pulls import USUAL_DIP, may_share
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
+from netdesign.units import degree_from_radian
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member
-
-# A supplier's manual asks for at least this below the horizontal (Geobrugg GBE-3000A).
-_LEAST_DIP_DEG = 15.0
 
 
 def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]:
@@ -164,15 +162,15 @@ def list_row_notes(known: RowForces) -> list[Message]:
 def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
     """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
     for one in pulls:
-        if not one.is_axis_known or one.position != "intermediate":
+        is_twice = one.position == "edge" and one.anchor in tuple(Member)
+        if not one.is_axis_known or is_twice:
             continue
         anchor, dip = name_member(one.anchor), one.dip_deg
+        least = degree_from_radian(USUAL_DIP)
         if not one.is_axis_given:
-            yield say("row.drilled_along_pull", member=anchor, axis=one.axis_deg)
-        if dip < 0.0:
-            yield say("row.borehole_rises", member=anchor, rise=-dip)
-        elif dip < _LEAST_DIP_DEG:
-            yield say("row.borehole_flat", member=anchor, dip=dip, least=_LEAST_DIP_DEG)
+            yield say("row.drilled_along_pull", member=anchor, dip=dip, least=least)
+        elif dip < least:
+            yield say("row.borehole_flat", member=anchor, dip=dip, least=least)
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from netdesign.checks import Check, OpenKind, Standard
-from netdesign.checks.check import judge
 from netdesign.checks.comparison import compare, leave_open
-from netdesign.checks.schema import ROPE_ANGLE
+from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.anchors import (
     PullRange,
-    find_dip,
     find_pull_range,
     measure_pull,
     turn_by_splay,
     turn_sideways,
 )
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import Member
-from netdesign.structure.row_position import Position
+from netdesign.structure.members import EndMember, Member
+from netdesign.structure.row_position import (
+    Position,
+    find_axis_at_dip,
+    find_dip,
+    find_mean_way,
+    measure_angle,
+    measure_fall,
+)
 from netdesign.structure.splay import Guys
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import list_states, place_row
@@ -31,6 +36,11 @@ from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
 ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+_OF_GUYS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+# Below the horizontal, of a bore whose axis nobody gives, so that mortar fills it: a
+# supplier's manual asks for it (Geobrugg GBE-3000A).
+USUAL_DIP = math.radians(15.0)
+_CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
 
 
 def list_pulls(
@@ -38,8 +48,8 @@ def list_pulls(
 ) -> list[PullRecord]:
     """Pull on every anchor over the converged cases and under the floor's load.
 
-    ``share`` acts along the row. The anchors of the row's end come last, where they
-    are of types of their own.
+    ``share`` acts along the row. The anchors of the row's end come last: those of types
+    of their own, then those that hold the row along itself.
     """
     row, solved = task.row, [one for one in task.solved.results if one.is_converged]
     points = [place_row(row, one.case.inclination) for one in solved]
@@ -58,12 +68,46 @@ def list_pulls(
         both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
         directions[Member.FOOT_ANCHOR] = directions[Member.UPHILL_ANCHOR] = both
     ranges = {anchor: find_pull_range(found) for anchor, found in directions.items()}
-    return [
+    of_supports = [
         build_pull(row, anchor, pulls, share, position)
         for position in list_positions(row)
         for anchor, pulls in ranges.items()
         if pulls is not None
     ]
+    return [*of_supports, *_list_end_pulls(row, points)]
+
+
+def _list_end_pulls(
+    row: NetRow, points: Sequence[SupportPoints]
+) -> Iterator[PullRecord]:
+    """Pulls on the anchors that hold the row along itself: of lower rope and end guy.
+
+    The lower rope pulls along the row. Nobody gives the bore of the end guy's anchor:
+    it goes on with the guy, and where that is too flat below it.
+    """
+    end, slope = row.row_end, row.slope_angle
+    if end is None or not points:
+        return
+    along = PullRange(least=0.0, largest=0.0)
+    yield build_pull(row, EndMember.LATERAL_ANCHOR, along, 0.0, "edge")
+    if end.guy is None:
+        return
+    guys = [end.guy.find_way(place) for place in points]
+    x, y, z = way = find_mean_way(guys, slope, USUAL_DIP)
+    rises = [math.asin(-one[1]) for one in guys]
+    kind = row.find_anchor_type(EndMember.END_GUY_ANCHOR, "edge")
+    yield PullRecord(
+        anchor=EndMember.END_GUY_ANCHOR,
+        position="edge",
+        kind=kind.kind if kind else "",
+        least_deg=degree_from_radian(min(rises)),
+        largest_deg=degree_from_radian(max(rises)),
+        axis_deg=degree_from_radian(math.asin(-y)),
+        aside_deg=degree_from_radian(math.atan2(-x, -z)),
+        is_axis_given=False,
+        angle_deg=degree_from_radian(max(measure_angle(way, one) for one in guys)),
+        dip_deg=degree_from_radian(math.asin(measure_fall(way, slope))),
+    )
 
 
 def list_positions(row: NetRow) -> tuple[Position, ...]:
@@ -104,7 +148,7 @@ def lack_sharing(guys: Guys) -> Message | None:
 
 def build_pull(
     row: NetRow,
-    anchor: Member,
+    anchor: Member | EndMember,
     pulls: PullRange,
     share: float,
     position: Position = "intermediate",
@@ -115,8 +159,8 @@ def build_pull(
     ----------
     row : NetRow
         With axes and kinds of its anchors.
-    anchor : Member
-        Which.
+    anchor : Member or EndMember
+        Which; without a given axis it goes along the mean pull, but dips enough.
     pulls : PullRange
         [rad].
     share : float
@@ -125,9 +169,10 @@ def build_pull(
         Of the support.
     """
     given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
-    axis = pulls.mean if given is None else given
+    flattest = find_axis_at_dip(USUAL_DIP, row.slope_angle, anchor)
+    axis = max(pulls.mean, flattest) if given is None else given
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
-    if may_share(row.guys) and anchor != Member.FOOT_ANCHOR:
+    if may_share(row.guys) and anchor in _OF_GUYS:
         along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return PullRecord(
@@ -144,45 +189,45 @@ def build_pull(
     )
 
 
-def doubt_mortar(given: Resistance, pull: PullRecord | None) -> Message | None:
-    """Doubt that mortar fills a borehole, of a bond computed as if it did.
+def doubt_mortar(
+    given: Resistance, pull: PullRecord | None, standard: Standard
+) -> Message | None:
+    """Doubt that mortar fills a borehole, of a bond that tests show in steeper ones.
 
-    From a borehole that rises mortar runs out. A test shows what such a bond bears.
+    From a borehole that is flat or rises mortar runs out; structure/THEORY.md, (S14b).
     """
-    is_computed = given.mode == "pull_out" and given.basis == "computed"
-    if not is_computed or pull is None:
+    if given.mode != "pull_out" or pull is None:
         return None
     if not pull.is_axis_known:
         return say("bending.no_axis")
-    return say("bores.rises", rise=-pull.dip_deg) if pull.dip_deg < 0.0 else None
+    limit = standard.find(LEAST_DIP)
+    if limit is None:
+        return say("check.no_limit", limit=LEAST_DIP)
+    flattest = given.flattest_test
+    is_tested = given.basis == "tested" and flattest is not None
+    least = limit.value
+    if is_tested and flattest is not None:
+        least = min(least, degree_from_radian(flattest))
+    if pull.dip_deg >= least - _CLOSE:
+        return None
+    return say("bores.flat", dip=pull.dip_deg, least=limit.value)
 
 
-def check_directions(
-    pulls: Sequence[PullRecord], standard: Standard, gap: Message | None
-) -> list[tuple[Position, Check]]:
-    """Check the angles of rope anchors, and of anchors whose kind is not given.
-
-    Each with the support that it belongs to.
-    """
-    return [
-        (one.position, _check_direction(one, standard, gap))
-        for one in pulls
-        if one.kind not in ("bar", "micropile")  # what bends has a check of that
-    ]
-
-
-def _check_direction(
+def check_direction(
     pull: PullRecord, standard: Standard, gap: Message | None
-) -> Check:
+) -> Check | None:
+    """Check the angle of a rope anchor, or of an anchor whose kind is not given.
+
+    None beyond the limit, where a head has to take the force across the axis.
+    """
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
         lack = say("check.no_limit", limit=ROPE_ANGLE)
         kind = OpenKind.RESISTANCE_MISSING
         return leave_open("direction", kind, lack, member=pull.anchor)
     gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
-    most, angle = limit.value_si, pull.angle
-    met = judge(angle, angle, least=0.0, most=most)
-    key = "direction.rope_beyond" if met is Verdict.FAIL else "direction.rope_within"
-    finding = say(key, angle=pull.angle_deg, most=limit.value)
-    found = compare("direction", met, finding, member=pull.anchor)
+    if pull.angle > limit.value_si:
+        return None
+    finding = say("direction.rope_within", angle=pull.angle_deg, most=limit.value)
+    found = compare("direction", Verdict.PASS, finding, member=pull.anchor)
     return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)

@@ -22,7 +22,8 @@ CLOSE = 0.9  # utilisation from which a passing check gets its limits
 def list_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
     """Changes that flip a failing, unproven or close check."""
     is_of_ground = one.given.mode in ("sliding", "wedge") and one.given.dimensions
-    if is_of_ground or not _is_worth_telling(basis, one):
+    is_of_head = one.given.mode == "direction"  # of which E_d sin δ is told
+    if is_of_ground or is_of_head or not _is_worth_telling(basis, one):
         return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(basis, one)
     _, used = one.check.utilisation_band

@@ -5,12 +5,13 @@ All numbers in engineer's units, as in ``records``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 from netdesign.checks.check import CasePoint
 from netdesign.edge.json_text import Items
 from netdesign.structure.anchors import PullRange
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
 from netdesign.units import radian_from_degree
 from netdesign.words.message import Message
@@ -65,16 +66,18 @@ class PullRecord:
     """Directions of the pulls on one anchor over all solved cases, and its axis.
 
     Counted from the slope surface, in the direction along the slope in which the anchor
-    is pulled; 90 is straight out of the ground.
+    is pulled; 90 is straight out of the ground. Those that hold the row are pulled
+    along it.
     """
 
-    anchor: Member
-    position: Position  # "edge" of types of the row's end alone
+    anchor: Member | EndMember
+    position: Position  # "edge" of what the row's end has alone
     kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
     least_deg: float
     largest_deg: float
     axis_deg: float
-    is_axis_given: bool  # else the middle of the pulls
+    aside_deg: float = 0.0  # of an end guy's anchor: from the row's line, downslope
+    is_axis_given: bool  # else along the middle of the pulls, or steeper
     is_axis_known: bool = True  # given, or drilled along the pull
     angle_deg: float  # largest between pull and axis, with the part along the row
     dip_deg: float  # of the axis below the horizontal; negative where the hole rises
@@ -89,8 +92,18 @@ class PullRecord:
 
     @property
     def axis(self) -> float:
-        """Inclination of the anchor, given or the middle of the pulls [rad]."""
+        """Inclination of the anchor, given or by the pulls [rad]."""
         return radian_from_degree(self.axis_deg)
+
+    @property
+    def way(self) -> tuple[float, float, float]:
+        """Bore of an anchor that holds the row along itself, into the ground [-].
+
+        Downslope, normal to the slope, along the row.
+        """
+        flat, aside = math.cos(self.axis), radian_from_degree(self.aside_deg)
+        x, z = -flat * math.sin(aside), -flat * math.cos(aside)
+        return x, -math.sin(self.axis), z
 
     @property
     def angle(self) -> float:

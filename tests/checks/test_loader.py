@@ -72,6 +72,8 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "soil.friction": 1.25,
         "resistance.tension": 1.4,
         "anchor.angle.rope": 30.0,
+        "anchor.dip.min": 10.0,
+        "resistance.direction": 1.4,
         "anchor.distance.min": 1.5,
     }
     borrowed = ("end.", "lateral.", "post.", "tests.")

@@ -19,6 +19,7 @@ ROW = {
         "tendon resistance [kN]": 360,
         "pull-out resistance [kN]": 280,  # as of one test: 200
         "basis": "tested",
+        "head resistance across [kN]": 150,
     },
     "foot": (20.0, 18.0),
     "head": (5.0, -22.0),

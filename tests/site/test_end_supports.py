@@ -5,10 +5,10 @@ import pytest
 from netdesign.site.reader import read_site
 from netdesign.structure.members import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 
-BENDING = (
-    ("foot_anchor", "bending"),
-    ("uphill_anchor", "bending"),
-    ("downhill_anchor", "bending"),
+BESIDE_AXIS = tuple(
+    (f"{one}_anchor", mode)
+    for mode in ("bending", "direction")
+    for one in ("foot", "uphill", "downhill")
 )
 HEADINGS = ["net row", "foot anchor", "uphill anchor", "uphill guy", "post"]
 
@@ -32,7 +32,7 @@ def test_named_types_are_those_of_the_end_and_of_blank_ones_nothing_is_known(
 ):
     first, second = read_site(save(with_ends)).rows
     inside, end = values(first.resistances), values(first.resistances_at("edge"))
-    assert tuple(end) == (*MEMBER_MODES, *BENDING, *DEPENDENT_MODES, LIFTED_MODE)
+    assert tuple(end) == (*MEMBER_MODES, *BESIDE_AXIS, *DEPENDENT_MODES, LIFTED_MODE)
     assert inside["foot_anchor", "tendon"] == 0.8 * 400e3  # or rope
     assert end["foot_anchor", "tendon"] == 0.8 * 731e3
     pulled = {(r.member, r.mode): r for r in first.resistances_at("edge")}

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.panel.inputs import CUTS
 from netdesign.site.reader import read_site
-from netdesign.structure.members import END_MODES, NetPart
+from netdesign.structure.members import END_ANCHORS, END_MODES, NetPart
 from netdesign.words.catalogue import LANGUAGES, render
 
 HEADINGS = {
@@ -164,7 +164,8 @@ def held(row):
 def test_what_holds_the_row_along_itself(with_end, save):
     row, other = read_site(save(with_end)).rows
     found = held(row)
-    assert tuple(found) == END_MODES
+    beside = [(one, mode) for mode in ("bending", "direction") for one in END_ANCHORS]
+    assert tuple(found) == (*END_MODES, *beside)
     assert row.row_end.guy_angle == pytest.approx(math.radians(41.0), rel=1e-12)
     assert found["lateral_anchor", "tendon"].value == 0.8 * 400e3
     assert found["lateral_anchor", "pull_out"].basis == "tested"

@@ -138,8 +138,12 @@ def test_the_largest_glide_factor_is_that_of_the_table(sheets, save, refused):
 def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
     row = read_site(save(sheets)).rows[0]
     found = {(r.member, r.mode): r for r in row.resistances}
-    bending = [(f"{one}_anchor", "bending") for one in ("foot", "uphill", "downhill")]
-    assert tuple(found) == (*MEMBER_MODES, *bending, *DEPENDENT_MODES, LIFTED_MODE)
+    beside = [
+        (f"{one}_anchor", mode)
+        for mode in ("bending", "direction")
+        for one in ("foot", "uphill", "downhill")
+    ]
+    assert tuple(found) == (*MEMBER_MODES, *beside, *DEPENDENT_MODES, LIFTED_MODE)
     pull_out = found["foot_anchor", "pull_out"]
     assert (pull_out.value, pull_out.basis) == (None, "tested")
     assert pull_out.tests == PullOutTests(count=1, least=300e3, mean=300e3)

@@ -3,12 +3,14 @@
 import math
 import random
 
+import numpy as np
 import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.wedge import (
     WATER,
     Soil,
+    compute_cone_resistance,
     compute_slab_stability,
     compute_wedge_resistance,
 )
@@ -260,3 +262,102 @@ def test_a_wedge_that_slides_lies_in_a_slab_that_slides():
         slope, depth = math.radians(draw.uniform(20.0, 50.0)), draw.uniform(0.5, 5.0)
         if compute_slab_stability(soil, depth, slope) >= 1.0:
             assert lift(soil, 0.5, slope=slope, depth=depth).value > 0.0
+
+
+def draw_pull(draw):
+    """Direction of a pull on a lateral anchor or an end guy's, out of the ground."""
+    pull = np.array([draw.uniform(-0.4, 0.4), draw.uniform(0.0, 0.7), 1.0])
+    return tuple(pull / np.linalg.norm(pull))
+
+
+@each("seed", range(5))
+def test_cone_straight_out_of_level_ground_is_the_right_circular_one(seed):
+    """(pi/3) gamma h^3 tan^2 phi by its weight, pi c h^2 tan phi by its mantle."""
+    draw = random.Random(seed)
+    depth, up = draw.uniform(0.4, 3.0), (0.0, 1.0, 0.0)
+    loose = draw_soil(draw, cohesion=0.0)
+    tangent = math.tan(loose.friction)
+    found = compute_cone_resistance(loose, depth=depth, slope=0.0, pull=up)
+    weight = math.pi / 3.0 * loose.weight * depth**3 * tangent**2
+    assert found.value == pytest.approx(weight, rel=1e-9)
+    assert found.plane == pytest.approx(STRAIGHT_OUT - loose.friction)
+    light = draw_soil(draw, weight=1e-6)
+    found = compute_cone_resistance(light, depth=depth, slope=0.0, pull=up)
+    mantle = math.pi * light.cohesion * depth**2 * math.tan(light.friction)
+    assert found.value == pytest.approx(mantle, rel=1e-9)
+
+
+def pull_on_cone(soil, depth, slope, pull, way):
+    """Pull on one cone [N] by triangles of its mantle and its mouth; None if it locks.
+
+    ``way``: of its motion.
+    """
+    side = np.cross(way, (0.3, 0.4, 0.5))
+    side /= np.linalg.norm(side)
+    other = np.cross(way, side)
+    turns = np.linspace(0.0, 2.0 * math.pi, 1441)
+    across = np.outer(np.cos(turns), side) + np.outer(np.sin(turns), other)
+    lines = math.cos(soil.friction) * np.array(way) + math.sin(soil.friction) * across
+    mouth = lines * (depth / lines[:, 1:2])
+    mantle = np.linalg.norm(np.cross(mouth[:-1], mouth[1:]), axis=1).sum() / 2.0
+    inside = mouth - mouth.mean(axis=0)
+    opening = abs(np.cross(inside[:-1], inside[1:])[:, 1].sum()) / 2.0
+    volume = opening * depth / 3.0
+    falls = np.dot(way, (math.sin(slope), -math.cos(slope), 0.0))
+    against = soil.cohesion * math.cos(soil.friction) * mantle
+    against -= soil.weight * volume * falls
+    against -= soil.uplift * math.cos(slope) * volume * way[1]
+    working = np.dot(way, pull)
+    return against / working if working > 1e-6 else None
+
+
+@each("is_drained", [True, False])
+@each("seed", range(4))
+def test_the_weakest_of_drawn_cones_is_no_weaker(seed, is_drained):
+    draw = random.Random(seed)
+    cohesion = 1e3 * draw.uniform(15.0, 30.0)
+    soil = draw_soil(draw, cohesion=cohesion, is_drained=is_drained)
+    slope, pull = math.radians(draw.uniform(25.0, 50.0)), draw_pull(draw)
+    found = compute_cone_resistance(soil, depth=1.3, slope=slope, pull=pull).value
+    drawn = []
+    for _ in range(1500):
+        rise = draw.uniform(soil.friction + 0.02, 0.5 * math.pi)
+        aside = draw.uniform(-1.3, 1.3)
+        flat = math.cos(rise)
+        way = (flat * math.sin(aside), math.sin(rise), flat * math.cos(aside))
+        drawn.append(pull_on_cone(soil, 1.3, slope, pull, way))
+    least = min(one for one in drawn if one is not None)
+    assert found <= least * (1.0 + 1e-3)
+    assert found == pytest.approx(least, rel=0.03)
+
+
+@each("seed", range(8))
+def test_a_cone_holds_more_in_stronger_deeper_drained_and_flatter_ground(seed):
+    draw = random.Random(seed)
+    soil = draw_soil(draw, cohesion=1e3 * draw.uniform(20.0, 30.0), is_drained=False)
+    slope, pull = math.radians(draw.uniform(25.0, 45.0)), draw_pull(draw)
+
+    def hold(depth=1.4, falling=slope, **special):
+        changed = Soil(
+            **{name: getattr(soil, name) for name in soil.__slots__} | special
+        )
+        return compute_cone_resistance(
+            changed, depth=depth, slope=falling, pull=pull
+        ).value
+
+    least = hold()
+    assert hold(cohesion=1.2 * soil.cohesion) > least > 0.0
+    assert hold(friction=1.1 * soil.friction) > least
+    assert hold(is_drained=True) > least
+    assert hold(falling=0.8 * slope) > least
+    assert hold(depth=1.4 + 1e-7) == pytest.approx(least, rel=1e-6)
+
+
+def test_loose_steep_ground_holds_no_cone():
+    loose = Soil(cohesion=0.0, friction=0.6, weight=19e3, is_drained=True)
+    along = (0.0, 0.0, 1.0)
+    for slope, holds in ((0.59, True), (0.61, False)):
+        found = compute_cone_resistance(loose, depth=1.5, slope=slope, pull=along)
+        assert (found.value > 0.0) is holds
+    with pytest.raises(ModelError):
+        compute_cone_resistance(loose, depth=0.0, slope=0.5, pull=along)

@@ -71,7 +71,8 @@ FORMULAS = (
     (
         "direction",
         "α_s = atan2(F_y; ±F_x), α = asin(cos β sin α_s), δ = max(|α_min − "
-        "α_0|; |α_max − α_0|), cos δ' = cos δ / √(1 + k²)",
+        "α_0|; |α_max − α_0|), cos δ' = cos δ / √(1 + k²); "
+        "δ' > δ_max ⇒ R_k = R_H / sin δ'",
     ),
     (
         "bar",

@@ -66,6 +66,7 @@ from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
+_FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
 
 
@@ -224,12 +225,12 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
 
 
 def _list_rising(study: Study, words: Words) -> Iterator[str]:
-    """Anchors whose boreholes rise, so that mortar runs out of them."""
+    """Anchors whose boreholes are so flat that mortar may run out of them."""
     rising = [
         (row.id, show_member(words, one.anchor))
         for row in study.rows
         for one in row.pulls
-        if one.is_axis_known and one.dip_deg < 0.0
+        if one.is_axis_known and one.dip_deg < _FLAT_DEG - 1e-9
     ]
     if rising:
         ids, anchors = (list(dict.fromkeys(one)) for one in zip(*rising, strict=True))

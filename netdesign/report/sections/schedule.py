@@ -175,10 +175,11 @@ def _find_most(values: Iterable[float | None]) -> float | None:
 def describe_needed(checks: Sequence[Check], words: Words) -> str:
     """Least characteristic resistance that carries the design forces, by modes [kN].
 
-    One number where all modes need the same.
+    One number where all modes need the same. What the head of a rope anchor needs is
+    told by its check: it takes a part of the force.
     """
     shown: dict[str, str] = {}
-    for mode in dict.fromkeys(check.mode for check in checks):
+    for mode in dict.fromkeys(x.mode for x in checks if x.mode != "direction"):
         most = _find_most(_find_needed(check) for check in checks if check.mode == mode)
         if most is not None:
             shown[words.show(name_mode(mode))] = words.show_minimum(most)
