@@ -45,6 +45,9 @@ class Parameter:
         Scene and value (SI) to the scene with that value.
     show, read : callable
         Value in SI units to that in the unit of the key, and back.
+    power : float
+        A range is divided evenly in this power of the value: forces are nearly
+        straight lines over it. A range from 0 is divided evenly in the value.
     """
 
     name: str
@@ -52,6 +55,7 @@ class Parameter:
     put: Callable[[Scene, float], Scene]
     show: Convert = _keep
     read: Convert = _keep
+    power: float = 1.0
 
     @property
     def label(self) -> Message:
@@ -144,13 +148,14 @@ _ROWS = (
         key="upslope_length_m",
         put=_put_snow("upslope_length"),
     ),
-    Parameter(name="slack", key="slack", put=_put_net("slack")),
+    Parameter(name="slack", key="slack", put=_put_net("slack"), power=-0.5),
     Parameter(
         name="net_stiffness",
         key="stiffness_kN_per_m",
         put=_put_net("stiffness_per_m"),
         show=kilonewton_from_newton,
         read=newton_from_kilonewton,
+        power=-1.0,
     ),
     Parameter(name="slip_length", key="slip_length_m", put=_put_slip),
     Parameter(name="glide_factor", key="glide_factor", put=_put_glide),
@@ -261,10 +266,17 @@ class Ranges:
         """Value of every parameter at a point of the unit cube over ``axes``."""
         shares = dict(zip(self.axes, point, strict=True))
         return {
-            name: (1.0 - shares.get(name, 0.0)) * span.low
-            + shares.get(name, 0.0) * span.high
-            for name, span in self.intervals
+            name: self.find_value(name, shares.get(name, 0.0))
+            for name, _ in self.intervals
         }
+
+    def find_value(self, name: str, share: float) -> float:
+        """Value of a parameter at a share of its range."""
+        span, power = self[name], PARAMETERS[name].power
+        if power == 1.0 or span.low <= 0.0 or share in (0.0, 1.0):
+            return (1.0 - share) * span.low + share * span.high
+        mixed = (1.0 - share) * span.low**power + share * span.high**power
+        return float(mixed ** (1.0 / power))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)

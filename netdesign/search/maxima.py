@@ -17,11 +17,13 @@ import numpy as np
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError, require_count, require_within
 from netdesign.search.surrogate import (
+    DENSE_DIMENSIONS,
     Point,
     Prediction,
     Surrogate,
     fit_surrogate,
     supports_model,
+    weigh_axes,
 )
 from netdesign.search.upper_bound import (
     NOISE,
@@ -212,6 +214,7 @@ class MaximaSearch:
         self.result: Maxima | None = None
         self._lattice = build_lattice(dimension)
         self._asked = [Question(point, 0) for point in list_first_design(dimension)]
+        self._axis_weights: Floats | None = None  # by the first design
         self._model: Surrogate | None = None
         self._bounds: Bounds | None = None  # these led to the questions
         self._passed = 0  # tests in turn
@@ -268,7 +271,7 @@ class MaximaSearch:
         """Prediction of what was asked for; NaN of the first design."""
         if self._model is None:
             nothing = np.full((len(self._asked), 1), np.nan)
-            return Prediction(mean=nothing, standard_error=nothing)
+            return Prediction(mean=nothing, standard_error=nothing, sway=nothing)
         return self._model.predict(np.array(self.ask()))
 
     def _note(self, values: Sequence[Values | None], expected: Prediction) -> None:
@@ -336,14 +339,21 @@ class MaximaSearch:
     ) -> tuple[Surrogate, Bounds]:
         """Model of the cases solved so far, and what it allows."""
         tolerance = _set_tolerance(values, self.settings, watched)
-        model = fit_surrogate(places, values, NOISE * tolerance, doubts)
+        deciding = [q for q, one in watched.items() if one.is_deciding]
+        if self._axis_weights is None and places.shape[1] > DENSE_DIMENSIONS:
+            self._axis_weights = weigh_axes(
+                places, values[:, deciding], tolerance[deciding]
+            )
+        model = fit_surrogate(
+            *(places, values, NOISE * tolerance, doubts), self._axis_weights
+        )
         return model, bound_quantities(
             model,
             values,
             best=_find_best(values, watched),
             tolerance=tolerance,
             watched=list(watched),
-            deciding=[q for q, one in watched.items() if one.is_deciding],
+            deciding=deciding,
             lattice=self._lattice,
             certainty=self.settings.certainty,
             inflations=self._inflations,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, product
 from typing import NamedTuple
 
 import numpy as np
@@ -24,9 +24,13 @@ Point = tuple[float, ...]  # of the unit cube, each coordinate a share of its ra
 CORRELATION = 1.0
 REACH = 0.35
 FAR_SHARE = 0.5
-_DENSE_DIMENSIONS = 3  # up to so many parameters every score counts far away in full
+DENSE_DIMENSIONS = 3  # up to so many parameters every score counts far away in full
 _ROUGHNESS = 1.5  # by what power of the distance a kink is rougher than the model
-_NUGGET = 1e-6  # rounding and mesh noise, as a share of the residual's variance
+# Rounding and mesh noise, as a share of the residual's variance; less where cases
+# crowd around a maximum, whose scores it would multiply.
+_NUGGET, _SMALL_NUGGET = 1e-6, 1e-9
+_AXIS_WEIGHTS = (0.6, 0.3)  # that an axis may have instead of 1
+_ENOUGH = 0.1  # of a tolerance: held-out errors below are as good as none
 
 
 class Prediction(NamedTuple):
@@ -34,6 +38,7 @@ class Prediction(NamedTuple):
 
     mean: Floats  # shape (n, quantities)
     standard_error: Floats  # shape (n, quantities), never negative
+    sway: Floats  # most by which errors of the values move the mean, eq. (M3a)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,8 +53,11 @@ class Surrogate:
         Error of each case predicted from all others, in the quantity's unit.
     scores : ndarray, shape (n, quantities)
         Size of those errors over what the model expected of them.
-    far_shares : ndarray, shape (n,)
-        Share of each score that counts far away.
+    spacings : ndarray, shape (n,)
+        From each case to its nearest neighbour [-], which its score tells of; endless
+        up to three parameters.
+    axis_weights : ndarray, shape (dimension,)
+        Of the axes in a distance [-].
     doubts : ndarray, shape (n, quantities)
         Errors of the values themselves, in the quantity's unit; mostly 0.
     """
@@ -57,7 +65,8 @@ class Surrogate:
     places: Floats
     held_out: Floats
     scores: Floats
-    far_shares: Floats
+    spacings: Floats
+    axis_weights: Floats
     doubts: Floats
     _inverse: Floats
     _trend: Floats
@@ -73,7 +82,7 @@ class Surrogate:
         They are those of some quantities, in the order given, or of all.
         """
         chosen = slice(None) if quantities is None else list(quantities)
-        distances = _measure_distances(at, self.places)
+        distances = self._measure(at)
         near = _correlate(distances)
         trend = _build_trend(at)
         mean = trend @ self._trend_weights[:, chosen] + near @ self._weights[:, chosen]
@@ -85,44 +94,50 @@ class Surrogate:
             + np.sum((lack @ self._trend_covariance) * lack, axis=1)
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
-        scale = _fade_scores(distances, self.scores[:, chosen], self.far_shares)
-        return Prediction(mean=mean, standard_error=scale * spread[:, None])
+        scale = self._fade(distances, self.scores[:, chosen])
+        sway = self._find_sway(near, lack, self.doubts[:, chosen])
+        return Prediction(mean=mean, standard_error=scale * spread[:, None], sway=sway)
 
-    def find_sway(self, at: Floats, quantities: Sequence[int]) -> Floats:
-        """Most by which errors of the values move the mean, eq. (M3a).
+    def _measure(self, at: Floats) -> Floats:
+        """Distances of places from the cases, each axis by its weight."""
+        weights = self.axis_weights
+        return _measure_distances(at * weights, self.places * weights)
 
-        Of some quantities, shape (n, len(quantities)).
-        """
-        errs = self.doubts.any(axis=1)
+    def _find_sway(self, near: Floats, lack: Floats, doubts: Floats) -> Floats:
+        """Most by which errors of the values move the mean, eq. (M3a)."""
+        errs = doubts.any(axis=1)
         if not errs.any():
-            return np.zeros((len(at), len(quantities)))
-        near = _correlate(_measure_distances(at, self.places))
-        lack = _build_trend(at) - near @ self._inverse @ self._trend
+            return np.zeros((len(near), doubts.shape[1]))
         by_trend = self._trend_covariance @ (self._trend.T @ self._inverse[:, errs])
         shares = near @ self._inverse[:, errs] + lack @ by_trend
-        result: Floats = np.abs(shares) @ self.doubts[errs][:, list(quantities)]
+        result: Floats = np.abs(shares) @ doubts[errs]
         return result
+
+    def _fade(self, distances: Floats, scores: Floats) -> Floats:
+        """Largest held-out score around each place, eq. (M5)."""
+        far = FAR_SHARE * np.minimum(1.0, self.spacings / REACH) ** _ROUGHNESS
+        everywhere = np.max(scores * far[:, None], axis=0)
+        counts = scores > everywhere  # no other case says more anywhere
+        marked = counts.any(axis=1)
+        apart = np.ascontiguousarray(distances[:, marked].T)
+        with np.errstate(divide="ignore"):
+            rough = np.minimum(1.0, self.spacings[marked, None] / apart) ** _ROUGHNESS
+        near = rough * np.exp(-((apart / REACH) ** 2))
+        each = [
+            np.max(near[own] * score[own, None], axis=0, initial=least)
+            for own, score, least in zip(
+                counts[marked].T, scores[marked].T, everywhere, strict=True
+            )
+        ]
+        return np.stack(each, axis=1)
 
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
-        trend, near = _build_trend(at), _correlate(_measure_distances(at, self.places))
+        trend, near = _build_trend(at), _correlate(self._measure(at))
         return [
             trend @ self._trend_weights[:, one] + near @ self._weights[:, one]
             for one in quantities
         ]
-
-
-def _fade_scores(distances: Floats, scores: Floats, far_shares: Floats) -> Floats:
-    """Largest held-out score around each place, faded with distance."""
-    marked = scores.any(axis=1)  # of most cases they are 0
-    near = np.exp(-((distances[:, marked] / REACH) ** 2))
-    share = np.maximum(near, far_shares[marked])
-    by_case = np.ascontiguousarray(share.T)  # largest over rows: half the time
-    each = [
-        np.max(by_case * column[:, None], axis=0, initial=0.0)
-        for column in scores[marked].T
-    ]
-    return np.stack(each, axis=1)
 
 
 def fit_surrogate(
@@ -130,6 +145,7 @@ def fit_surrogate(
     values: Floats,
     noise: Floats | float = 0.0,
     doubts: Floats | None = None,
+    axis_weights: Floats | None = None,
 ) -> Surrogate:
     """Model through solved cases; more cases than trend terms are needed.
 
@@ -145,6 +161,8 @@ def fit_surrogate(
         take that for a steep one.
     doubts : ndarray, shape (n, quantities), optional
         Errors of values that are known roughly only, 0 of the others; none by default.
+    axis_weights : ndarray, shape (dimension,), optional
+        Of the axes in a distance [-]; 1 by default.
 
     Returns
     -------
@@ -155,40 +173,71 @@ def fit_surrogate(
     -----------
     tests/search/test_surrogate.py
     """
-    distances = _measure_distances(places, places)
-    inverse = _invert(_correlate(distances) + _NUGGET * np.eye(len(places)))
+    weights = np.ones(places.shape[1]) if axis_weights is None else axis_weights
+    distances = _measure_distances(places * weights, places * weights)
+    is_dense = places.shape[1] <= DENSE_DIMENSIONS
+    nugget = _NUGGET if is_dense else _SMALL_NUGGET
+    inverse = _invert(_correlate(distances) + nugget * np.eye(len(places)))
     trend = _build_trend(places)
     covariance = _invert(trend.T @ inverse @ trend)
     trend_weights = covariance @ (trend.T @ (inverse @ values))
-    weights = inverse @ (values - trend @ trend_weights)
+    case_weights = inverse @ (values - trend @ trend_weights)
     # Leaving case i out changes its prediction by (Q y)_i / Q_ii (Dubrule 1983).
     carried = inverse @ trend
     diagonal = np.diag(inverse - carried @ covariance @ carried.T)
     diagonal = np.maximum(diagonal, 1e-12)[:, None]
+    held_out = case_weights / diagonal
     return Surrogate(
         places=places,
-        held_out=weights / diagonal,
-        scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
-        far_shares=_share_far(distances, places.shape[1]),
+        held_out=held_out,
+        scores=np.maximum(np.abs(held_out) - noise, 0.0) * np.sqrt(diagonal),
+        spacings=_find_spacings(distances, is_dense=is_dense),
+        axis_weights=weights,
         doubts=np.zeros_like(values) if doubts is None else doubts,
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,
         _trend_weights=trend_weights,
-        _weights=weights,
+        _weights=case_weights,
     )
 
 
-def _share_far(distances: Floats, dimension: int) -> Floats:
-    """Share of each case's score far away: search/THEORY.md, eq. (M5a)."""
-    shares = np.full(len(distances), FAR_SHARE)
-    if dimension <= _DENSE_DIMENSIONS:
-        return shares
+def _find_spacings(distances: Floats, *, is_dense: bool) -> Floats:
+    """Distance from each case to its nearest neighbour; endless of dense cases."""
+    if is_dense:
+        return np.full(len(distances), np.inf)
     to_others = distances + np.diag(np.full(len(distances), np.inf))
-    result: Floats = shares * np.minimum(1.0, to_others.min(axis=1) / REACH) ** (
-        _ROUGHNESS
-    )
+    result: Floats = to_others.min(axis=1)
     return result
+
+
+def weigh_axes(places: Floats, values: Floats, tolerance: Floats) -> Floats:
+    """Weights of the axes that predict held-out cases best, shape (dimension,).
+
+    An axis that hardly matters has a small one: cases apart along it are neighbours.
+
+    Parameters
+    ----------
+    places, values : ndarray, shape (n, dimension), (n, quantities)
+        As in `fit_surrogate`.
+    tolerance : ndarray, shape (quantities,)
+        Error that does not matter, in the unit of each quantity.
+    """
+
+    def judge(weights: Floats) -> float:
+        errors = fit_surrogate(places, values, axis_weights=weights).held_out
+        size = np.sqrt(np.mean(errors * errors, axis=0)) / tolerance
+        return float(np.sum(np.log(size + _ENOUGH)))
+
+    weights = np.ones(places.shape[1])
+    least = judge(weights)
+    for axis, weight in product(range(len(weights)), _AXIS_WEIGHTS):
+        tried = weights.copy()
+        tried[axis] = weight
+        found = judge(tried)
+        if found < least:
+            least, weights = found, tried
+    return weights
 
 
 def count_trend_terms(dimension: int) -> int:
@@ -246,5 +295,5 @@ def follow_axis(
     shares = np.linspace(0.0, 1.0, count)
     line = np.tile(np.array(through), (count, 1))
     line[:, axis] = shares
-    mean, standard_error = model.predict(line, (quantity,))
-    return shares, mean[:, 0], standard_error[:, 0]
+    found = model.predict(line, (quantity,))
+    return shares, found.mean[:, 0], found.standard_error[:, 0]

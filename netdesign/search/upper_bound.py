@@ -155,11 +155,10 @@ def _build_reach(
     """Places to what each quantity may reach there; infinity of one not asked for."""
 
     def reach(at: Floats) -> Floats:
-        mean, standard_error = model.predict(at, asked)
+        mean, standard_error, sway = model.predict(at, asked)
         factor = _inflate(at, inflations, len(tolerance))[:, asked]
         result: Floats = np.full((len(at), len(tolerance)), np.inf)
         likely = mean + certainty * factor * standard_error
-        sway = model.find_sway(at, asked)
         result[:, asked] = likely + sway + NOISE * tolerance[asked]
         return result
 
@@ -207,23 +206,27 @@ def _climb(
     places = np.concatenate(list(starts.values()))
     owners = np.repeat(list(starts), [len(own) for own in starts.values()])
     count, dimension = places.shape
-    here = np.arange(count)
+    heights = np.full(count, -np.inf)
     moves = np.concatenate(
         [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
     )
     while True:
         step /= 2.0
+        moving = np.arange(count)
         for _ in range(dimension):  # one move an axis
-            tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
+            tried = np.clip(places[moving] + step * moves[:, None], 0.0, 1.0)
             # quantities climb the same way, and steps end at the walls of the box
             distinct, place = _find_distinct(tried.reshape(-1, dimension))
-            reached = reach(distinct)[place]
-            heights = reached.reshape(len(moves), count, -1)[:, here, owners]
-            chosen = heights.argmax(axis=0)
-            places = tried[chosen, here]
+            reached = reach(distinct)[place].reshape(len(moves), len(moving), -1)
+            here = np.arange(len(moving))
+            own = reached[:, here, owners[moving]]
+            best = own.argmax(axis=0)
+            places[moving], heights[moving] = tried[best, here], own[best, here]
+            moving = moving[best > 0]  # the others are on top for this step
+            if not len(moving):
+                break
         if step <= _FINEST_STEP:
-            tops = heights.max(axis=0)
-            return {q: (places[owners == q], tops[owners == q]) for q in starts}
+            return {q: (places[owners == q], heights[owners == q]) for q in starts}
 
 
 def _find_distinct(places: Floats) -> tuple[Floats, Ints]:

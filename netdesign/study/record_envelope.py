@@ -166,8 +166,7 @@ def _record_drawn(envelope: RowEnvelope, member: str) -> DrawnForce:
 
 def _show_place(ranges: Ranges, name: str, share: float) -> float:
     """Value of a parameter at a share of its range, in the unit of its key."""
-    span = ranges[name]
-    return PARAMETERS[name].show((1.0 - share) * span.low + share * span.high)
+    return PARAMETERS[name].show(ranges.find_value(name, share))
 
 
 def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:

@@ -92,6 +92,25 @@ def test_every_number_of_parameters_is_searched(dimension):
     assert found.upper_bound[0] >= 10.0
 
 
+@each("seed", [0, 2, 3])
+def test_five_parameters_with_a_kink_and_one_that_hardly_matters(seed):
+    """A tent over two axes, a hyperbola over a third, a step of a thousandth.
+
+    Tents whose top no case meets may stay open at length; these do not.
+    """
+    rng = np.random.default_rng(seed)
+    top, slope = rng.uniform(0.2, 0.8, 2), rng.uniform(0.2, 0.6, 2)
+
+    def force(u):
+        tent = 3.0 - slope @ np.abs(u[:2] - top)
+        return np.array([tent + 0.3 / (0.4 + u[3]) + 1e-3 * (u[4] > 0.3)])
+
+    found = drive(force, 5, max_cases=550)
+    assert found.is_closed
+    assert found.upper_bound[0] >= 3.0 + 0.3 / 0.4 + 1e-3
+    assert found.maximum[0] >= (1.0 - 0.005) * (3.751)
+
+
 def test_foot_tension_that_is_not_monotonic_in_friction():
     """FACTS.md, section 6: 369 at 0, 341 near 20, 345.6 where all sticks."""
 

@@ -7,6 +7,7 @@ from netdesign.search.surrogate import (
     count_trend_terms,
     fit_surrogate,
     supports_model,
+    weigh_axes,
 )
 
 RNG = np.random.default_rng(5)
@@ -22,7 +23,7 @@ def test_a_quadratic_is_met_everywhere():
 
     model = fit_surrogate(PLACES, quadratic(PLACES))
     elsewhere = RNG.uniform(0.0, 1.0, (50, 3))
-    mean, claim = model.predict(elsewhere)
+    mean, claim, _ = model.predict(elsewhere)
     assert mean == pytest.approx(quadratic(elsewhere), abs=1e-8)
     assert claim == pytest.approx(0.0, abs=1e-8)
     assert model.held_out == pytest.approx(0.0, abs=1e-8)
@@ -40,9 +41,9 @@ def test_held_out_errors_are_those_of_models_without_the_case():
 
 def test_known_cases_are_met_and_claims_grow_away_from_them():
     model = fit_surrogate(PLACES, KINKED)
-    mean, claim = model.predict(PLACES)
+    mean, claim, _ = model.predict(PLACES)
     assert mean == pytest.approx(KINKED, abs=1e-3)
-    _, far = model.predict(np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]))
+    _, far, _ = model.predict(np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]))
     assert np.all(far.min(axis=0) > 10.0 * claim.max(axis=0))
     assert np.all(claim >= 0.0)
 
@@ -50,20 +51,38 @@ def test_known_cases_are_met_and_claims_grow_away_from_them():
 def test_a_kink_widens_the_claims_beside_it_most():
     line = np.linspace(0.0, 1.0, 17)[:, None]
     model = fit_surrogate(line, np.abs(line - 0.25))
-    _, claim = model.predict(np.array([[0.28125], [0.96875 - 0.0625]]))
+    _, claim, _ = model.predict(np.array([[0.28125], [0.96875 - 0.0625]]))
     assert claim[0, 0] > 1.5 * claim[1, 0]
 
 
-def test_a_score_counts_far_away_by_the_distance_of_its_neighbour():
-    """Beyond three parameters: (M5a), with a neighbour at a fifth of the reach."""
+def test_a_score_fades_by_the_distance_of_its_neighbour():
+    """Beyond three parameters: (M5) with (M5a), by the ratio of two quantities."""
     places = np.vstack([RNG.uniform(0.0, 1.0, (40, 4)), np.full((2, 4), 0.5)])
     places[-1, 2] += 0.2 * REACH
-    model = fit_surrogate(places, np.abs(places @ [[1.0], [-2.0], [0.5], [0.3]]))
+    kinks = np.abs(places @ [[1.0, 0.2], [-2.0, 0.9], [0.5, 1.1], [0.3, -1.7]])
+    model = fit_surrogate(places, kinks)
     apart = np.linalg.norm(places[:, None] - places[None], axis=2)
     np.fill_diagonal(apart, np.inf)
-    nearest = np.minimum(1.0, apart.min(axis=1) / REACH)
-    assert model.far_shares == pytest.approx(FAR_SHARE * nearest**1.5, rel=1e-6)
-    assert model.far_shares[-1] == pytest.approx(FAR_SHARE * 0.2**1.5, rel=1e-6)
+    spacing = apart.min(axis=1)
+    assert model.spacings == pytest.approx(spacing, rel=1e-6)
+    at = RNG.uniform(0.0, 1.0, (50, 4))
+    d = np.linalg.norm(at[:, None] - places[None], axis=2)
+    far = FAR_SHARE * np.minimum(1.0, spacing / REACH) ** 1.5
+    near = np.exp(-((d / REACH) ** 2)) * np.minimum(1.0, spacing / d) ** 1.5
+    share = np.maximum(near, far)
+    scale = np.max(share[:, :, None] * model.scores[None], axis=1)
+    claim = model.predict(at).standard_error
+    assert claim[:, 0] / claim[:, 1] == pytest.approx(scale[:, 0] / scale[:, 1])
+
+
+def test_an_axis_that_hardly_matters_makes_neighbours():
+    """The third one: a step of a thousandth; the others bend."""
+    places = RNG.uniform(0.0, 1.0, (75, 5))
+    bent = 1.0 / (0.3 + places[:, 0]) + np.sin(3.0 * places[:, 3] * places[:, 4])
+    values = np.column_stack([bent + 1e-3 * (places[:, 2] > 0.4), bent**2])
+    weights = weigh_axes(places, values, 0.005 * values.max(axis=0))
+    assert weights[2] < 1.0
+    assert weights[0] == 1.0
 
 
 def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
@@ -79,7 +98,7 @@ def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
         values[place] += doubts[place]
         moved += np.abs(fit_surrogate(PLACES, values).predict(elsewhere).mean - mean)
     assert moved.max() > 0.05
-    assert model.find_sway(elsewhere, (1, 0)) == pytest.approx(moved[:, ::-1])
+    assert model.predict(elsewhere, (1, 0)).sway == pytest.approx(moved[:, ::-1])
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3, 5])
