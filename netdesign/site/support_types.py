@@ -288,7 +288,10 @@ def _find_resistance(
     if not reading.word:
         return Resistance(member=member, mode=mode, source=reading.place or "Nets")
     sheet = reading.field.refers_to
-    return _describe_type(types[sheet][reading.word], mode, member, sheet)
+    found = _describe_type(types[sheet][reading.word], mode, member, sheet)
+    if mode == "bearing" and found.basis == "computed":
+        return replace(found, dimensions=read_plate(types[sheet][reading.word]))
+    return found
 
 
 def _describe_type(
@@ -323,7 +326,6 @@ def _describe_type(
     return Resistance(
         member=member,
         mode=mode,
-        dimensions=read_plate(kind) if is_derived and mode == "bearing" else None,
         value=value,
         basis="tested" if tests else basis if is_given else "",
         type_id=kind["id"].word,
