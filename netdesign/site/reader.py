@@ -84,6 +84,7 @@ from netdesign.site.titles import (
 )
 from netdesign.site.type_lines import (
     count_in_tests,
+    fill_in_section,
     name_by_ground,
     place_in_ground,
     read_links,
@@ -93,7 +94,6 @@ from netdesign.site.type_resistances import (
     check_section,
     check_tests,
     fill_in_resistances,
-    fill_in_section,
 )
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import Message, say

@@ -24,11 +24,11 @@ from netdesign.resistance.wedge import AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
+from netdesign.site.type_lines import find_section
 from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
     compute_buckling,
-    find_depth,
     find_loop_loss,
     find_proof_limit,
     find_tests,
@@ -313,11 +313,9 @@ def _describe_type(
     is_rope = mode == "tendon" and may_be_rope(kind)
     if is_rope and is_given:
         value, derivation = reduce_loop(kind)
-    place = resistance.place
+    place = (resistance if is_given or not tests else kind["test_least"]).place
     if tests and is_given:
         derivation = say("derivation.one_test", force=resistance.number)
-    elif tests:
-        place = kind["test_least"].place
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     if mode == "pull_out" and basis == "computed" and is_given and not tests:
@@ -339,10 +337,13 @@ def _describe_type(
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
-        proof_limit=find_proof_limit(kind, find_loop_loss(kind))
-        if mode == "pull_out"
-        else None,
+        proof_limit=_limit_tests(kind) if mode == "pull_out" else None,
     )
+
+
+def _limit_tests(kind: Row) -> float | None:
+    """Largest load of a test that the tendon of a type allows [N]."""
+    return find_proof_limit(kind, find_loop_loss(kind))
 
 
 def _read_wear(kind: Row, mode: str) -> Wear | None:
@@ -460,7 +461,19 @@ def _find_eccentricity(line: Row, key: str) -> float:
     if typed is not None:
         return typed
     turns = key == "foot_eccentricity" and line["foot_joint"].word in TURNING
-    return 0.0 if turns else 0.5 * find_depth(line)
+    return 0.0 if turns else 0.5 * _find_depth(line)
+
+
+def _find_depth(row: Row) -> float:
+    """Depth of a post's section in the plane across the row, at most [m].
+
+    By its name; else the width that the snow presses on, or 4 W / A: hollow sections
+    have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
+    """
+    _, product = find_section(row)
+    if product is not None and "depth" in product.values:
+        return max(product.values["depth"][1], row["post_width"].si)
+    return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

@@ -13,9 +13,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import fmean
 
+from netdesign.resistance.product_data import Product
+from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import SingleTest
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.columns.fields import from_si
 from netdesign.site.lines import Types, index_lines, refuse_unknown_ids
 from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground
@@ -253,6 +256,44 @@ def _read_single(test: Row) -> SingleTest:
         displacement=test["displacement"].given_si,
         source=test["force"].place,
     )
+
+
+def fill_in_section(row: Row) -> Row:
+    """Line of sheet Posts with the section that its name means, where none is typed.
+
+    The weaker axis counts, and the wider side against the snow.
+    """
+    columns = {key: one.field.of_product for key, one in row.items()}
+    is_post = "buckling_length" in row
+    if not is_post or row["compression"].state == "given":
+        return row
+    typed, product = find_section(row)
+    if product is None:
+        return row
+    filled = dict(row)
+    how = say("derivation.product", product=product.id, sources=product.sources)
+    for key, names in columns.items():
+        spans = [product.values[one] for one in names if one in product.values]
+        if not spans or row[key].state != "blank":
+            continue
+        is_width = key == "post_width"
+        value = max(high for _, high in spans) if is_width else min(spans)[0]
+        filled[key] = replace(
+            row[key],
+            state="given",
+            value=from_si(value, row[key].field.unit),
+            derivation=how,
+            cell=typed.cell,
+        )
+    return filled
+
+
+def find_section(row: Row) -> tuple[Reading, Product | None]:
+    """Cell that names the section of a post, and the product that it names."""
+    typed = row["section"] if row["section"].state == "given" else row["id"]
+    product = find_product(typed.word)
+    is_section = product is not None and product.family == "section"
+    return typed, product if is_section else None
 
 
 _SHEETS = ("Ropes", "Anchors")

@@ -24,7 +24,6 @@ from netdesign.resistance.post import (
     compute_bearing_resistance,
     compute_buckling_resistance,
 )
-from netdesign.resistance.product_data import Product
 from netdesign.resistance.products import find_product
 from netdesign.resistance.pull_out import (
     PullOutTests,
@@ -33,7 +32,7 @@ from netdesign.resistance.pull_out import (
 )
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.fields import from_si, to_si
+from netdesign.site.columns.fields import to_si
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -211,56 +210,6 @@ def find_bond(row: Row, pull_out: float) -> float | None:
         return None
     surface = math.pi * parts[0].si * parts[1].si
     return pull_out / surface / 1e3
-
-
-def fill_in_section(row: Row) -> Row:
-    """Line of sheet Posts with the section that its name means, where none is typed.
-
-    The weaker axis counts, and the wider side against the snow.
-    """
-    columns = {key: one.field.of_product for key, one in row.items()}
-    is_post = "buckling_length" in row
-    if not is_post or row["compression"].state == "given":
-        return row
-    typed, product = _find_section(row)
-    if product is None:
-        return row
-    filled = dict(row)
-    how = say("derivation.product", product=product.id, sources=product.sources)
-    for key, names in columns.items():
-        spans = [product.values[one] for one in names if one in product.values]
-        if not spans or row[key].state != "blank":
-            continue
-        is_width = key == "post_width"
-        value = max(high for _, high in spans) if is_width else min(spans)[0]
-        filled[key] = replace(
-            row[key],
-            state="given",
-            value=from_si(value, row[key].field.unit),
-            derivation=how,
-            cell=typed.cell,
-        )
-    return filled
-
-
-def _find_section(row: Row) -> tuple[Reading, Product | None]:
-    """Cell that names the section of a post, and the product that it names."""
-    typed = row["section"] if row["section"].state == "given" else row["id"]
-    product = find_product(typed.word)
-    is_section = product is not None and product.family == "section"
-    return typed, product if is_section else None
-
-
-def find_depth(row: Row) -> float:
-    """Depth of a post's section in the plane across the row, at most [m].
-
-    By its name; else the width that the snow presses on, or 4 W / A: hollow sections
-    have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
-    """
-    _, product = _find_section(row)
-    if product is not None and "depth" in product.values:
-        return max(product.values["depth"][1], row["post_width"].si)
-    return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
 
 
 def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
