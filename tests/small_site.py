@@ -34,7 +34,15 @@ TURNS = AnchorType(
     across=1e7,
 )
 LASTS = Wear(kind="rope", protected_years=100)
-EYE = Link(kind="eye", breaking=1e8, limit=None, count=1, angle=None, source="Links!C2")
+EYE = Link(
+    kind="eye",
+    breaking=1e8,
+    limit=None,
+    count=1,
+    angle=None,
+    source="Links!C2",
+    is_of_whole=True,
+)
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
     started="2026-01-02T03:04:05+00:00",

@@ -68,9 +68,9 @@ SHEETS = {
         ["G1", 2300, 50],
     ],
     "Links": [
-        ["type", "link", "strength of the link [kN]"],
-        ["A1", "eye", 2000],
-        ["G1", "eye", 2000],
+        ["type", "link", "strength of the link [kN]", "chain"],
+        ["A1", "eye", 2000, "complete"],
+        ["G1", "eye", 2000, "complete"],
     ],
     "Posts": [
         [

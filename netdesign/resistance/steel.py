@@ -272,6 +272,8 @@ class Link:
         no pull tells it.
     source : str
         Cell of its strength.
+    is_of_whole : bool
+        Somebody says that its chain has no links but those that are listed.
     """
 
     kind: str
@@ -280,6 +282,7 @@ class Link:
     count: int
     angle: float | None
     source: str
+    is_of_whole: bool = False
 
 
 def find_direction_factor(angle: float) -> Datum:

@@ -345,4 +345,5 @@ def _read_link(line: Row) -> Link:
         count=line["count"].given_count or 1,
         angle=line["angle"].given_si,
         source=(breaking if breaking.state == "given" else limit).place,
+        is_of_whole=bool(line["chain"].word),
     )

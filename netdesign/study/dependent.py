@@ -274,13 +274,46 @@ def connect(
         for one in links
     ]
     weakest = min(range(len(links)), key=strengths.__getitem__)
-    return replace(
+    found = replace(
         found,
         value=strengths[weakest],
         basis="declared",
         source=links[weakest].source,
         derivation=_describe_link(links[weakest], pulled, (on_action, on_resistance)),
         dimensions=links[weakest],
+    )
+    is_whole = any(one.is_of_whole for one in links)
+    return found if is_whole else _add_usual_link(found, given.value)
+
+
+def _add_usual_link(found: Resistance, strength: float | None) -> Resistance:
+    """Chain that nobody calls complete: a usual link may be weaker, (R17a).
+
+    It is a shackle as strong as the steel or rope of its type, pulled at a right angle.
+    """
+    doubt = say("connection.incomplete", type=found.type_id, sheet=say("sheet.Links"))
+    if strength is None:
+        return replace(found, doubt=doubt)
+    usual = Link(
+        kind=SHACKLE,
+        breaking=strength,
+        limit=None,
+        count=1,
+        angle=None,
+        source=found.source,
+    )
+    value = resist_link(usual, pulled=math.pi / 2, on_action=1.0, on_resistance=1.0)
+    listed = found.value or 0.0
+    if value >= listed:
+        return found
+    told = _describe_link(usual, math.pi / 2, (1.0, 1.0))
+    return replace(
+        found,
+        value=value,
+        best=listed,
+        doubt=doubt,
+        derivation=say("connection.usual", of=told),
+        dimensions=usual,
     )
 
 

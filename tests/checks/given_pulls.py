@@ -140,9 +140,9 @@ def write_row(
         sheet.append(list(line))
         sheet.append(list(line.values()))
     links = workbook.create_sheet("Links")
-    links.append(["type", "link", "strength of the link [kN]"])
+    links.append(["type", "link", "strength of the link [kN]", "chain"])
     for kind in ("A", ROPE["id"]):
-        links.append([kind, "eye", 900])
+        links.append([kind, "eye", 900, "complete"])
     if tests:
         sheet = workbook.create_sheet("Tests")
         headings = ("pull-out force [kN]", "outcome of the test")

@@ -193,6 +193,45 @@ def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
     assert "no link of type G24 is given on sheet Links" in str(check.reason)
 
 
+@each("seed", range(10))
+def test_a_chain_that_nobody_calls_complete_has_a_usual_link(solved, seed):
+    """0.5 of the rope, (R17a): it turns a pass into not proven, never into a fail."""
+    draw = random.Random(seed)
+    whole = {
+        name: tuple(
+            replace(one, kind="eye", limit=None, breaking=draw.uniform(60e3, 900e3))
+            for one in links
+        )
+        for name, links in solved[0].links.items()
+    }
+    listed = {
+        name: tuple(replace(one, is_of_whole=False) for one in links)
+        for name, links in whole.items()
+    }
+    _, checks = judge(solved, links=whole)
+    _, fewer = judge(solved, links=listed)
+    steel = {"rope": "rope", "anchor": "tendon"}
+    for name, check in fewer.items():
+        if check.mode != "connection":
+            assert check.verdict is checks[name].verdict
+            continue
+        mode = steel["anchor" if check.member.endswith("anchor") else "rope"]
+        of_type = checks[name.replace("connection", mode)]
+        own = checks[name].read("R_k")
+        usual = 0.5 * next(
+            one.value / 1e3
+            for one in solved[0].catalogue
+            if (one.type_id, one.mode) == (of_type.resistance_type, mode)
+        )
+        assert check.read("R_k") == pytest.approx(min(own, usual))
+        was = checks[name].verdict
+        decides = usual < own and check.demand_kN > usual / 1.5
+        turned = Verdict.NOT_PROVEN if was is Verdict.PASS and decides else was
+        assert check.verdict is turned, name
+        if turned is not was:
+            assert "chain = complete" in str(check.reason)
+
+
 def test_links_of_the_anchors_of_guys_count_too(solved):
     links = dict(solved[0].links)
     (eye,) = links["A32-tested"]

@@ -49,7 +49,9 @@ def judge(folder, panel, without=()):
     lines["Ranges"] = [one for one in lines["Ranges"] if one["quantity"] != "slack"]
     border = {"id": "border", "rope": 266.0, "axial_stiffness": 17600.0}
     lines["Ropes"].append(border | {"protected_years": 90})
-    lines["Links"].append({"type": "border", "link": "eye", "strength": 301.0})
+    lines["Links"].append(
+        {"type": "border", "link": "eye", "strength": 301.0, "chain": "complete"}
+    )
     lines["Ends"], lines["Declared"] = [END], []
     path = folder / "site.xlsx"
     with pytest.MonkeyPatch.context() as patch:

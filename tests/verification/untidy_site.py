@@ -90,6 +90,8 @@ def _complete_chain(lines, vary):
         {"type": "number", "link": "turnbuckle", "strength": vary(287.0)},
         {"type": "strong", "link": "plate", "strength": vary(613.0)},
     ]
+    for link in lines["Links"]:
+        link["chain"] = "complete"
 
 
 def _range(quantity, unit, low, high):

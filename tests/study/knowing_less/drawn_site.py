@@ -88,6 +88,7 @@ def list_groups(lines):
         ("edge_distance", "least_cover", "least_edge", "drilled_length"),
         ("soil_cohesion", "soil_friction", "soil_weight", "soil_water"),
         ("mesh_strength", "angle", "count"),
+        ("chain",),
         ("ground",),
         ("post_tilt", "post_base_distance"),
         ("uphill_anchor_distance", "downhill_anchor_distance"),
@@ -352,6 +353,7 @@ def _draw_links(draw, lines):
     """One or two links of nearly every type."""
     names = dict.fromkeys(one["id"] for one in (*lines["Anchors"], *lines["Ropes"]))
     for name in names:
+        is_whole = random.Random(f"{name} {lines['Nets'][0]}").random() < 0.8
         for _ in range(draw.choice((0, 1, 1, 1, 2, 2))):
             link = {"type": name, "link": draw.choice(("shackle", "eye", "plate"))}
             key = draw.choice(("strength", "working_limit"))
@@ -360,7 +362,7 @@ def _draw_links(draw, lines):
                 link["count"] = draw.choice((1, 2))
             if link["link"] == "shackle" and draw.random() < 0.6:
                 link["angle"] = _round(draw.uniform(0.0, 60.0))
-            yield link
+            yield link | ({"chain": "complete"} if is_whole else {})
 
 
 def _test_one_by_one(lines):
