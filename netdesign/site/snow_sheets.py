@@ -22,6 +22,7 @@ from netdesign.snowpack.series import (
     build_series,
     find_gaps,
     find_spikes,
+    find_stills,
 )
 from netdesign.words.message import Message, say
 
@@ -309,7 +310,9 @@ def _note_oddities(
     gaps = [
         gap
         for gap in find_gaps(heights)
-        if gap.is_closable and any(heights[day] > 0 for day in (gap.before, gap.after))
+        if gap.is_closable
+        and not gap.is_between
+        and any(heights[day] > 0 for day in (gap.before, gap.after))
     ]
     if gaps:
         listed = _list_days([day for gap in gaps for day in gap.days])
@@ -320,6 +323,14 @@ def _note_oddities(
         notes.append(say("winter_sheet.spike", days=_list_days(spikes)))
         reading = days.get(spikes[0], next(iter(days.values())))["snow_height"]
         refuse(reading, notes[-1], "", findings, severity="note")
+    if stills := find_stills(series):
+        notes.append(say("winter_sheet.still", days=_list_days(stills)))
+        reading = days.get(stills[0], next(iter(days.values())))["snow_height"]
+        refuse(reading, notes[-1], "", findings, severity="note")
+    if series.cut:
+        notes.append(say("winter_sheet.cut", winters=series.cut))
+        last = list(days.values())[-1]["snow_height"]
+        refuse(last, notes[-1], "", findings, severity="note")
     if series.starts_in_snow:
         notes.append(say("winter_sheet.starts_in_snow"))
         first = next(iter(days.values()))["snow_height"]

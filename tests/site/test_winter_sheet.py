@@ -29,7 +29,7 @@ def test_series_is_read_in_metres_and_kelvin(sheets, save):
     assert winter.series.air_temperatures == (None, pytest.approx(268.65))
     assert (winter.station, winter.altitude, winter.height_factor) == ("", None, None)
     assert winter.source == "Winter!A2"
-    assert winter.notes == ()
+    assert [one.key for one in winter.notes] == ["winter_sheet.cut"]  # it ends in snow
 
 
 def test_head_of_the_station_stands_on_the_first_line(sheets, save):
@@ -88,9 +88,9 @@ def test_faults_have_their_cell(sheets, save, refused, lines, cell, told):
 def test_spikes_and_a_start_in_snow_are_told(sheets, save):
     site = read_site(save(with_lines(sheets, *days(30, 92, 40))))
     told = " ".join(map(str, site.notes))
-    assert "2003-02-02: the snow rises by more than 0.6 m" in told
+    assert "2003-02-02: the snow rises or falls by more than 0.6 m" in told
     assert "300 kg/m³ (assumed)" in told
-    assert len(site.winter.notes) == 2
+    assert len(site.winter.notes) == 3  # it ends in snow, too
 
 
 WITH_ROWS = [*HEADINGS, "height factor [-]", "net row"]

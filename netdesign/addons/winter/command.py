@@ -105,13 +105,18 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     """Heights of the file, else those of the site, else those of the example."""
     from importlib.resources import as_file, files
 
-    from netdesign.addons.winter.height_file import complete_by_sheet, read_height_file
+    from netdesign.addons.winter.height_file import (
+        build_columns,
+        complete_by_sheet,
+        read_height_file,
+    )
     from netdesign.snowpack.series import smooth
 
     found = site.winter
     if asked["heights"] is not None:
         ids, form = [row.id for row in site.rows], build_text_format(asked)
-        found, remarks = read_height_file(asked["heights"], form, ids)
+        columns = build_columns(asked)
+        found, remarks = read_height_file(asked["heights"], form, ids, columns)
         for remark in remarks:
             tell(remark.message, err=True)
         found, note = complete_by_sheet(found, site.winter)

@@ -1,14 +1,30 @@
-"""Heights of a station in a csv file of their own, beside a site or without one."""
+"""Heights of a station in a csv file of their own, beside a site or without one.
+
+Files as stations publish them: a command names the columns, the unit and the words for
+no reading; days may be written in any order of which one alone can be meant.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import replace
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import date
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import UNDECLARED, TextFormat
-from netdesign.site.cells.findings import Finding, fold_findings
+from netdesign.site.cells.cells import (
+    UNDECLARED,
+    Cell,
+    Sheet,
+    TextFormat,
+    group_by_row,
+    name_column,
+)
+from netdesign.site.cells.findings import Finding, fold_findings, refuse_file
+from netdesign.site.cells.numbers import read_moment
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
@@ -18,10 +34,45 @@ from netdesign.site.tables import find_table
 from netdesign.words.message import Message, say
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeightColumns:
+    """What a command says of a station's file; all empty: columns of sheet Winter.
+
+    Attributes
+    ----------
+    date, height : str
+        Headings as they stand in the file, or letters of the columns.
+    unit : str
+        Of the heights; "" where their heading has it.
+    missing : tuple of str
+        Words that stand for no reading.
+    """
+
+    date: str = ""
+    height: str = ""
+    unit: str = ""
+    missing: tuple[str, ...] = ()
+
+
+AS_HEADED = HeightColumns()
+
+
+def build_columns(asked: Mapping[str, Any]) -> HeightColumns:
+    """Columns of a file by the options of a command."""
+    missing = (asked["missing"] or "").split(",")
+    return HeightColumns(
+        date=(asked["date"] or "").strip(),
+        height=(asked["height"] or "").strip(),
+        unit=(asked["unit"] or "").strip(),
+        missing=tuple(one.strip() for one in missing if one.strip()),
+    )
+
+
 def read_height_file(
     path: Path,
     text_format: TextFormat = UNDECLARED,
     row_ids: Collection[str] = (),
+    columns: HeightColumns = AS_HEADED,
 ) -> tuple[StationWinter, tuple[Finding, ...]]:
     """Series of a csv file of a station alone, and remarks on it.
 
@@ -33,6 +84,8 @@ def read_height_file(
         What is declared of the file's text.
     row_ids : collection of str
         Ids of the rows that it may name; with none, any.
+    columns : HeightColumns
+        What is said of its columns.
 
     Raises
     ------
@@ -40,13 +93,22 @@ def read_height_file(
         With all findings, if any of them is an error.
     """
     known = {name for field in WINTER.fields for name in field.names}
-    workbook = read_workbook(
-        path,
-        lambda _: True,
-        is_heading=lambda text: split_heading(text)[0] in known,
-        text_format=text_format,
+    known |= {columns.date, columns.height} - {""}
+    try:
+        workbook = read_workbook(
+            path,
+            lambda _: True,
+            is_heading=lambda text: (
+                not known.isdisjoint((text.strip(), split_heading(text)[0]))
+            ),
+            text_format=text_format,
+        )
+    except SiteDataError as refused:
+        found = [one for one in refused.findings if isinstance(one, Finding)]
+        raise _offer_columns(found) from refused
+    sheets = tuple(
+        replace(_arrange(one, columns), name=WINTER.name) for one in workbook.sheets
     )
-    sheets = tuple(replace(one, name=WINTER.name) for one in workbook.sheets)
     findings = list(workbook.remarks)
     table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
     winter = read_winter(table, dict.fromkeys(row_ids, ""), findings)
@@ -56,8 +118,176 @@ def read_height_file(
             rule = say("winter_sheet.no_height")
             accepted = say("winter_sheet.heights")
             findings.append(workbook.finding(rule, accepted))
-        raise SiteDataError(findings, fold_findings(findings))
+        raise _offer_columns(findings)
     return replace(winter, file=path.name), tuple(findings)
+
+
+def _offer_columns(findings: Sequence[Finding]) -> SiteDataError:
+    """Refusal of a station's file, with the options that read it as it is."""
+    lines = fold_findings(findings)
+    own = [one for one in lines if one.key != "finding.ask_map"]
+    return SiteDataError(findings, (*own, say("winter_sheet.name_columns")))
+
+
+def _arrange(sheet: Sheet, columns: HeightColumns) -> Sheet:
+    """Sheet with the named columns under our headings, days as ISO 8601 has them."""
+    names = columns.date, columns.height
+    if any(names) and not all(names):
+        raise refuse_file(
+            sheet.file, say("winter_sheet.one_column"), say("winter_sheet.columns")
+        )
+    found = _find_columns(sheet, names) if all(names) else _find_known(sheet)
+    if found is None and all(names):
+        rule = say("winter_sheet.no_column", date=names[0], height=names[1])
+        raise refuse_file(sheet.file, rule, say("winter_sheet.columns"))
+    if found is None:
+        return sheet
+    heading, day, height = found
+    missing = {one.casefold() for one in columns.missing}
+    cells = [
+        one
+        for row, line in sheet.rows.items()
+        for one in line.values()
+        if not (
+            one.column == height
+            and row > heading
+            and one.text.strip().casefold() in missing
+        )
+    ]
+    if all(names):
+        told = sheet.cell(heading, height).text
+        unit = columns.unit or split_heading(told)[1]
+        is_inch = unit == "in"
+        shown = f"snow height [{'m' if is_inch else unit}]" if unit else told
+        titles = {day: "date", height: shown}
+        own = [one for one in cells if one.row > heading and one.column in titles]
+        cells = [
+            replace(sheet.cell(heading, place), value=title)
+            for place, title in titles.items()
+        ]
+        cells += [
+            _take_inches(one) if is_inch and one.column == height else one
+            for one in own
+        ]
+    dates = {one.row: one for one in cells if one.column == day and one.row > heading}
+    cells = [one for one in cells if dates.get(one.row) is not one]
+    return replace(
+        sheet, rows=group_by_row([*cells, *_write_days(sheet.file, dates.values())])
+    )
+
+
+_INCH = 0.0254  # [m]
+
+
+def _take_inches(cell: Cell) -> Cell:
+    """Height in metres; text that is no number stays, and is refused."""
+    try:
+        return replace(cell, value=_INCH * float(cell.text))
+    except ValueError:
+        return cell
+
+
+_Columns = tuple[int, int, int]  # row of the headings, columns of days and heights
+
+
+def _find_columns(sheet: Sheet, names: tuple[str, str]) -> _Columns | None:
+    """Columns by their headings, else by their letters above the first day."""
+    wanted = [one.casefold() for one in names]
+    for row, cells in sheet.rows.items():
+        texts = {one.text.strip().casefold(): k for k, one in cells.items()}
+        if wanted[0] in texts and wanted[1] in texts:
+            return row, texts[wanted[0]], texts[wanted[1]]
+    for before, after in pairwise(sheet.rows):
+        letters = {name_column(k).casefold(): k for k in sheet.rows[after]}
+        day, height = (letters.get(one) for one in wanted)
+        if day is None or height is None:
+            continue
+        first = sheet.cell(after, day)
+        if _is_moment(first.text) or _list_orders([first]):
+            return before, day, height
+    return None
+
+
+def _find_known(sheet: Sheet) -> _Columns | None:
+    """Columns under headings of sheet Winter."""
+    fields = {field.key: field.names for field in WINTER.fields}
+    for row, cells in sheet.rows.items():
+        texts = {split_heading(one.text)[0]: k for k, one in cells.items()}
+        days, heights = (
+            [texts[one] for one in texts if one in fields[key]]
+            for key in ("date", "snow_height")
+        )
+        if days and heights:
+            return row, days[0], heights[0]
+    return None
+
+
+_NUMBERS = re.compile(r"(\d{1,4})([./-])(\d{1,2})\2(\d{1,4})\b(.*)", re.DOTALL)
+_PACKED = re.compile(r"(\d{4})(\d{2})(\d{2})(?:\d{2}){0,3}")
+_ORDERS = ((2, 1, 0), (2, 0, 1), (0, 1, 2))  # places of year, month, day
+_CENTURY = 70  # years of two digits from here on are 1970 to 1999
+
+
+def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
+    """Cells of days as ISO 8601, if one order of day, month and year can be meant.
+
+    Raises
+    ------
+    SiteDataError
+        If two can.
+    """
+    texts = [one for one in cells if isinstance(one.value, str) and not one.is_blank]
+    readable = all(_is_moment(one.text) for one in texts)
+    orders = [] if readable else _list_orders(texts)
+    if len(orders) > 1:
+        example = texts[0].text.strip()
+        rule = say("winter_sheet.which_day", text=example)
+        raise refuse_file(file, rule, say("winter_sheet.iso_days"))
+    days = dict(
+        zip([one.row for one in texts], orders[0] if orders else (), strict=False)
+    )
+    for one in cells:
+        day = days.get(one.row)
+        yield one if day is None else replace(one, value=day.isoformat())
+
+
+def _is_moment(text: str) -> bool:
+    try:
+        read_moment(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
+    """Days of all cells, in each order in which all are days that ascend."""
+    found: list[list[date]] = []
+    for order in _ORDERS:
+        days = [_read_day(one.text.strip(), order) for one in cells]
+        known = [one for one in days if one is not None]
+        is_whole = len(known) == len(days) and bool(days)
+        if is_whole and known not in found and all(a < b for a, b in pairwise(known)):
+            found.append(known)
+    return found
+
+
+def _read_day(text: str, order: tuple[int, int, int]) -> date | None:
+    """Day of a text in one order of its numbers; None if it is none."""
+    if packed := _PACKED.fullmatch(text):
+        numbers: tuple[str, ...] = packed.groups()
+        order = (0, 1, 2)
+    elif parted := _NUMBERS.fullmatch(text):
+        numbers = (parted[1], parted[3], parted[4])
+    else:
+        return None
+    year, month, day = (numbers[place] for place in order)
+    if len(year) not in (2, 4) or len(month) > 2 or len(day) > 2:
+        return None
+    century = 0 if len(year) == 4 else 1900 if int(year) >= _CENTURY else 2000
+    try:
+        return date(century + int(year), int(month), int(day))
+    except ValueError:
+        return None
 
 
 def complete_by_sheet(

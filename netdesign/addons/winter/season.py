@@ -285,6 +285,8 @@ class RowWinters:
         fewer than ``statistics.LEAST_WINTERS``, or where all maxima are the same.
     trend : Trend or None
         Likewise; None of fewer than ``statistics.LEAST_FOR_TREND``.
+    cut : tuple of str
+        Winters that are incomplete, and give no range of density.
     """
 
     row_id: str
@@ -295,15 +297,20 @@ class RowWinters:
     sample: Sample
     extreme_values: ExtremeValue | None
     trend: Trend | None
+    cut: tuple[str, ...] = ()
 
     @property
     def density_range(self) -> tuple[float, float] | None:
-        """Least and largest equivalent density of all winters and models [kg/m3]."""
+        """Least and largest equivalent density of winters not cut, all models [kg/m3].
+
+        None where no winter is left.
+        """
         every = [
             *self.maxima,
             *(one for group in self.others.values() for one in group),
         ]
-        found = [one.equivalent_density for one in every if one.equivalent_density]
+        whole = (one for one in every if one.winter not in self.cut)
+        found = [one.equivalent_density for one in whole if one.equivalent_density]
         return (min(found), max(found)) if found else None
 
 
@@ -332,7 +339,7 @@ def split_packs(
 
 
 def list_complete(series: HeightSeries) -> tuple[str, ...]:
-    """Names of the winters whose months with snow the series covers.
+    """Names of the winters whose months with snow the series covers to bare ground.
 
     Parameters
     ----------
@@ -344,7 +351,7 @@ def list_complete(series: HeightSeries) -> tuple[str, ...]:
     for name in split_winters(series):
         year = int(name[:4])
         start, end = date(year, *_COVERED[0]), date(year + 1, *_COVERED[1])
-        if first <= start and end <= last:
+        if first <= start and end <= last and name not in series.cut:
             found.append(name)
     return tuple(found)
 
@@ -414,4 +421,5 @@ def follow_winters(
         sample=sample,
         extreme_values=fit_extreme_values(pulls),
         trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
+        cut=station.series.cut,
     )

@@ -36,7 +36,7 @@ def snowpack(height_file: Path, **asked: Any) -> None:
 
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
-    from netdesign.addons.winter.height_file import read_height_file
+    from netdesign.addons.winter.height_file import build_columns, read_height_file
     from netdesign.addons.winter.season import FIRST_DENSITY
     from netdesign.addons.winter.settling.follow import MODELS as KNOWN
     from netdesign.addons.winter.settling.follow import follow_heights
@@ -45,7 +45,8 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     refuse_delimiter(height_file)
     if not asked["as_json"]:
         refuse_without(["layers"], "--json")
-    found, remarks = read_height_file(height_file, build_text_format(asked))
+    form, columns = build_text_format(asked), build_columns(asked)
+    found, remarks = read_height_file(height_file, form, columns=columns)
     for remark in remarks:
         tell(remark.message, err=True)
     series = smooth(found.series) if asked["median"] else found.series
