@@ -76,9 +76,11 @@ def find_rope_factor(construction: str, factor: str) -> Datum:
         say("catalogue.rope_construction"), construction, rope["construction"]
     )
     value = pick(say("catalogue.rope_factor"), factor, factors)
-    return Datum(
-        value=value, status=rope["status"], source=say("resistance_source.rope")
-    )
+    if "is_spiral" in factors:
+        source = say("resistance_source.spiral")
+        return Datum(value=value, status="assumed", source=source)
+    source = say("resistance_source.rope")
+    return Datum(value=value, status=rope["status"], source=source)
 
 
 def list_constructions() -> list[str]:

@@ -14,7 +14,7 @@ from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
-from netdesign.resistance.catalogue import load_catalogue
+from netdesign.resistance.catalogue import find_rope_factor, load_catalogue
 from netdesign.words.message import Message, say
 
 
@@ -221,8 +221,7 @@ def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
 
 def list_constructions(strands: Iterable[str]) -> list[str]:
     """Constructions of the catalogue with these strands, whatever their core."""
-    stranded = load_catalogue()["rope"]["construction"]
-    known = (*stranded, *load_products()["rope"]["spiral"]["layers"])
+    known = load_catalogue()["rope"]["construction"]
     return [one for one in known if one.partition("-")[0] in strands]
 
 
@@ -238,29 +237,22 @@ def make_rope(construction: str, diameter: float, grades: list[float]) -> Produc
     grades : list of float
         Strengths of wires [N/mm2].
     """
-    area, breaking, assumed, source = _find_factors(construction)
-    force = breaking * diameter**2
+    area, breaking = (find_rope_factor(construction, one) for one in ("C", "K"))
+    force = breaking.value * diameter**2
     values = {
         "rope_diameter": _span(diameter, 1e-3),
-        "metallic_area": _span(area * diameter**2, 1e-6),
+        "metallic_area": _span(area.value * diameter**2, 1e-6),
         "grade": (min(grades) * 1e6, max(grades) * 1e6),
         "breaking_force": (force * min(grades), force * max(grades)),
     }
-    recalled = frozenset(values) - _NAMED if assumed else frozenset[str]()
-    return Product(id="", family="", values=values, assumed=recalled, sources=(source,))
-
-
-def _find_factors(construction: str) -> tuple[float, float, bool, Message]:
-    """C and K of a rope, whether they are recalled, and their source."""
-    spiral, rope = load_products()["rope"]["spiral"], load_catalogue()["rope"]
-    if construction not in spiral["layers"]:
-        factors = rope["construction"][construction]
-        source = say("resistance_source.rope")
-        return factors["C"], factors["K"], rope["status"] == "assumed", source
-    n = spiral["layers"][construction]
-    area = math.pi / 4.0 * (1 + 3 * n * (n + 1)) / (2 * n + 1) ** 2
-    breaking = area * spiral["spinning"][construction]
-    return area, breaking, True, say(f"product_source.{spiral['source']}")
+    is_assumed = breaking.status == "assumed"
+    return Product(
+        id="",
+        family="",
+        values=values,
+        assumed=frozenset(values) - _NAMED if is_assumed else frozenset(),
+        sources=(breaking.source,),
+    )
 
 
 def _span(value: Any, unit: float = 1.0) -> Span:

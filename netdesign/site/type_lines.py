@@ -21,7 +21,7 @@ from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.lines import Types, index_lines, refuse_unknown_ids
 from netdesign.site.readings import Reading, Row, choose_given, refuse
-from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground
+from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground, may_be_rope
 from netdesign.words.message import say
 
 _ANCHORS = "Anchors"
@@ -258,33 +258,42 @@ def _read_single(test: Row) -> SingleTest:
     )
 
 
-def fill_in_section(row: Row) -> Row:
-    """Line of sheet Posts with the section that its name means, where none is typed.
+_STEEL = ("bar_diameter", "bar_strength", "inner_diameter")  # of an anchor
 
-    The weaker axis counts, and the wider side against the snow.
+
+def fill_in_section(row: Row) -> Row:
+    """Line of a type sheet with the section that its name means, where none is typed.
+
+    Of a post the weaker axis counts, and the wider side against the snow; of a bar the
+    least steel that has its name.
     """
-    columns = {key: one.field.of_product for key, one in row.items()}
-    is_post = "buckling_length" in row
-    if not is_post or row["compression"].state == "given":
+    if "buckling_length" in row and row["compression"].state != "given":
+        typed, product = find_section(row)
+        told = "derivation.product"
+        keys = [key for key in row if row[key].state == "blank"]
+    elif "bar_diameter" in row and not may_be_rope(row):
+        typed, told, keys = row["id"], "derivation.named_bar", list(_STEEL)
+        product = find_product(typed.word)
+    else:
         return row
-    typed, product = find_section(row)
-    if product is None:
+    is_open = all(row[key].state == "blank" for key in keys)
+    if product is None or not is_open or product.family == "rope":
         return row
     filled = dict(row)
-    how = say("derivation.product", product=product.id, sources=product.sources)
-    for key, names in columns.items():
+    how = say(told, product=product.id, sources=product.sources)
+    for key in keys:
+        names = row[key].field.of_product
         spans = [product.values[one] for one in names if one in product.values]
-        if not spans or row[key].state != "blank":
-            continue
-        is_width = key == "post_width"
-        value = max(high for _, high in spans) if is_width else min(spans)[0]
-        filled[key] = replace(
-            row[key],
-            state="given",
-            value=from_si(value, row[key].field.unit),
-            derivation=how,
-            cell=typed.cell,
-        )
+        if spans:
+            is_largest = key in ("post_width", "inner_diameter")
+            value = max(high for _, high in spans) if is_largest else min(spans)[0]
+            filled[key] = replace(
+                row[key],
+                state="given",
+                value=from_si(value, row[key].field.unit),
+                derivation=how,
+                cell=typed.cell,
+            )
     return filled
 
 

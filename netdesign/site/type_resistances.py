@@ -107,9 +107,10 @@ def check_ends(row: Row, findings: list[Finding]) -> None:
     """Refuse U-bolt grips on a spiral rope: EN 13411-5 is not for these."""
     if row.get("termination") is None or row["termination"].word != "clips":
         return
-    product = find_product(row["id"].word)
-    if product is not None and product.id.startswith(_SPIRAL):
-        rule = say("type.clips_on_spiral", rope=product.id)
+    product, typed = find_product(row["id"].word), row["construction"].word
+    rope = typed or (product.id if product else "")
+    if rope.startswith(_SPIRAL):
+        rule = say("type.clips_on_spiral", rope=rope)
         refuse(row["termination"], rule, say("type.other_end"), findings)
 
 
@@ -166,7 +167,8 @@ def _tell_governing(
     row: Row, needed: tuple[str, ...], governing: Reading, findings: list[Finding]
 ) -> None:
     """Say that dimensions beside a resistance are kept, and do not count."""
-    beside = next((row[key] for key in needed if row[key].state == "given"), None)
+    typed = (row[key] for key in needed if row[key].derivation is None)
+    beside = next((one for one in typed if one.state == "given"), None)
     if beside and beside.field.key not in _ALONE:
         name, place = governing.field.name, governing.place
         rule_text = say("type.governs", name=name, place=place)
@@ -190,6 +192,8 @@ def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
         lacking = [one for one in field.computed_from if row[one].state != "given"]
         parts = (*field.computed_from, *field.computed_with)
         is_faulty = any(row[one].state == "faulty" for one in parts)
+        if any(row[one].derivation for one in parts):  # of a product: asked elsewhere
+            continue
         is_open = bool(lacking) or (key == "tendon" and lacks_inner(row))
         needed = _LEAST_KNOWN.get(key, field.computed_from)
         if is_faulty or not set(needed).isdisjoint(lacking):
@@ -443,10 +447,14 @@ _RULES: Mapping[str, Callable[[Row], tuple[float, Message]]] = {
 
 
 def lacks_inner(line: Row) -> bool:
-    """Lack of an inner diameter of an anchor that may be hollow."""
+    """Lack of an inner diameter of an anchor that may be hollow.
+
+    A bar that is known by its name has one, or is solid.
+    """
     is_solid = line["kind"].word == _SOLID
     return (
         line["bar_diameter"].state == "given"
+        and line["bar_diameter"].derivation is None
         and line["inner_diameter"].state != "given"
         and not is_solid
     )

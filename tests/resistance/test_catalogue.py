@@ -21,7 +21,7 @@ from tests.each import each
         (find_bond_stress, ("gravel", "F"), "grouting in gravel = 'F': must be "),
         (find_rope_factor, ("6x91", "K"), "rope construction = '6x91': must be "),
         (find_rope_factor, ("6x19-FC", "Q"), "rope factor = 'Q': must be one of "),
-        (find_termination, ("sockets",), "termination = 'sockets': must be one of "),
+        (find_termination, ("spelters",), "termination = 'spelters': must be one of "),
         (find_imperfection, ("x",), "buckling curve = 'x': must be one of "),
     ],
 )
@@ -54,7 +54,7 @@ def test_a_refusal_names_the_two_nearest_or_none():
     [
         (find_bond_stress, ("gravel", "A"), "bond"),
         (find_rope_factor, ("6x19-FC", "K"), "rope"),
-        (find_termination, ("socket",), "termination"),
+        (find_termination, ("spelter",), "termination"),
         (find_imperfection, ("b",), "buckling"),
     ],
 )

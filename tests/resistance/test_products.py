@@ -463,3 +463,27 @@ def test_no_text_takes_long_to_read(part):
     for name in ("GEWI " + part * 100 + "!", part * 100 + "b500b ß²®½"):
         found = find_product(name)
         assert found is None or found.family in ("solid bar", "rope")
+
+
+@pytest.mark.parametrize(
+    ("name", "product", "diameter", "strengths"),
+    [
+        ("Stab 32 mm 500/550", "500/550 32", 32.0, (500e6, 550e6)),
+        ("Stabanker 550/620 Ø 28", "550/620 28", 28.0, (550e6, 620e6)),
+        ("barre 25 mm 670/800", "670/800 25", 25.0, (670e6, 800e6)),
+        ("GEWI 32 500/550", "GEWI 32", 32.0, (500e6, 550e6)),  # its own entry
+    ],
+)
+def test_a_bar_named_by_its_steel(name, product, diameter, strengths):
+    found = find_product(name)
+    assert (found.id, found.family) == (product, "solid bar")
+    assert found.values["outer_diameter"] == (diameter / 1e3, diameter / 1e3)
+    assert found.values["yield_strength"][0] == strengths[0]
+    assert found.values["ultimate_strength"][0] == strengths[1]
+    yields = strengths[0] * math.pi / 4.0 * (diameter / 1e3) ** 2
+    assert found.values["yield_force"][0] == pytest.approx(yields, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["Stab 500/550", "Anker 500/550 kN", "B 500/550"])
+def test_a_steel_without_a_diameter_is_no_product(name):
+    assert find_product(name) is None

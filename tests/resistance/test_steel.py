@@ -31,7 +31,7 @@ def test_breaking_force_of_ropes(diameter_mm, construction, grade, published_kN)
         diameter=diameter_mm / 1e3,
         grade=grade * 1e6,
         breaking_factor=find_rope_factor(construction, "K").value,
-        termination=find_termination("socket").value,
+        termination=find_termination("spelter").value,
     )
     assert found / 1e3 == pytest.approx(published_kN, rel=5e-3)
 

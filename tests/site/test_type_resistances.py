@@ -238,3 +238,50 @@ def test_tendon_by_the_kind_of_anchor(
     assert found.value == pytest.approx(share * 431e3, rel=1e-12)
     assert found.factored_as == factors
     assert (found.derivation is None) is (not factors)
+
+
+@each(
+    "name, kind, tendon, outer, inner",
+    [
+        ("Stab 32 mm 500/550", "bar", math.pi / 4 * 32.0**2 * 500.0, 32.0, 0.0),
+        ("GEWI 63.5", "micropile", math.pi / 4 * 63.5**2 * 555.0, 63.5, 0.0),
+        ("IBO R32-210", "micropile", 160e3, 29.1, 20.3),
+        ("A1", "bar", None, None, None),
+    ],
+)
+def test_section_and_steel_of_a_bar_follow_from_its_name(
+    sheets, save, name, kind, tendon, outer, inner
+):
+    """By hand, pi/4 d^2 f [N]; a hollow bar by its maker's yield force."""
+    sheets["Anchors"] = [
+        ["id", "kind of anchor", "lever arm [mm]"],
+        [name, kind, 10],
+    ]
+    sheets["Nets"][1][sheets["Nets"][0].index("foot anchor")] = name
+    sheets["Nets"][2:] = []
+    row = read_site(save(sheets)).rows[0]
+    found = {(one.member, one.mode): one for one in row.resistances}
+    steel = found["foot_anchor", "tendon"]
+    bent = found["foot_anchor", "bending"].dimensions
+    if tendon is None:
+        assert (steel.value, bent and bent.section) == (None, None)
+        return
+    assert steel.value == pytest.approx(tendon, rel=5e-3)
+    assert 1e3 * bent.section.outer == pytest.approx(outer, rel=1e-9)
+    assert 1e3 * bent.section.inner == pytest.approx(inner, rel=1e-9)
+
+
+def test_ends_and_spiral_ropes(sheets, save, refused):
+    """1x19: K = 0.88 x 19/25 x pi/4, by the wires that are there; swaged 0.9."""
+    sheets["Ropes"] = [
+        ["id", "rope diameter [mm]", "construction", "rope grade [MPa]", "termination"],
+        ["G1", 22, "1x19", 1570, "swaged socket"],
+    ]
+    by_hand = 0.88 * 19.0 / 25.0 * math.pi / 4.0 * 22.0**2 * 1570.0
+    for end, loss in (("swaged socket", 0.9), ("spelter socket", 1.0), ("socket", 0.9)):
+        sheets["Ropes"][1][-1] = end
+        found = resistance(read_site(save(sheets)), "uphill_guy", "rope")
+        assert found.value == pytest.approx(loss * by_hand, rel=1e-6)
+    sheets["Ropes"][1][-1] = "clips"
+    (finding,) = refused(save(sheets))
+    assert "not for a spiral rope, 1x19" in str(finding)

@@ -391,7 +391,7 @@ def _draw_ropes(draw):
         "rope_diameter": _round(draw.uniform(18.0, 26.0)),
         "construction": "6x19-IWRC",
         "grade": 1770.0,
-        "termination": draw.choice(("clips", "socket")),
+        "termination": draw.choice(("clips", "swaged")),
     }
     yield {
         "id": "stiff",
