@@ -210,7 +210,7 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
     if key not in _TESTED or (key == "pull_out" and line["basis"].word != "tested"):
         return None
-    limit = find_proof_limit(line)
+    limit = find_proof_limit(line, has_loop=False)
     if limit is None or reading.si <= limit * (1.0 + 1e-9):
         return None
     tendon = _name_with_value(line["tendon"])

@@ -29,7 +29,6 @@ from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
     compute_buckling,
-    find_loop_loss,
     find_proof_limit,
     find_tests,
     lacks_ground,
@@ -299,11 +298,12 @@ def _describe_type(
 ) -> Resistance:
     """Resistance of a type in one mode, given or not."""
     resistance = kind[mode]
-    tests = find_tests(kind) if mode == "pull_out" else None
+    is_pulled = mode == "pull_out"
+    tests = find_tests(kind) if is_pulled else None
     is_given = resistance.state == "given"
     is_derived = is_given and resistance.derivation is not None
     # A pull-out resistance says how it is known; the others are makers' values.
-    basis = kind["basis"].word if mode == "pull_out" else "declared"
+    basis = kind["basis"].word if is_pulled else "declared"
     basis = "computed" if is_derived else basis
     is_strut = is_derived and mode == "compression"
     value = resistance.si if is_given and not tests else None
@@ -318,7 +318,7 @@ def _describe_type(
         derivation = say("derivation.one_test", force=resistance.number)
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
-    if mode == "pull_out" and basis == "computed" and is_given and not tests:
+    if is_pulled and basis == "computed" and is_given and not tests:
         key = _find_sleeve(kind["sleeve"].word)
         value, derivation = (None, None) if key else (value, derivation)
     return Resistance(
@@ -337,13 +337,8 @@ def _describe_type(
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
-        proof_limit=_limit_tests(kind) if mode == "pull_out" else None,
+        proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
     )
-
-
-def _limit_tests(kind: Row) -> float | None:
-    """Largest load of a test that the tendon of a type allows [N]."""
-    return find_proof_limit(kind, find_loop_loss(kind))
 
 
 def _read_wear(kind: Row, mode: str) -> Wear | None:

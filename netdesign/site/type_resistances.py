@@ -328,7 +328,7 @@ def find_loop_loss(row: Row) -> float:
     return find_loop_efficiency().value if given is None else given
 
 
-def find_proof_limit(row: Row, loss: float = 1.0) -> float | None:
+def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
     """Largest load of a test that the tendon of an anchor type allows [N]; (R32).
 
     Of a bar its tensile strength is that of its product, or no more than it yields at.
@@ -337,17 +337,18 @@ def find_proof_limit(row: Row, loss: float = 1.0) -> float | None:
     ----------
     row : mapping of str to Reading
         Line of sheet Anchors.
-    loss : float
-        Loss factor of a rope anchor's loop [-].
+    has_loop : bool
+        A rope anchor's loop counts; else the most that its rope may bear.
     """
     tendon = row["tendon"].given_si
     if tendon is None:
         return None
+    tendon *= find_loop_loss(row) if has_loop else 1.0
     product = None if may_be_rope(row) else find_product(row["id"].word)
     ultimate, _ = (
         product.values.get("ultimate_force", (0.0, 0.0)) if product else (0, 0)
     )
-    return limit_proof_load(loss * tendon, max(loss * tendon, ultimate))
+    return limit_proof_load(tendon, max(tendon, ultimate))
 
 
 def _rope(row: Row) -> tuple[float, Message]:
