@@ -239,6 +239,9 @@ def compute_cone_resistance(
     return WedgeResistance(value=float(pulls[weakest]), plane=plane)
 
 
+BENDING = ("bar", "micropile")  # kinds of anchors that bend; others turn to the pull
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorType:
     """What an anchor is, beside its resistances along its axis.
@@ -278,6 +281,11 @@ class AnchorType:
     least_cover: float | None = None
     least_edge: float | None = None
     soil: Soil | None = None
+
+    @property
+    def is_in_block(self) -> bool:
+        """A bar or micropile that is fixed in a concrete block at its head."""
+        return self.kind in BENDING and self.across is not None and not self.has_tube
 
     def find_cover(self, axis: float) -> float:
         """Depth of the bond's middle, normal to the slope [m]; (S22).

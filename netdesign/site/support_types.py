@@ -20,11 +20,11 @@ from netdesign.resistance.steel import (
     Wear,
     find_ground_lever,
 )
-from netdesign.resistance.wedge import AnchorType, Soil
+from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
-from netdesign.site.type_lines import find_section
+from netdesign.site.type_lines import find_depth
 from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
@@ -59,7 +59,6 @@ _AXES = {
     Member.DOWNHILL_ANCHOR: "downhill_axis",
 }
 TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
-_BENDING = ("bar", "micropile")  # kinds of anchors that bend; others turn to the pull
 AnyMember = TypeVar("AnyMember", Member, EndMember)
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
@@ -203,7 +202,7 @@ def _list_beside_axis(
             yield _hold_by_ground(row[one], one, kind, types)
     for one in members:
         of_one = anchors.get(one)
-        if of_one is None or of_one.kind not in _BENDING:
+        if of_one is None or of_one.kind not in BENDING or of_one.across is not None:
             yield _open(row[one], one, "direction", of_one)
 
 
@@ -456,19 +455,7 @@ def _find_eccentricity(line: Row, key: str) -> float:
     if typed is not None:
         return typed
     turns = key == "foot_eccentricity" and line["foot_joint"].word in TURNING
-    return 0.0 if turns else 0.5 * _find_depth(line)
-
-
-def _find_depth(row: Row) -> float:
-    """Depth of a post's section in the plane across the row, at most [m].
-
-    By its name; else the width that the snow presses on, or 4 W / A: hollow sections
-    have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
-    """
-    _, product = find_section(row)
-    if product is not None and "depth" in product.values:
-        return max(product.values["depth"][1], row["post_width"].si)
-    return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
+    return 0.0 if turns else 0.5 * find_depth(line)
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

@@ -305,6 +305,18 @@ def find_section(row: Row) -> tuple[Reading, Product | None]:
     return typed, product if is_section else None
 
 
+def find_depth(row: Row) -> float:
+    """Depth of a post's section in the plane across the row, at most [m].
+
+    By its name; else the width that the snow presses on, or 4 W / A: hollow sections
+    have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
+    """
+    _, product = find_section(row)
+    if product is not None and "depth" in product.values:
+        return max(product.values["depth"][1], row["post_width"].si)
+    return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
+
+
 _SHEETS = ("Ropes", "Anchors")
 
 

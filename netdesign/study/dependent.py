@@ -35,7 +35,7 @@ from netdesign.resistance.steel import (
     leave_area,
     resist_link,
 )
-from netdesign.resistance.wedge import AnchorType, Soil
+from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.model import Resistance
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import find_ground_resistance
@@ -47,6 +47,7 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
+_NOT_ACROSS = 1e-9  # sine of a pull along the axis
 _LARGEST_ANGLE = math.radians(89.0)
 
 
@@ -88,7 +89,8 @@ def _find_bent_resistance(
         return replace(given, lack=say("bending.no_axis"))
     if pull.angle > _LARGEST_ANGLE:
         return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
-    lever = free + anchor.ground_lever
+    yields = 0.0 if anchor.is_in_block else anchor.ground_lever
+    lever = free + yields
     worst = min(
         (
             compute_bent_bar_resistance(section, angle=angle, lever=lever)
@@ -96,13 +98,14 @@ def _find_bent_resistance(
         ),
         key=lambda one: one.value,
     )
+    key = "bending.of_block" if anchor.is_in_block else "bending.of_bar"
     told = say(
-        "bending.of_tube" if anchor.has_tube else "bending.of_bar",
+        "bending.of_tube" if anchor.has_tube else key,
         of=_describe_bending(section, worst),
         lever=1e3 * lever,
         free=1e3 * free,
-        ground=1e3 * anchor.ground_lever,
-        length=find_least_tube(anchor.ground_lever),
+        ground=1e3 * yields,
+        length=find_least_tube(yields),
     )
     return replace(given, value=worst.value, derivation=told)
 
@@ -122,18 +125,20 @@ def _find_head_resistance(
     told = {"angle": pull.angle_deg, "most": limit.value if limit else 0.0}
     if pull.angle > _LARGEST_ANGLE:
         return replace(given, lack=say("direction.rope_beyond", **told))
-    across, anchor = math.sin(pull.angle), given.dimensions
+    across, anchor = max(math.sin(pull.angle), _NOT_ACROSS), given.dimensions
     holds = anchor.across if isinstance(anchor, AnchorType) else None
     if holds is None:
         factor = find_action_factor(standard).value or 1.0
         told |= {"force": factor * across * (force.high or 0.0)}
         return replace(given, lack=say("direction.no_head", **told))
+    bends = isinstance(anchor, AnchorType) and anchor.kind in BENDING
+    key = "direction.by_block" if bends else "direction.by_head"
     told |= {"across": kilonewton_from_newton(holds)}
     return replace(
         given,
         value=holds / across,
         basis="declared",
-        derivation=say("direction.by_head", **told),
+        derivation=say(key, **told),
     )
 
 

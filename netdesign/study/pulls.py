@@ -10,6 +10,7 @@ from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
+from netdesign.resistance.wedge import BENDING
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.anchors import (
     PullRange,
@@ -218,8 +219,11 @@ def check_direction(
 ) -> Check | None:
     """Check the angle of a rope anchor, or of an anchor whose kind is not given.
 
-    None beyond the limit, where a head has to take the force across the axis.
+    None beyond the limit, and of a bar in a block: there a head has to take the force
+    across the axis.
     """
+    if pull.kind in BENDING:
+        return None
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
         lack = say("check.no_limit", limit=ROPE_ANGLE)

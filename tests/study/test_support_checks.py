@@ -281,6 +281,28 @@ def test_bar_with_a_lever_arm_bends(tmp_path, lever, anchor, added, verdict):
     assert "foot_anchor.direction" not in checks
 
 
+@pytest.mark.parametrize("holds", [60.0, 75.0, 400.0])
+def test_a_bar_in_a_block_is_fixed_there_and_the_block_holds_what_is_across(
+    tmp_path, holds
+):
+    """The lever is the typed one alone; E_d sin(delta) against R / 1.4."""
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 20}
+    axis = {FOOT_AXIS: FOOT - 20.0}
+    block = {"head resistance across [kN]": holds}
+    checks = judge(tmp_path, anchor=anchor | block, **axis)
+    angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
+    used = math.cos(angle) / (math.pi * 16.0**2)
+    used += 20.0 * math.sin(angle) / (math.pi * 32.0**3 / 32.0)
+    found = checks["foot_anchor.bending"]
+    assert found.read("R_k") == pytest.approx(0.5 / used, rel=1e-9)
+    assert "fixed in the concrete" in str(found.resistance_derivation)
+    head = checks["foot_anchor.direction"]
+    across = 1.4 * foot_across(math.degrees(angle)) / holds
+    assert head.utilisation == pytest.approx(across, rel=1e-9)
+    assert head.verdict is (Verdict.PASS if across <= 1.0 else Verdict.FAIL)
+    assert "foot_anchor.direction" not in judge(tmp_path, anchor=anchor, **axis)
+
+
 def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):
     anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5}
 
