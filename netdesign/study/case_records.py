@@ -153,7 +153,7 @@ class LoadOnNet:
     """The guideline's load on a net, for each metre of width."""
 
     load_case: str  # "load_case_1" or "load_case_2"
-    normal_share: float  # a of (G4): of the normal part
+    normal_share: float = 0.35  # a of (G4): of the normal part
     inclination_deg: float  # of the net, where a force is largest
     snow_thickness_m: float  # of the snow that is held, there as well
     density_kg_m3: float
