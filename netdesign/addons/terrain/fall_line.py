@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
 from netdesign.addons.terrain.surface import Surface
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Mask
 
 LONGEST_BENCH = 6.0  # of level or opposite ground, across which a line goes on [m]
 _LEAST_RISE = (
@@ -33,12 +33,15 @@ class FallLines:
     heights, steepness, lengths : ndarray, shape (K + 1, n)
         Of the ground [m]; its angle, negative against the line [rad]; length along the
         ground from the start [m].
+    is_lost : ndarray of bool, shape (n,)
+        Lines that leave the grid or meet a hole before their end.
     """
 
     points: Floats
     heights: Floats
     steepness: Floats
     lengths: Floats
+    is_lost: Mask
 
     def take(self, lines: slice) -> FallLines:
         """Some of them."""
@@ -47,6 +50,7 @@ class FallLines:
             heights=self.heights[:, lines],
             steepness=self.steepness[:, lines],
             lengths=self.lengths[:, lines],
+            is_lost=self.is_lost[lines],
         )
 
     def find_length(self, line: int) -> float:
@@ -82,11 +86,12 @@ def follow_fall(
     points, heights, angles = [starts], [ground.height], [ground.steepness]
     lengths, rises = [0.0 * ground.height], [np.isfinite(ground.height)]
     farthest, stalled = sign * ground.height, np.zeros(len(starts))
-    least = _LEAST_RISE * step
+    least, is_lost = _LEAST_RISE * step, np.zeros(len(starts), dtype=bool)
     for _ in range(math.ceil(most / step) + 1):
         goes_on = (lengths[-1] < most) & (stalled <= LONGEST_BENCH)
         if not goes_on.any():
             break
+        start = ground
         half = surface.at(points[-1] + 0.5 * step * sign * _direct(ground.gradient))
         there = points[-1] + step * sign * _direct(half.gradient)
         ground = surface.at(there)
@@ -96,6 +101,8 @@ def follow_fall(
             there = np.where(is_farther[:, None], there, points[-1] + around)
             ground = surface.at(there)
             is_farther = sign * ground.height > farthest + least
+        is_level = _is_level(start.gradient) | _is_level(half.gradient)
+        is_lost |= goes_on & ~np.isfinite(ground.height) & ~is_level
         farthest = np.where(is_farther, sign * ground.height, farthest)
         stalled = np.where(is_farther, 0.0, stalled + step * goes_on)
         nothing = np.where(goes_on, 0.0, math.nan)
@@ -114,6 +121,7 @@ def follow_fall(
         heights=np.stack(heights) + ended,
         steepness=np.stack(angles) + ended,
         lengths=np.stack(lengths) + ended,
+        is_lost=is_lost,
     )
 
 
@@ -126,9 +134,76 @@ def _find_fall_around(surface: Surface, places: Floats) -> Floats:
     return np.asarray(heights @ ring / (0.5 * len(ring) * LONGEST_BENCH))
 
 
+def _is_level(gradient: Floats) -> Mask:
+    """Ground without a direction; False where there is none."""
+    return np.asarray(np.hypot(gradient[:, 0], gradient[:, 1]) <= _FLAT)
+
+
 def _direct(gradient: Floats) -> Floats:
     size = np.hypot(gradient[:, 0], gradient[:, 1])[:, None]
     return np.where(size > _FLAT, gradient / np.maximum(size, _FLAT), math.nan)
+
+
+def find_relief(surface: Surface, lines: FallLines) -> FallLines:
+    """Lines with the error of the slope by relief in the place of the slope, (T6).
+
+    Where the other window meets a hole, the error is that of the rest of the line.
+
+    Parameters
+    ----------
+    surface : Surface
+        Ground, by the window that serves.
+    lines : FallLines
+        On it.
+
+    Verified by
+    -----------
+    tests/addons/terrain/test_measure.py
+    """
+    other = surface.reopen()
+    points = lines.points.reshape(-1, 2)
+    angles = other.at(points).steepness.reshape(lines.steepness.shape)
+    off = surface.relief_share * np.abs(angles - np.abs(lines.steepness))
+    return replace(lines, steepness=off)
+
+
+def find_mean(
+    above: FallLines, below: FallLines, post: int, up: float, down: float
+) -> float:
+    """Mean slope angle on a line of fall, from ``down`` below to ``up`` above [rad].
+
+    Parameters
+    ----------
+    above, below : FallLines
+        From the same points up and down.
+    post : int
+        Which of them.
+    up, down : float
+        Along the ground [m].
+
+    Verified by
+    -----------
+    tests/addons/terrain/test_measure.py
+    """
+    sums = [
+        _integrate(part.lengths[:, post], part.steepness[:, post], most)
+        for part, most in ((above, up), (below, down))
+    ]
+    length, turned = (sum(one) for one in zip(*sums, strict=True))
+    return turned / length if length > 0.0 else float(above.steepness[0, post])
+
+
+def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, float]:
+    """Length up to ``most`` and the integral of the angle over it [m, rad m]."""
+    known = np.isfinite(lengths) & np.isfinite(angles)
+    lengths, angles = lengths[known], angles[known]
+    if lengths.size < 2:
+        return 0.0, 0.0
+    end = min(most, float(lengths[-1]))
+    inside = lengths < end
+    places = np.append(lengths[inside], end)
+    values = np.append(angles[inside], np.interp(end, lengths, angles))
+    return end, float(0.5 * ((values[1:] + values[:-1]) * np.diff(places)).sum())
 
 
 Rows = tuple[Sequence[str], Sequence[shapely.LineString]]

@@ -124,11 +124,13 @@ def _read_dataset(dataset: DatasetReader) -> Grid:
         unit = make_printable(unit)[:40]
         raise TerrainError(f"heights in the unit {unit}: give them in metres")
     require_metres(cell, west, north)
+    heights = _read_heights(dataset)
+    require_ground(heights, cell)
     return Grid(
         west=west + 0.5 * cell,
         south=north - (dataset.height - 0.5) * cell,
         cell=cell,
-        heights=_read_heights(dataset)[::-1].copy(),
+        heights=heights[::-1].copy(),
         crs=crs,
         bands=dataset.count,
     )
@@ -238,3 +240,38 @@ def _read_heights(dataset: DatasetReader) -> Floats:
         told = f"a height of {wrong[0]:g} m: {LOWEST:g} to {HIGHEST:g} m are read, and"
         raise TerrainError(f"{told} the no-data value that the file declares")
     return values
+
+
+_HIGHEST_STEP, _STEEPEST_STEP = 100.0, 10.0  # within a cell [m]; over the cell [-]
+
+
+def require_ground(heights: Floats, cell: float) -> None:
+    """Refuse falls within a cell that no ground has: heights that stand for no data.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (lines, columns)
+        NaN without data [m].
+    cell : float
+        [m].
+
+    Raises
+    ------
+    TerrainError
+        With both heights of the largest fall, and what to do.
+    """
+    most = max(_HIGHEST_STEP, _STEEPEST_STEP * cell)
+    worst = (most, 0.0, 0.0)
+    for axis in (0, 1):
+        falls = np.abs(np.diff(heights, axis=axis))
+        if not np.isfinite(falls).any():
+            continue
+        at = np.unravel_index(int(np.nanargmax(falls)), falls.shape)
+        other = (at[0] + 1 - axis, at[1] + axis)
+        ends = sorted((float(heights[at]), float(heights[other])))
+        worst = max(worst, (float(falls[at]), ends[0], ends[1]))
+    fall, low, high = worst
+    if fall > most:
+        told = f"the ground falls from {high:.6g} to {low:.6g} m within a cell"
+        asked = f"does {low:.6g} stand for no data? Declare it in the header"
+        raise TerrainError(f"{told}: {asked}, or correct the heights")

@@ -19,6 +19,8 @@ from netdesign.addons.terrain.fall_line import (
     Rows,
     find_exit,
     find_first_crossings,
+    find_mean,
+    find_relief,
     follow_fall,
 )
 from netdesign.addons.terrain.grid import Grid
@@ -54,7 +56,8 @@ class Upslope:
     length : Band
         Along the ground [m].
     end : str
-        "row", "zone", "flat", "cap", "edge" (of the grid, or of a hole in it).
+        "row", "zone", "flat", "cap", "top", or "edge" (of the grid, or of a hole in
+        it: the cap, since nobody knows the ground beyond).
     row : str
         The row that ends it, or "".
     steep : float
@@ -210,11 +213,17 @@ def _measure_row(
         _end_above(surface, above, post, most, bench, zone_ends[post], crossed[post])
         for post in range(len(posts))
     )
-    slopes = np.array(
-        [
-            _find_mean(above, below, post, one.length.value, line.net_height)
-            for post, one in enumerate(ends)
-        ]
+    slopes, reliefs = (
+        np.array(
+            [
+                find_mean(*pair, post, one.length.value, line.net_height)
+                for post, one in enumerate(ends)
+            ]
+        )
+        for pair in (
+            (above, below),
+            (find_relief(surface, above), find_relief(surface, below)),
+        )
     )
     gradient = surface.at(places).gradient.mean(axis=0)
     crossed_below = _list_crossings(others, below, least)
@@ -225,7 +234,7 @@ def _measure_row(
         posts=posts,
         length=_measure(posts),
         slopes=slopes,
-        slope=_band_slope(surface, slopes, ends, line),
+        slope=_band_slope(surface, slopes, reliefs, ends),
         flattest=_find_flattest(surface, places),
         aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
         upslope=max(ends, key=lambda one: one.length.high),
@@ -337,10 +346,11 @@ def _end_above(
         _find_flat(above, post, LEAST_STEEP + one, bench, most)
         for one in (spread, 0.0, -spread)
     ]
-    known = above.find_length(post)
-    ends = [("cap", "", most)]
-    if known < most:
-        ends.append(("edge", "", known))
+    known, is_lost = above.find_length(post), bool(above.is_lost[post])
+    # beyond the grid nobody knows that the snow ends
+    ends = [("edge" if is_lost else "cap", "", most)]
+    if known < most and not is_lost:
+        ends.append(("top", "", known))
     ends += [("row", name, found) for name, found in rows.items()]
     if of_zone is not None:
         ends.append(("zone", "", of_zone))
@@ -349,7 +359,7 @@ def _end_above(
     if value < length:
         end, row = "flat", ""
     band = Band(low=low, value=value, high=high)
-    steep = min(known, most, flat[1])
+    steep = min(most if is_lost else known, most, flat[1])
     return Upslope(length=band, end=end, row=row, steep=steep)
 
 
@@ -389,7 +399,7 @@ def _find_flat(
     afters = np.flatnonzero(is_flat[:-1] & ~is_flat[1:])
     last = int(np.isfinite(lengths).sum()) - 1
     for first, after in zip(firsts.tolist(), afters.tolist(), strict=True):
-        is_top = after > last and lengths[last] < most
+        is_top = after > last and lengths[last] < most and not above.is_lost[post]
         if lengths[min(after, last)] - lengths[first] < bench and not is_top:
             continue
         if first == 0:
@@ -399,41 +409,17 @@ def _find_flat(
     return math.inf
 
 
-def _find_mean(
-    above: FallLines, below: FallLines, post: int, up: float, down: float
-) -> float:
-    """Mean slope angle on a line of fall, from ``down`` below to ``up`` above [rad]."""
-    sums = [
-        _integrate(part.lengths[:, post], part.steepness[:, post], most)
-        for part, most in ((above, up), (below, down))
-    ]
-    length, turned = (sum(one) for one in zip(*sums, strict=True))
-    return turned / length if length > 0.0 else float(above.steepness[0, post])
-
-
-def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, float]:
-    """Length up to ``most`` and the integral of the angle over it [m, rad m]."""
-    known = np.isfinite(lengths) & np.isfinite(angles)
-    lengths, angles = lengths[known], angles[known]
-    if lengths.size < 2:
-        return 0.0, 0.0
-    end = min(most, float(lengths[-1]))
-    inside = lengths < end
-    places = np.append(lengths[inside], end)
-    values = np.append(angles[inside], np.interp(end, lengths, angles))
-    return end, float(0.5 * ((values[1:] + values[:-1]) * np.diff(places)).sum())
-
-
 def _band_slope(
-    surface: Surface, slopes: Floats, ends: Sequence[Upslope], line: NetLine
+    surface: Surface, slopes: Floats, reliefs: Floats, ends: Sequence[Upslope]
 ) -> Band:
-    """Slope of the steepest post with its standard errors, (T6)."""
+    """Slope of the steepest post with its errors by noise and relief, (T6)."""
+    stretches = np.array([one.length.value for one in ends])
+    windows = np.maximum(1.0, stretches / (surface.window * surface.grid.cell))
+    spreads = _ERRORS * surface.slope_error / np.sqrt(windows) + reliefs
     steepest = int(np.argmax(slopes))
-    stretch = ends[steepest].length.value + line.net_height
-    windows = max(1.0, stretch / (surface.window * surface.grid.cell))
-    spread = _ERRORS * surface.slope_error / math.sqrt(windows)
     value = float(slopes[steepest])
-    return Band(low=value - spread, value=value, high=value + spread)
+    high = float((slopes + spreads).max())
+    return Band(low=value - float(spreads[steepest]), value=value, high=high)
 
 
 def describe_kinks(row: MeasuredRow) -> str:
@@ -492,5 +478,7 @@ def describe_end(upslope: Upslope) -> str:
         "zone": "up to the edge of the starting zone",
         "flat": "up to where the ground is flatter than 25°",
         "cap": "the largest length that was looked for",
-        "edge": "up to a top, the edge of the grid, or a hole in it",
+        "top": "up to a top",
+        "edge": "the largest length, since it meets the edge of the grid or a hole "
+        "in it and nobody knows the ground beyond",
     }[upslope.end]

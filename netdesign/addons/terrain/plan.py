@@ -162,6 +162,12 @@ class _Feature:
     shape: Any
     properties: Mapping[str, object]
 
+    @property
+    def name(self) -> str:
+        """Its place, and its id where it has one."""
+        given = make_printable(str(self.properties.get("id") or ""))[:60]
+        return f"{self.place} ({given})" if given else self.place
+
 
 def _list_features(source: str) -> tuple[list[_Feature], str]:
     """Features of all layers that have geometries, and their reference system."""
@@ -212,7 +218,7 @@ def _build_plan(features: Sequence[_Feature], crs: str, faults: list[str]) -> Pl
             line = _read_line(feature, unread)
             lines += [line] if line else []
         except TerrainError as error:
-            faults += [f"{feature.place}: {one}" for one in str(error).split("\n")]
+            faults += [f"{feature.name}: {one}" for one in str(error).split("\n")]
     names = Counter(one.id for one in lines)
     faults += [f"two rows are named {one}" for one, n in names.items() if n > 1]
     if not lines and not faults:

@@ -6,7 +6,7 @@ Theory: addons/terrain/THEORY.md, (T1) to (T3).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,6 +17,9 @@ from netdesign.numerics.arrays import Floats, Ints
 WINDOWS = (3, 5, 7)  # cells on a side
 _AT_ONCE = 8192  # points whose windows are held at once: a quarter of the time of all
 _LONGEST_STEP = 2.0  # less than what rows and zones are told apart by [m]
+# Median of the misfit of noise alone over its standard deviation, by window.
+_MEDIANS = {3: 0.888, 5: 0.982, 7: 0.992}
+_RELIEF_SAFETY = 2.0
 _ENOUGH = math.radians(0.25)  # standard error of a slope at which a window serves
 
 
@@ -69,6 +72,16 @@ class Surface:
         """Standard error of the slope at one point by the noise, (T3) [rad]."""
         return self.noise * _gain(self.window) / self.grid.cell
 
+    @property
+    def relief_share(self) -> float:
+        """Error of a slope over its difference from the other window, (T6) [-]."""
+        own, other = _spread(self.window), _spread(self.reopen().window)
+        return _RELIEF_SAFETY * own / abs(own - other)
+
+    def reopen(self) -> Surface:
+        """The same ground by the next window: what relief hides shows in between."""
+        return replace(self, window=5 if self.window != 5 else 3)
+
     def at(self, points: Floats) -> Ground:
         """Ground at points, shape (n, 2) [m]."""
         parts = np.array_split(points, 1 + len(points) // _AT_ONCE)
@@ -89,12 +102,17 @@ def choose_window(grid: Grid, points: Floats) -> Surface:
     points : ndarray, shape (n, 2)
         Where the noise is looked at [m].
     """
-    misfits = find_misfits(grid, points, WINDOWS[-1])
-    known = misfits[np.isfinite(misfits)]
-    noise = float(np.median(known)) if known.size else 0.0
+    noise = min(_find_noise(grid, points, window) for window in WINDOWS)
     surfaces = [Surface(grid, window, noise) for window in WINDOWS]
     enough = (one for one in surfaces if one.slope_error <= _ENOUGH)
     return next(enough, surfaces[-1])
+
+
+def _find_noise(grid: Grid, points: Floats, window: int) -> float:
+    """Median misfit of a window [m]: that of noise alone grows with none of them."""
+    misfits = find_misfits(grid, points, window)
+    known = misfits[np.isfinite(misfits)]
+    return float(np.median(known)) / _MEDIANS[window] if known.size else 0.0
 
 
 def fit(grid: Grid, points: Floats, window: int) -> Ground:
@@ -173,6 +191,12 @@ def _prepare(window: int) -> tuple[Floats, Floats]:
 
 def _list_terms(u: Floats, v: Floats) -> Floats:
     return np.stack((np.ones_like(u), u, v, u * u, u * v, v * v), axis=-1)
+
+
+def _spread(window: int) -> float:
+    """Bias of a slope for each cubic term of the ground, in cells squared [-]."""
+    steps = np.arange(window) - window // 2
+    return float((steps**4).sum() / (steps**2).sum())
 
 
 def _gain(window: int) -> float:

@@ -1,11 +1,13 @@
 """Rows on surfaces whose slopes and lengths are known."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from netdesign.addons.terrain.measure import measure_rows
+from netdesign.addons.terrain.grid import require_ground
+from netdesign.addons.terrain.measure import describe_end, measure_rows
 from netdesign.addons.terrain.site_lines import derive_cells
 from netdesign.addons.terrain.surface import choose_window
 from netdesign.outcome import TerrainError
@@ -233,3 +235,82 @@ def test_snow_is_as_deep_as_on_the_flattest_ground_of_a_post(turned):
     typed = draw_line(points, turned=turned, snow_height=3.3, snow_thickness=2.0)
     row = measure(grid, typed)
     assert "snow_thickness" not in {one.key for one in derive_cells(row, [row], "g")}
+
+
+# --- fault 10: the end of the grid is not the end of the snow; relief is in the band -
+
+
+def cut_above(grid, north):
+    """The grid without its lines north of a place, as a tile ends."""
+    count = int((north - grid.south) / grid.cell)
+    return replace(grid, heights=grid.heights[:count].copy())
+
+
+@each("seed", range(12))
+def test_beyond_the_edge_or_a_hole_the_length_is_the_cap(seed):
+    """Drawn angles, cells, places of the border; never less than the whole ground."""
+    rng = np.random.default_rng([61, 10, seed])
+    angle, cell = math.radians(rng.uniform(28.0, 48.0)), float(rng.choice(CELLS[1:3]))
+    grid = build_grid(plane(angle), cell=cell, size=160.0)
+    row = draw_line(ALONG_CONTOUR)
+    most = float(rng.uniform(20.0, 45.0))
+    whole = measure(grid, row, most=most)
+    nearest = 2.5 * cell
+    farthest = max(1.01 * nearest, 0.7 * most * math.cos(angle))
+    border = -20.0 + float(rng.uniform(nearest, farthest))
+    if seed % 2:
+        cut = cut_above(grid, border)
+    else:
+        heights = grid.heights.copy()
+        line = int((border - grid.south) / cell)
+        heights[line : line + 2] = math.nan
+        cut = replace(grid, heights=heights)
+    found = measure(cut, row, most=most)
+    assert found.upslope.end == "edge"
+    assert found.upslope.length.value == most
+    assert found.upslope.length.high >= whole.upslope.length.high
+    assert "nobody knows" in describe_end(found.upslope)
+
+
+def test_a_top_is_still_an_end_of_the_snow():
+    """A ridge 25 m above the row in plan; the grid goes on beyond it."""
+    grid = build_grid(lambda _, y: -np.abs(y - 5.0) * math.tan(PSI), size=160.0)
+    found = measure(grid, draw_line(ALONG_CONTOUR), most=60.0)
+    assert found.upslope.end in ("top", "flat")
+    assert found.upslope.length.value == pytest.approx(25.0 / math.cos(PSI), abs=4.0)
+
+
+@each("seed", range(16))
+def test_the_band_holds_the_slope_of_smooth_relief(seed):
+    """Drawn waves of 40 m and more down the slope, on cells of 2 and 5 m, no noise.
+
+    The exact slope is the mean of atan(z') along the ground.
+    """
+    rng = np.random.default_rng([61, 10, 1, seed])
+    rise, wave = math.tan(rng.uniform(0.55, 0.8)), float(rng.uniform(40.0, 70.0))
+    size, phase = float(rng.uniform(0.02, 0.035)) * wave, float(rng.uniform(0.0, 6.28))
+    turn = 2.0 * math.pi / wave
+    ground = lambda _, y: rise * y + size * np.sin(turn * y + phase)  # noqa: E731
+    cell = (2.0, 5.0)[seed % 2]
+    grid = build_grid(ground, cell=cell, size=220.0)
+    most = float(rng.uniform(20.0, 50.0))
+    found = measure(grid, draw_line(ALONG_CONTOUR), most=most)
+    y = np.linspace(-60.0, 80.0, 140_001)
+    slope = rise + size * turn * np.cos(turn * y + phase)
+    along = np.cumsum(np.hypot(1.0, slope)) * (y[1] - y[0])
+    along -= np.interp(-20.0, y, along)
+    height = found.line.net_height
+    inside = (along > -height) & (along < found.upslope.length.value)
+    weights = np.hypot(1.0, slope[inside])
+    exact = float((np.arctan(slope[inside]) * weights).sum() / weights.sum())
+    assert found.slope.low <= exact <= found.slope.high
+    assert found.slope.high - found.slope.low < math.radians(3.0)
+
+
+@each("value", [0.0, -99.0, -100.0, 400.0])
+def test_heights_that_stand_for_no_data_are_asked_about(value):
+    heights = build_grid(plane(PSI), cell=5.0, size=160.0).heights.copy()
+    require_ground(heights, 5.0)
+    heights[3, 4] = value
+    with pytest.raises(TerrainError, match=f"to {value:g} m within a cell"):
+        require_ground(heights, 5.0)
