@@ -43,6 +43,7 @@ GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 LEAST_DIP = "anchor.dip.min"  # of a bore below the horizontal, so that mortar fills it
 ANCHOR_DISTANCE = "anchor.distance.min"
+LONGEST_BOND = "bond.length.max"  # that counts
 # eta of a post where snow glides least, and its growth with the glide factor.
 POST_EFFICIENCY, POST_EFFICIENCY_GROWTH = "post.efficiency", "post.efficiency.per_glide"
 # On the strength of the ground that an anchor may pull out with itself.
@@ -76,6 +77,7 @@ LIMIT_UNITS = {
     ROPE_ANGLE: "deg",
     LEAST_DIP: "deg",
     ANCHOR_DISTANCE: "m",
+    LONGEST_BOND: "m",
     DIMENSIONING: "kN/m3",
 }
 _PAIRS = (

@@ -69,6 +69,13 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
     return float(min(low for low, _ in spans)), float(max(high for _, high in spans))
 
 
+def find_steel_bond() -> Datum:
+    """Design bond stress f_bd of ribbed steel in grout [MPa]."""
+    table = load_catalogue()["steel_bond"]
+    source = say("resistance_source.steel_bond")
+    return Datum(value=table["f_bd_MPa"], status=table["status"], source=source)
+
+
 def find_rope_factor(construction: str, factor: str) -> Datum:
     """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
     rope = load_catalogue()["rope"]

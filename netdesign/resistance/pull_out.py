@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from netdesign.outcome import require_count, require_positive, require_within
+from netdesign.resistance.catalogue import find_steel_bond
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +63,48 @@ class PullOutTests:
         require_count("number of tests", self.count)
         require_positive("least tested resistance", self.least, "N")
         require_within("least tested resistance", self.least, 0.0, self.mean, "N")
+
+
+_LOOSE = 1.0  # of the ground at the mouth of a bore: frost, loose ground [m]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bond:
+    """Bonded length of an anchor, whose pull-out resistance is worked out.
+
+    Attributes
+    ----------
+    length, free : float
+        Bonded, and without a bond between it and the mouth of the bore [m].
+    steel : float or None
+        Least diameter that its bar may have [m]; None of a rope, which tests prove.
+    """
+
+    length: float
+    free: float
+    steel: float | None
+
+    def find_counted(self, longest: float) -> float:
+        """Length that counts [m]; resistance/THEORY.md, eq. (R33).
+
+        Parameters
+        ----------
+        longest : float
+            l_max of the profile [m].
+        """
+        lost = max(_LOOSE - self.free, 0.0)
+        return min(max(self.length - lost, 0.0), longest)
+
+
+def compute_steel_bond(diameter: float, length: float) -> float:
+    """Design resistance of a ribbed bar in its grout [N]; eq. (R34).
+
+    Parameters
+    ----------
+    diameter, length : float
+        Of the bar, and of the bond that counts [m].
+    """
+    return math.pi * diameter * length * find_steel_bond().value * 1e6
 
 
 def limit_proof_load(proof: float, ultimate: float) -> float:

@@ -13,6 +13,7 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import BasePlate, PostSection
+from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import Link, Wear
 from netdesign.resistance.wedge import AnchorType
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
@@ -61,6 +62,7 @@ class Resistance(GivenResistance):
     # told where what is assumed for it decides: between value and best, without a best
     # in any case
     doubt: Message | None = None
+    bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
 
 

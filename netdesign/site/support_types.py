@@ -24,7 +24,7 @@ from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
-from netdesign.site.type_lines import find_depth
+from netdesign.site.type_lines import find_depth, read_bond
 from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
@@ -336,6 +336,7 @@ def _describe_type(
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
+        bond=read_bond(kind) if is_pulled and is_derived else None,
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
     )
 

@@ -15,7 +15,7 @@ from statistics import fmean
 
 from netdesign.resistance.product_data import Product
 from netdesign.resistance.products import find_product
-from netdesign.resistance.pull_out import SingleTest
+from netdesign.resistance.pull_out import Bond, SingleTest
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
@@ -255,6 +255,25 @@ def _read_single(test: Row) -> SingleTest:
         proof_load=test["proof_load"].given_si,
         displacement=test["displacement"].given_si,
         source=test["force"].place,
+    )
+
+
+_LEAST_BAR = 6.0  # widest hole over its bar [-]
+
+
+def read_bond(line: Row) -> Bond | None:
+    """Bond of an anchor type, of which nothing else says its pull-out resistance.
+
+    A bar whose diameter nobody gives may be as thin as the widest hole has one.
+    """
+    length, drilled = line["bond_length"].given_si, line["drilled_length"].given_si
+    hole, bar = line["drill_diameter"].given_si, line["bar_diameter"].given_si
+    if length is None or hole is None:
+        return None
+    return Bond(
+        length=length,
+        free=max((drilled or length) - length, 0.0),
+        steel=None if line["kind"].word == "rope anchor" else bar or hole / _LEAST_BAR,
     )
 
 

@@ -13,13 +13,19 @@ from dataclasses import replace
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.calculation.quantity import given as quantity
-from netdesign.checks import Standard
-from netdesign.checks.comparison import find_action_factor, find_resistance
+from netdesign.checks import Standard, StandardValue
+from netdesign.checks.comparison import (
+    find_action_factor,
+    find_partial_factor,
+    find_resistance,
+    lack_factor,
+)
 from netdesign.checks.forces import resist_by_friction
-from netdesign.checks.schema import ROPE_ANGLE
+from netdesign.checks.schema import LONGEST_BOND, ROPE_ANGLE
 from netdesign.outcome import ModelError
-from netdesign.resistance.catalogue import Datum
+from netdesign.resistance.catalogue import Datum, find_steel_bond
 from netdesign.resistance.post import BasePlate, PostSection
+from netdesign.resistance.pull_out import Bond, compute_steel_bond
 from netdesign.resistance.steel import (
     BARE,
     SHACKLE,
@@ -160,6 +166,51 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
         axial=kilonewton_from_newton(section.axial_resistance),
         moment=kilonewton_from_newton(section.moment_resistance),
         shear=kilonewton_from_newton(section.shear_resistance),
+    )
+
+
+def shorten_bond(given: Resistance, standard: Standard) -> Resistance:
+    """Pull-out resistance of the bond that counts, in ground and grout; others as is.
+
+    Theory: resistance/THEORY.md, (R33) and (R34).
+    """
+    bond, longest = given.bond, standard.find(LONGEST_BOND)
+    factor = find_partial_factor(given, standard)
+    if bond is None or given.value is None or factor is None:
+        return given
+    if longest is None:
+        return replace(given, value=None, lack=lack_factor(LONGEST_BOND))
+    counted = bond.find_counted(longest.value)
+    if not counted:
+        lack = say("derivation.no_bond", length=bond.length)
+        return replace(given, value=None, lack=lack)
+    value, derivation = given.value * counted / bond.length, given.derivation
+    if counted < bond.length and derivation:
+        derivation = say(
+            "derivation.bond_counted",
+            of=derivation,
+            counted=counted,
+            length=bond.length,
+            longest=longest.value,
+        )
+    of_steel = math.inf
+    if bond.steel is not None:
+        of_steel = factor.value_si * compute_steel_bond(bond.steel, counted)
+    if of_steel < value:
+        value, derivation = of_steel, _describe_steel_bond(bond, counted, factor)
+    return replace(given, value=value, derivation=derivation)
+
+
+def _describe_steel_bond(bond: Bond, counted: float, factor: StandardValue) -> Message:
+    stress = find_steel_bond()
+    origin = {"status": name("status", stress.status), "source": stress.source}
+    return say(
+        "derivation.bond_of_steel",
+        factor=factor.value_si,
+        diameter=1e3 * (bond.steel or 0.0),
+        counted=counted,
+        stress=stress.value,
+        origin=say("derivation.origin", **origin),
     )
 
 

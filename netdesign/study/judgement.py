@@ -21,6 +21,7 @@ from netdesign.study.dependent import (
     corrode,
     find_resistance_for_force,
     resist,
+    shorten_bond,
 )
 from netdesign.study.geometry_checks import check_row_geometry
 from netdesign.study.member_force import (
@@ -268,7 +269,7 @@ def find_lasting(
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
     row = basis.row
-    lasting, worn = corrode(given, basis)
+    lasting, worn = corrode(shorten_bond(given, basis.standard), basis)
     doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
     if given.basis == BY_REPORT:
         doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))

@@ -21,10 +21,11 @@ from netdesign.resistance.catalogue import (
 from netdesign.resistance.post import compute_buckling_resistance
 from netdesign.resistance.product_data import load_products
 from netdesign.resistance.products import find_product
+from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
-from netdesign.study.dependent import corrode
+from netdesign.study.dependent import corrode, shorten_bond
 from netdesign.study.judgement import find_lasting
 from netdesign.study.posts import find_short_post
 from netdesign.study.row_to_check import Basis
@@ -134,7 +135,7 @@ def _list_enough(
         if other.mode != given.mode or not is_here:
             continue
         other = replace(other, member=given.member)
-        lasting, worn = corrode(other, basis)
+        lasting, worn = corrode(shorten_bond(other, standard), basis)
         if worn or find_short_post(other, basis):
             continue
         value = find_resistance(lasting, standard).value
@@ -163,7 +164,7 @@ def _record(
 _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
 _BAR_STRENGTH = 500.0  # of a bar whose steel nobody gives [MPa]
-_LONGEST_BOND = 15.0  # [m]
+_LONGEST_BOND = 10.0  # that counts [m]
 
 
 # A part of the catalogue: what it is, and its characteristic resistance [kN].
@@ -216,18 +217,19 @@ def _list_bars(given: Resistance) -> Iterator[Size]:
 def _list_bonds(given: Resistance) -> Iterator[Size]:
     """Bond lengths by half metres, in the hole and ground of the type."""
     how = _find_derivation(given, "derivation.bond")
-    if how is None:
+    if how is None or given.bond is None:
         return
     diameter = _take(how, "diameter")
     per_metre = math.pi * diameter / 1e3 * _take(how, "stress")  # [kN/m]
-    for half in range(2, int(2 * _LONGEST_BOND) + 1):
+    for half in range(2, int(2 * _LONGEST_BOND) + 3):
+        bond = Bond(length=0.5 * half, free=given.bond.free, steel=None)
         told = say(
             "change.bond",
             length=0.5 * half,
             diameter=diameter,
             ground=how.arguments["ground"],
         )
-        yield told, 0.5 * half * per_metre
+        yield told, bond.find_counted(_LONGEST_BOND) * per_metre
 
 
 def _list_sections(given: Resistance) -> Iterator[Size]:

@@ -241,7 +241,7 @@ def test_tested_and_computed_pull_out_have_their_own_factors():
         ).read("γ_R")
         for basis in ("tested", "computed")
     ]
-    assert factors == [1.35, 1.89]
+    assert factors == [1.35, 2.3625]
 
 
 def test_all_that_is_missing_is_told_at_once():

@@ -177,12 +177,13 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         verdict=Verdict.PASS,
     )
     # Bond: pi * 0.09 * 5.0 * 120 kPa (FHWA, gravel, type B, least) = 169.65 kN;
-    # 1.35 * 1.40 = 1.89: 89.76 kN.
+    # of 5.5 m drilled 0.5 m are free, so that 4.5 m count: 152.68 kN.
+    # 1.35 * 1.40 * 1.25 = 2.3625: 64.63 kN.
     expect(
         checks["foot_anchor.pull_out.end"],
         demand=foot,
-        resistance=169.65 / 1.89,
-        utilisation=1.7744,
+        resistance=152.68 / 2.3625,
+        utilisation=2.4644,
         verdict=Verdict.FAIL,
     )
     # Head 5.5 m wide: S = 0.1 * 85.38 kN; geometry and kappa as in row 1.
@@ -206,11 +207,11 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     inside = checks["foot_anchor.pull_out"]
     assert inside.position == "intermediate"
     assert inside.demand_kN == pytest.approx(foot * 4.0 / 5.5, **CLOSE)
-    assert inside.utilisation == pytest.approx(1.7744 * 4.0 / 5.5, **CLOSE)
-    # Resistance that would do, for the pull-out: 159.27 * 1.89 = 301.0 kN.
+    assert inside.utilisation == pytest.approx(2.4644 * 4.0 / 5.5, **CLOSE)
+    # Resistance that would do, for the pull-out: 159.27 * 2.3625 = 376.3 kN.
     needed = checks["foot_anchor.pull_out.end"].changes[0]
-    assert needed.bound == pytest.approx(159.27 * 1.89, **CLOSE)
-    # Widest spacing: the edge may have 5.5 / 1.7744 = 3.0996 m, and its end effect
+    assert needed.bound == pytest.approx(159.27 * 2.3625, **CLOSE)
+    # Widest spacing: the edge may have 5.5 / 2.4644 = 2.2318 m, and its end effect
     # takes 3.5 m of them: no spacing does.
     spacing = next(
         c

@@ -58,7 +58,7 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "action.snow": 1.5,
         "resistance.tendon": pytest.approx(1.15 * 1.3, rel=1e-15),
         "resistance.pull_out.tested": 1.35,
-        "resistance.pull_out.computed": pytest.approx(1.35 * 1.40, rel=1e-15),
+        "resistance.pull_out.computed": pytest.approx(1.35 * 1.40 * 1.25, rel=1e-15),
         "resistance.rope": 1.5,
         "resistance.compression": 1.05,
         "resistance.bearing": 1.4,
@@ -73,6 +73,7 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.tension": 1.4,
         "anchor.angle.rope": 30.0,
         "anchor.dip.min": 10.0,
+        "bond.length.max": 10.0,
         "resistance.direction": 1.4,
         "anchor.distance.min": 1.5,
     }
