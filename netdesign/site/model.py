@@ -111,6 +111,16 @@ class RowEnd:
             return None
         return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
 
+    def list_unsaid_places(self) -> tuple[Message, ...]:
+        """Names of what is not given of the places of its anchors."""
+        said = {
+            "lateral_distance": self.lateral_distance,
+            "lateral_axis": self.lateral_axis,
+            "end_guy_angle": self.guy_angle,
+        }
+        lacking = (key for key, value in said.items() if value is None)
+        return tuple(_name_column(f"Ends.{key}") for key in lacking)
+
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """What one of its anchors is; None where its type is not given."""
         return next((kind for one, kind in self.anchors if one == anchor), None)
@@ -206,20 +216,6 @@ class NetRow:
         if anchor == EndMember.LATERAL_ANCHOR:
             return self.row_end.lateral_axis if self.row_end else None
         return next((axis for one, axis in self.axes if one == anchor), None)
-
-    def list_unsaid_places(self) -> tuple[Message, ...]:
-        """Names of what is not given of the places of its end's anchors."""
-        end = self.row_end
-        if end is None:
-            return ()
-        axis = 0.0 if self.drills_along_pull else end.lateral_axis
-        said = {
-            "lateral_distance": end.lateral_distance,
-            "lateral_axis": axis,
-            "end_guy_angle": end.guy_angle,
-        }
-        lacking = (key for key, value in said.items() if value is None)
-        return tuple(_name_column(f"Ends.{key}") for key in lacking)
 
     def find_anchor_type(
         self, anchor: str, position: Position = "intermediate"

@@ -297,8 +297,8 @@ def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
 def _list_of_end(row: NetRow) -> Iterator[Message]:
     if any(one.source == ENDS.name for one in _list_at_end(row)):
         yield say("check.unsaid_ends")
-    else:
-        yield from row.list_unsaid_places()
+    elif row.row_end is not None:
+        yield from row.row_end.list_unsaid_places()
 
 
 def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:

@@ -171,7 +171,7 @@ def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
 def _find_lack(row: NetRow, pulls: Sequence[PullRecord]) -> Message | None:
     if any(not x.is_axis_known for x in pulls if x.anchor in tuple(Member)):
         return say("bending.no_axis")
-    names = row.list_unsaid_places()
+    names = row.row_end.list_unsaid_places() if row.row_end else ()
     of_end = say("check.unsaid", names=names) if names else None
     return lack_sharing(row.guys) or of_end
 

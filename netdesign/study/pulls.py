@@ -184,7 +184,8 @@ def build_pull(
         largest_deg=degree_from_radian(pulls.largest),
         axis_deg=degree_from_radian(axis),
         is_axis_given=given is not None,
-        is_axis_known=given is not None or row.drills_along_pull,
+        is_axis_known=given is not None
+        or (row.drills_along_pull and anchor in ANCHORS),
         angle_deg=degree_from_radian(turned),
         dip_deg=degree_from_radian(find_dip(axis, row.slope_angle, anchor)),
     )

@@ -36,6 +36,7 @@ END = {
     "end_guy": "number",
     "end_guy_anchor": "strong",
     "end_guy_angle": 37.0,
+    "lateral_axis": 25.0,
 }
 MEMBERS = {"lateral_anchor", "end_guy", "end_guy_anchor"}
 

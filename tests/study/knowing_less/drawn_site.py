@@ -80,6 +80,9 @@ def list_groups(lines):
         ("kind",),
         ("kind", "inner_diameter", "lever_arm"),
         ("ground_modulus",),
+        ("head_across",),
+        ("tested_dip",),
+        ("lateral_axis",),
         ("head_eccentricity", "foot_eccentricity", "foot_joint", "efficiency"),
         ("foot_axis", "uphill_axis", "downhill_axis", "anchor_axes"),
         ("guy_count", "guy_splay"),
@@ -342,7 +345,7 @@ def give_strength(draw, lines):
     for one in lines["Anchors"]:
         if "least_cover" in one and draw.random() < 0.5:
             del one["least_cover"]
-            one["soil_cohesion"] = _round(draw.uniform(8.0, 60.0))
+            one["soil_cohesion"] = _round(draw.uniform(8.0, 48.0))
             one["soil_friction"] = _round(draw.uniform(25.0, 40.0))
             one["soil_weight"] = _round(draw.uniform(17.0, 23.0))
             if draw.random() < 0.5:
@@ -438,6 +441,10 @@ def _say_more(draw, lines):
     for one in anchors:
         if one.get("kind") in ("bar", "micropile") and draw.random() < 0.5:
             one["ground_modulus"] = _round(draw.uniform(500.0, 5000.0))
+        elif one.get("kind") == "rope anchor" and draw.random() < 0.5:
+            one["head_across"] = _round(draw.uniform(40.0, 900.0))
+        if draw.random() < 0.4:
+            one["tested_dip"] = _round(draw.uniform(-14.0, 40.0))
 
 
 def _draw_ends(draw, net):
