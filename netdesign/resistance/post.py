@@ -164,6 +164,8 @@ class PostSection:
         Eccentricities of the compression at both ends [m].
     efficiency : float or None
         eta, where somebody gives it [-].
+    assumed : tuple of str
+        Columns of the last three that nobody fills.
     """
 
     width: float
@@ -175,6 +177,7 @@ class PostSection:
     at_head: float
     at_foot: float
     efficiency: float | None = None
+    assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse impossible numbers."""

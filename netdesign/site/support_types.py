@@ -60,6 +60,7 @@ _AXES = {
 }
 TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
 AnyMember = TypeVar("AnyMember", Member, EndMember)
+_OF_LOAD = ("efficiency", "head_eccentricity", "foot_eccentricity")
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
@@ -441,10 +442,20 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         at_head=_find_eccentricity(line, "head_eccentricity"),
         at_foot=_find_eccentricity(line, "foot_eccentricity"),
         efficiency=line["efficiency"].given_si,
+        assumed=tuple(one for one in _OF_LOAD if _is_assumed(line, one)),
     )
     place = line["post_width"].place
     found = _open(named, Member.POST, mode, section, source=place)
     return replace(found, buckling_length=section.length)
+
+
+def _turns(line: Row, key: str) -> bool:
+    """Foot that turns freely, so that no moment comes of its eccentricity."""
+    return key == "foot_eccentricity" and line["foot_joint"].word in TURNING
+
+
+def _is_assumed(line: Row, key: str) -> bool:
+    return line[key].given_si is None and not _turns(line, key)
 
 
 def _find_eccentricity(line: Row, key: str) -> float:
@@ -452,11 +463,8 @@ def _find_eccentricity(line: Row, key: str) -> float:
 
     Where nobody gives it: none at a foot that turns freely, else half the depth.
     """
-    typed = line[key].given_si
-    if typed is not None:
-        return typed
-    turns = key == "foot_eccentricity" and line["foot_joint"].word in TURNING
-    return 0.0 if turns else 0.5 * find_depth(line)
+    typed, most = line[key].given_si, 0.5 * find_depth(line)
+    return typed if typed is not None else 0.0 if _turns(line, key) else most
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

@@ -133,6 +133,7 @@ def list_judged_notes(
         *_list_base_notes(known.tilt, checks),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
+        *_list_tube_notes(checks),
         *list_guy_notes(row, ranges, checks, standard),
         *list_sag_notes(row, panel),
         *list_case_notes(cases),
@@ -171,6 +172,22 @@ def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
             yield say("row.drilled_along_pull", member=anchor, dip=dip, least=least)
         elif dip < least:
             yield say("row.borehole_flat", member=anchor, dip=dip, least=least)
+
+
+def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
+    """Least lengths of the tubes that bend at the heads of anchors."""
+    derived = ((one, one.resistance_derivation) for one in checks)
+    told = (
+        say(
+            "row.tube_length",
+            member=name_member(one.member),
+            type=one.resistance_type,
+            length=how.arguments["length"],
+        )
+        for one, how in derived
+        if isinstance(how, Message) and how.key == "bending.of_tube"
+    )
+    return list(dict.fromkeys(told))
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:

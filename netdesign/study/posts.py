@@ -179,7 +179,7 @@ class _LoadedPost:
     """
 
     value: float | None
-    told: Mapping[str, float]
+    told: Mapping[str, float | Message | str]
 
 
 def _load_post(
@@ -214,6 +214,7 @@ def _load_post(
             "length": section.length,
             "head": 1e3 * section.at_head,
             "foot": 1e3 * section.at_foot,
+            "assumed": _name_assumed(section),
             "moment": moment / 1e3,
             "resistance": section.moment_resistance / 1e3,
             "buckling": kilonewton_from_newton(section.buckling),
@@ -222,6 +223,12 @@ def _load_post(
             "factor": on_post,
         },
     )
+
+
+def _name_assumed(section: PostSection) -> Message | str:
+    """What of a post nobody gives, so that it is assumed; "" of nothing."""
+    names = tuple(say(f"column.Posts.{key}") for key in section.assumed)
+    return say("post_bending.not_given", names=names) if names else ""
 
 
 # Mean pressure of snow on a plane across the slope [Pa], and the load it is of.

@@ -303,6 +303,15 @@ def test_a_bar_in_a_block_is_fixed_there_and_the_block_holds_what_is_across(
     assert "foot_anchor.direction" not in judge(tmp_path, anchor=anchor, **axis)
 
 
+def test_a_row_says_how_long_its_tubes_are_at_least(tmp_path):
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5} | TUBE
+    (row,) = study_row(tmp_path, SWISS, **(ROW | {"anchor": anchor})).rows
+    notes = [str(one) for one in row.notes if "the tube at the head" in str(one)]
+    assert len(notes) == 3
+    # 0.30518 m pi / 0.3224 = 2.974 m
+    assert "Foot anchor: the tube at the head of type A is at least 3.0 m" in notes[0]
+
+
 def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):
     anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5}
 
@@ -485,8 +494,10 @@ def test_a_post_whose_eccentricities_nobody_gives_rests_on_its_edges(
     joint = post.pop("foot_joint", None)
     post["joint of the foot"] = joint
     checks = judge(tmp_path, post=post, head=(1.0, -9.0))
-    told = checks["post.compression_bending"].resistance_derivation.arguments
+    derived = checks["post.compression_bending"].resistance_derivation
+    told = derived.arguments
     assert (told["head"], told["foot"]) == pytest.approx((head, foot), abs=0.05)
+    assert ("assumed: eccentricity at the head" in str(derived)) is (post[HEAD] is None)
 
 
 def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):
