@@ -22,7 +22,7 @@ from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.addons.winter.statistics import (
     LEAST_FOR_TREND,
     RETURN_PERIODS,
-    ExtremeValue,
+    TAILS,
     Gumbel,
     LimitedGumbel,
     Trend,
@@ -206,7 +206,7 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
         "ground": scene.ground.kind,
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
-        "statistics": _write_statistics(result.sample.fit, result.extreme_values),
+        "statistics": _write_statistics(result.sample.fit),
         "statistics_notes": [str(one) for one in _note_sample(result.sample)],
         "winters_left_out": result.sample.left_out,
         "trend": _write_trend(result.trend),
@@ -319,9 +319,7 @@ def _largest_members(curve: Sequence[RowDay]) -> dict[str, float]:
     return found
 
 
-def _write_statistics(
-    fit: Gumbel | LimitedGumbel | None, other: ExtremeValue | None
-) -> dict[str, Any] | None:
+def _write_statistics(fit: Gumbel | LimitedGumbel | None) -> dict[str, Any] | None:
     if fit is None:
         return None
     limit = fit.limit if isinstance(fit, LimitedGumbel) else None
@@ -332,8 +330,7 @@ def _write_statistics(
         "limit_kN_per_m": kilonewton_if_known(limit),
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
-        "gev_shape": other.shape if other else None,
-        "return_values": [_write_value(one, fit, other) for one in RETURN_PERIODS],
+        "return_values": [_write_value(one, fit) for one in RETURN_PERIODS],
     }
 
 
@@ -357,22 +354,20 @@ def _note_sample(sample: Sample) -> Iterator[Message]:
         yield say("winter_sample.left_out", winters=tuple(sample.left_out))
 
 
-def _write_value(
-    period: float, fit: Gumbel | LimitedGumbel, other: ExtremeValue | None
-) -> dict[str, Any]:
-    """Return value by both distributions, with the ends of 5 and 95 %."""
+def _write_value(period: float, fit: Gumbel | LimitedGumbel) -> dict[str, Any]:
+    """Return value with the ends of 5 and 95 %, and what heavier tails would make."""
     value, error = fit.find_return_value(period)
     low, high = fit.find_interval(period)
     found = {"foot": value, "standard_error": error, "low": low, "high": high}
-    is_far = False
-    if other is not None:
-        found["gev"] = other.find_return_value(period)
-        found["gev_low"], found["gev_high"] = other.find_interval(period)
-        is_far = abs(found["gev"] - value) > error
+    tails: list[dict[str, float]] = []
+    if isinstance(fit, Gumbel):
+        for shape in TAILS:
+            foot, end = map(kilonewton_from_newton, fit.find_tail(period, shape))
+            tails.append({"shape": shape, "foot_kN_per_m": foot, "high_kN_per_m": end})
     shown = {
         f"{name}_kN_per_m": kilonewton_from_newton(one) for name, one in found.items()
     }
-    return {"period_a": period, **shown, "is_gev_far": is_far}
+    return {"period_a": period, **shown, "tails": tails}
 
 
 def _write_trend(trend: Trend | None) -> dict[str, Any]:

@@ -296,7 +296,7 @@ def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
 
 
 def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
-    keys = ("period", "return_value", "interval", "error", "gev", "interval")
+    keys = ("period", "return_value", "interval", "error")
     is_limited = statistics["limit_kN_per_m"] is not None
     moments, limited = "winter_page.statistics_caption", "winter_page.limited_caption"
     return Table(
@@ -311,27 +311,34 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
             (
                 fixed_cell(words, one["period_a"], 0),
                 force_cell(words, one["foot_kN_per_m"]),
-                _show_interval(one, "", words),
+                _show_interval(one, words),
                 force_cell(words, one["standard_error_kN_per_m"]),
-                force_cell(words, one.get("gev_kN_per_m")),
-                _show_interval(one, "gev_", words),
             )
             for one in statistics["return_values"]
         ),
     )
 
 
-def _show_interval(value: Mapping[str, Any], of: str, words: Words) -> Cell:
-    ends = [value.get(f"{of}{end}_kN_per_m") for end in ("low", "high")]
+def _show_interval(value: Mapping[str, Any], words: Words) -> Cell:
+    ends = [value.get(f"{end}_kN_per_m") for end in ("low", "high")]
     return text_cell(words.show_band("max_kN", *ends))
 
 
 def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Block]:
-    """Sentence on a value that both distributions do not agree on."""
+    """Sentences on what a heavier tail than Gumbel's would make of the values."""
     for one in statistics["return_values"]:
-        if one.get("is_gev_far"):
-            gev = one["gev_kN_per_m"]
-            told = words("winter_page.gev_far", period=one["period_a"], gev=gev)
+        if one["tails"]:
+            (light, light_high), (heavy, heavy_high) = (
+                (tail["foot_kN_per_m"], tail["high_kN_per_m"]) for tail in one["tails"]
+            )
+            told = words(
+                "winter_page.tails",
+                period=one["period_a"],
+                light=light,
+                light_high=light_high,
+                heavy=heavy,
+                heavy_high=heavy_high,
+            )
             yield notes(told, look="notes open")
 
 

@@ -25,10 +25,8 @@ from netdesign.addons.winter.sample import Sample, choose_sample
 from netdesign.addons.winter.settling.follow import SettlingModel, follow_heights
 from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.addons.winter.statistics import (
-    ExtremeValue,
     Trend,
     find_trend,
-    fit_extreme_values,
 )
 from netdesign.addons.winter.uniform_table import UniformTable
 from netdesign.snowpack.series import HeightSeries, split_winters
@@ -280,11 +278,9 @@ class RowWinters:
         The same winters by the other settling models.
     sample : Sample
         Complete winters, with the distribution of their maxima.
-    extreme_values : ExtremeValue or None
-        Of the same winters [N/m]; None where one of them has no proven maximum, of
-        fewer than ``statistics.LEAST_WINTERS``, or where all maxima are the same.
     trend : Trend or None
-        Likewise; None of fewer than ``statistics.LEAST_FOR_TREND``.
+        Of the same winters; None where one of them has no proven maximum, or of fewer
+        than ``statistics.LEAST_FOR_TREND``.
     cut : tuple of str
         Winters that are incomplete, and give no range of density.
     """
@@ -295,7 +291,6 @@ class RowWinters:
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
     sample: Sample
-    extreme_values: ExtremeValue | None
     trend: Trend | None
     cut: tuple[str, ...] = ()
 
@@ -419,7 +414,6 @@ def follow_winters(
         seasons=seasons,
         others={one: maxima[one] for one in rest},
         sample=sample,
-        extreme_values=fit_extreme_values(pulls),
         trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
         cut=station.series.cut,
     )

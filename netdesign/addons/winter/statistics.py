@@ -20,7 +20,7 @@ CERTAINTY = 0.95  # of each end of a return value's interval
 _SAMPLES = 20_000  # by which the ends are found
 _SEED = 1958
 _EULER = float(np.euler_gamma)
-_FLAT = 1e-6  # a shape below it is Gumbel's [-]
+TAILS = (0.1, 0.2)  # shapes of tails heavier than Gumbel's that are shown [-]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,6 +83,35 @@ class Gumbel:
         pivots = (_reduce_gumbel(period) - means) / deviations
         return _find_ends(pivots, self.mean, self.deviation)
 
+    def find_tail(self, period: float, shape: float) -> tuple[float, float]:
+        """Value and its upper end, were the tail heavier, eqs (Y15) to (Y18).
+
+        Parameters
+        ----------
+        period : float
+            T [a], above 1.
+        shape : float
+            xi of a generalised extreme value distribution with these moments [-], above
+            0 and below a half.
+
+        Returns
+        -------
+        (float, float)
+            Estimate, and the end above which the value lies in one of twenty, in the
+            unit of the maxima.
+
+        Verified by
+        -----------
+        tests/verification/test_return_values.py
+        """
+        first, second = math.gamma(1.0 - shape), math.gamma(1.0 - 2.0 * shape)
+        reduced = _reduce_tail(period, shape)
+        spread = math.sqrt(second - first**2) / shape
+        factor = (reduced - (first - 1.0) / shape) / spread
+        means, deviations = _draw_tails(self.count, shape)
+        ends = _find_ends((reduced - means) / deviations, self.mean, self.deviation)
+        return self.mean + factor * self.deviation, ends[1]
+
     def find_predictive_variation(self, period: float) -> float:
         """Coefficient of variation that allows for the few winters, eq. (Y23) [-].
 
@@ -116,6 +145,19 @@ def _draw_moments(count: int) -> tuple[Floats, Floats]:
     """Means and deviations of samples of so many draws of Gumbel's distribution."""
     samples = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
     return samples.mean(axis=1), samples.std(axis=1, ddof=1)
+
+
+@lru_cache(maxsize=8)
+def _draw_tails(count: int, shape: float) -> tuple[Floats, Floats]:
+    """Means and deviations of samples of so many draws with a heavier tail."""
+    reduced = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
+    samples = np.expm1(shape * reduced) / shape
+    return samples.mean(axis=1), samples.std(axis=1, ddof=1)
+
+
+def _reduce_tail(period: float, shape: float) -> float:
+    """Reduced value exceeded once in so many years, with a heavier tail, (Y15)."""
+    return math.expm1(shape * _reduce_gumbel(period)) / shape
 
 
 def _find_ends(pivots: Floats, value: float, unit: float) -> tuple[float, float]:
@@ -273,117 +315,6 @@ def _fit_limited(samples: Floats, limit: float) -> tuple[Floats, Floats]:
         is_large = scale + weighted > mean - least
         low, high = np.where(is_large, low, scale), np.where(is_large, scale, high)
     return least + scale * np.log(number / weights.sum(axis=1)), scale
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExtremeValue:
-    """Generalised extreme value distribution (GEV) by L-moments, eqs (Y15) to (Y17).
-
-    Attributes
-    ----------
-    count : int
-        Number of winters.
-    location, scale : float
-        In the unit of the maxima.
-    shape : float
-        xi [-]; above 0 the tail is heavier than Gumbel's, below it has an end.
-    """
-
-    count: int
-    location: float
-    scale: float
-    shape: float
-
-    def find_return_value(self, period: float) -> float:
-        """Value exceeded once in so many years, eq. (Y17).
-
-        Parameters
-        ----------
-        period : float
-            T [a], above 1.
-
-        Returns
-        -------
-        float
-            In the unit of the maxima.
-        """
-        return self.location + self.scale * float(_reduce(period, np.array(self.shape)))
-
-    def find_interval(self, period: float) -> tuple[float, float]:
-        """Ends below and above which the value lies in one of twenty, eq. (Y18).
-
-        Nearly: the samples are drawn with the shape that was found.
-
-        Parameters
-        ----------
-        period : float
-            T [a], above 1.
-
-        Returns
-        -------
-        (float, float)
-            Lower and upper end, in the unit of the maxima.
-        """
-        locations, scales, shapes = _draw_fits(self.count, round(self.shape, 6))
-        found = locations + scales * _reduce(period, shapes)
-        truth = _reduce(period, np.array(self.shape))
-        value = self.find_return_value(period)
-        return _find_ends((truth - found) / scales, value, self.scale)
-
-
-@lru_cache(maxsize=4)
-def _draw_fits(count: int, shape: float) -> tuple[Floats, Floats, Floats]:
-    """Fits to samples of so many draws of the reduced GEV."""
-    chances = np.random.default_rng(_SEED).uniform(size=(_SAMPLES, count))
-    return _fit_extreme_values(_transform(-np.log(chances), np.array(shape)))
-
-
-def _reduce(period: float, shape: Floats) -> Floats:
-    return _transform(np.asarray(-math.log(1.0 - 1.0 / period)), shape)
-
-
-def _transform(rates: Floats, shape: Floats) -> Floats:
-    """Reduced value of a rate -ln F: (rate^-xi - 1) / xi."""
-    safe = np.where(np.abs(shape) < _FLAT, _FLAT, shape)
-    return np.asarray(np.expm1(-safe * np.log(rates)) / safe)
-
-
-def fit_extreme_values(maxima: Sequence[float]) -> ExtremeValue | None:
-    """GEV of annual maxima; None of fewer than ``LEAST_WINTERS``, or all alike.
-
-    Parameters
-    ----------
-    maxima : sequence of float
-        One of each winter, in any unit.
-
-    Verified by
-    -----------
-    tests/verification/test_return_values.py
-    """
-    if len(maxima) < LEAST_WINTERS or len(set(maxima)) < 3:
-        return None
-    found = _fit_extreme_values(np.array(maxima, dtype=np.float64)[None])
-    location, scale, shape = (float(one[0]) for one in found)
-    return ExtremeValue(count=len(maxima), location=location, scale=scale, shape=shape)
-
-
-def _fit_extreme_values(samples: Floats) -> tuple[Floats, Floats, Floats]:
-    """Location, scale and shape of samples, shape (m, n) -> (m,) each."""
-    from scipy.special import gamma
-
-    ordered = np.sort(samples, axis=1)
-    n = ordered.shape[1]
-    rank = np.arange(n)
-    b0 = ordered.mean(axis=1)
-    b1 = ordered @ (rank / (n - 1)) / n
-    b2 = ordered @ (rank * (rank - 1) / ((n - 1) * (n - 2))) / n
-    second, third = 2.0 * b1 - b0, 6.0 * b2 - 6.0 * b1 + b0
-    c = 2.0 / (3.0 + third / second) - math.log(2.0) / math.log(3.0)
-    k = 7.8590 * c + 2.9554 * c**2
-    k = np.where(np.abs(k) < _FLAT, _FLAT, k)
-    scale = second * k / ((1.0 - 2.0**-k) * gamma(1.0 + k))
-    location = b0 - scale * (1.0 - gamma(1.0 + k)) / k
-    return location, scale, -k
 
 
 def fit_gumbel(maxima: Sequence[float]) -> Gumbel | None:
