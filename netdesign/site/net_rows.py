@@ -145,9 +145,11 @@ def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
     """
     pairs = zip(_list_compared(one), _list_compared(other), strict=True)
     for key, (mine, its) in zip(_COMPARED, pairs, strict=True):
-        is_near = isinstance(mine, float) and isinstance(its, float)
-        is_near = is_near and math.isclose(mine, its, rel_tol=_ALIKE)
-        if not is_near and mine != its:
+        if isinstance(mine, float) and isinstance(its, float):
+            is_alike = math.isclose(mine, its, rel_tol=_ALIKE)
+        else:
+            is_alike = mine == its
+        if not is_alike:
             yield key
 
 

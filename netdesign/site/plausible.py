@@ -110,6 +110,7 @@ def _list_users(lines: Lines, sheet: str) -> dict[str, dict[str, None]]:
 
 Doubt: TypeAlias = tuple[Reading, Message]
 
+_LEAST_STRUCK = 2  # cells of a line, of which most are struck out
 _TOLERANCE = 0.05  # of a value of the catalogue
 _APART = 0.1  # between a resistance and what its dimensions give
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
@@ -127,6 +128,7 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
     line : mapping of str to Reading
         Of any sheet.
     """
+    yield from _list_doubted_cells(line)
     typed = {key: one for key, one in line.items() if _is_meant(one)}
     alone = dict(_list_unlike(typed, line))
     for key, reading in typed.items():
@@ -146,6 +148,20 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
     for key in _TESTED if _TESTED[0] in line else ():
         if key not in alone and (told := _doubt_pulled(line[key], key, line)):
             yield line[key], told
+
+
+def _list_doubted_cells(line: Row) -> Iterator[Doubt]:
+    """Cells that are struck out, of most of a line the first, or hold an old result."""
+    typed = [
+        (one, one.cell.doubt)
+        for one in line.values()
+        if one.cell is not None and not one.cell.is_blank and one.derivation is None
+    ]
+    doubted = [(one, doubt) for one, doubt in typed if doubt is not None]
+    struck = [one for one in doubted if one[1].key == "cell.struck"]
+    is_line = len(typed) > _LEAST_STRUCK and 2 * len(struck) > len(typed)
+    left_out = struck[1:] if is_line else []
+    yield from (one for one in doubted if one not in left_out)
 
 
 def _is_meant(reading: Reading) -> bool:

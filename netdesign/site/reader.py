@@ -11,7 +11,12 @@ from netdesign.checks import list_standards
 from netdesign.edge.given_files import is_there
 from netdesign.outcome import SiteDataError
 from netdesign.resistance.steel import Link
-from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
+from netdesign.site.cells.cells import (
+    UNDECLARED,
+    TextFormat,
+    Workbook,
+    doubt_results,
+)
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.numbers import split_range
 from netdesign.site.cells.spreadsheet import read_workbook
@@ -136,6 +141,7 @@ def read_site(
     """
     cells = read_cells(Path(path), text_format, sheets)
     workbook, replaced = replace_cells(cells, instead)
+    workbook = doubt_results(workbook)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     return replace(_build_site(workbook, replaced, findings), text_format=text_format)

@@ -216,13 +216,14 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
             findings.append(cell.finding(rule, say("accepted.single_cells")))
     if sheet.is_hidden:
         findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
-    marked = (
-        (say("table.hidden_row"), sheet.hidden_rows),
-        (say("table.struck_row"), sheet.struck_rows),
-    )
-    for rule, hidden in marked:
-        first = (sheet.row(row)[0] for row in table.rows if row in hidden)
-        findings.extend(cell.finding(rule, severity="note") for cell in first)
+    first = (sheet.row(row)[0] for row in table.rows if row in sheet.hidden_rows)
+    rule = say("table.hidden_row")
+    findings.extend(cell.finding(rule, severity="note") for cell in first)
+    # elsewhere each is asked about, of the net rows that rest on it
+    told = table.rows if table.plan.name in _NOT_ASKED else (table.heading_row,)
+    cells = (cell for row in told for cell in sheet.row(row) if cell.column in read)
+    accepted = say("accepted.undoubted")
+    findings.extend(one.finding(one.doubt, accepted) for one in cells if one.doubt)
     rule = say("table.hidden_column")
     headings = (sheet.cell(table.heading_row, number) for number in read)
     findings.extend(
@@ -232,6 +233,9 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     )
     findings.extend(_note_lines_above(table))
     _judge_columns_without_heading(table, findings)
+
+
+_NOT_ASKED = ("Project", "Declared", "Winter", "Monitoring", "Uncertainty")
 
 
 def _note_lines_above(table: Table) -> Iterator[Finding]:

@@ -5,16 +5,22 @@ Its limits of size are far above any real site, far below a bomb.
 
 from __future__ import annotations
 
+import math
 import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from io import BytesIO
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding, Severity, refuse_file
-from netdesign.site.cells.numbers import DecimalMark, split_unit
+from netdesign.site.cells.numbers import (
+    DecimalMark,
+    compute_formula,
+    parse_number,
+    split_unit,
+)
 from netdesign.words.message import Message, say
 
 
@@ -90,6 +96,7 @@ class Cell:
     is_thousandth: bool = False  # the cell's format shows a thousandth
     shown_unit: str = ""  # what the cell's format shows beside the number
     decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
+    doubt: Message | None = None  # about what it holds: struck out, a stale result
 
     @property
     def address(self) -> str:
@@ -174,7 +181,6 @@ class Sheet:
     rows: Mapping[int, Mapping[int, Cell]]
     merged: tuple[MergedRange, ...] = ()
     hidden_rows: frozenset[int] = frozenset()
-    struck_rows: frozenset[int] = frozenset()
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
@@ -220,12 +226,66 @@ class Workbook:
     hidden: frozenset[str] = frozenset()  # those of the unread that nobody sees
     answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
+    is_by_hand: bool = False  # formulas are calculated only where somebody asks for it
 
     def finding(
         self, rule: Message, accepted: Message | str = "", sheet: str = ""
     ) -> Finding:
         """Say what is wrong with the file, or with one of its sheets."""
         return Finding(file=self.file, sheet=sheet, rule=rule, accepted=accepted)
+
+
+def doubt_results(workbook: Workbook) -> Workbook:
+    """Workbook whose formulas are in doubt where their stored results may be old.
+
+    A result is held against what the formula gives, by the results that are stored of
+    the cells it names. Where that cannot be found, a workbook that is calculated by
+    hand is in doubt.
+    """
+    cells = {
+        (sheet.name.casefold(), cell.address): cell
+        for sheet in workbook.sheets
+        for row in sheet.rows.values()
+        for cell in row.values()
+    }
+
+    def mark(cell: Cell) -> Cell:
+        if not cell.formula or cell.doubt or not isinstance(cell.value, int | float):
+            return cell
+        number = compute_formula(
+            cell.formula, lambda sheet, place: find(cell, sheet, place)
+        )
+        if number is None:
+            return replace(cell, doubt=_BY_HAND) if workbook.is_by_hand else cell
+        if math.isclose(number, cell.value, rel_tol=1e-6, abs_tol=1e-9):
+            return cell
+        told = say("cell.stale", stored=float(cell.value), number=number)
+        return replace(cell, doubt=told)
+
+    def find(cell: Cell, sheet: str, place: str) -> object:
+        known = sheet or cell.sheet
+        if all(one.name.casefold() != known.casefold() for one in workbook.sheets):
+            return None
+        found = cells.get((known.casefold(), place))
+        if found is None or not isinstance(found.value, str):
+            return 0.0 if found is None else found.value
+        number = parse_number(found.value, found.decimal_mark)
+        return number if isinstance(number, float) else found.value
+
+    sheets = tuple(
+        replace(
+            sheet,
+            rows={
+                number: {column: mark(cell) for column, cell in row.items()}
+                for number, row in sheet.rows.items()
+            },
+        )
+        for sheet in workbook.sheets
+    )
+    return replace(workbook, sheets=sheets)
+
+
+_BY_HAND = say("cell.by_hand")
 
 
 def name_column(column: int) -> str:

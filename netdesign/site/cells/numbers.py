@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import ast
+import math
+import operator
 import re
 import unicodedata
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
@@ -290,3 +295,95 @@ def read_moment(text: str) -> datetime:
         day, month, year, rest = dotted.groups()
         text = f"{year}-{int(month):02}-{int(day):02}{rest}"
     return datetime.fromisoformat(text.strip())
+
+
+_ONE = r"\$?[A-Z]{1,3}\$?[1-9]\d{0,6}"
+_REFERENCE = re.compile(
+    rf"(?:(?:'((?:[^']|'')+)'|([^\W\d][\w.]*))!)?({_ONE})(?::({_ONE}))?(?![\w(.!])"
+)
+_LONGEST_FORMULA, _MOST_SUMMED = 300, 1000
+_OPERATORS = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
+_FUNCTIONS: dict[str, Callable[..., float]] = {
+    "SUM": lambda *numbers: math.fsum(numbers),
+    "AVERAGE": lambda *numbers: math.fsum(numbers) / len(numbers),
+    "PI": lambda: math.pi,
+    "ROUND": lambda number, digits=0.0: _round_half_up(number, digits),
+    **{"MIN": min, "MAX": max, "ABS": abs, "SQRT": math.sqrt},
+    **{"COS": math.cos, "SIN": math.sin, "TAN": math.tan, "ATAN": math.atan},
+    **{"RADIANS": math.radians, "DEGREES": math.degrees},
+}
+
+
+def _round_half_up(number: float, digits: float) -> float:
+    """As a spreadsheet rounds: a half away from zero."""
+    scale = 10.0 ** int(digits)
+    return math.copysign(math.floor(abs(number) * scale + 0.5 + 1e-9), number) / scale
+
+
+def compute_formula(formula: str, find: Callable[[str, str], object]) -> float | None:
+    """Number that a formula gives; None where that is more than plain arithmetic.
+
+    Parameters
+    ----------
+    formula : str
+        As an xlsx file stores it: ``=B2*COS(RADIANS(Nets!C2))``.
+    find : callable
+        Content of a cell, by its sheet ("" for the same) and its address.
+    """
+    text = formula.removeprefix("=")
+    if len(text) > _LONGEST_FORMULA or '"' in text or re.search(r"-[^-+*/(]*\^", text):
+        return None  # a spreadsheet takes -2^2 for 4
+    cells: dict[str, Sequence[object]] = {}
+
+    def name(match: re.Match[str]) -> str:
+        sheet = (match[1] or match[2] or "").replace("''", "'")
+        key = f"cell_{len(cells)}"
+        places = _list_places(match[3], match[4] or match[3])
+        cells[key] = [find(sheet, place) for place in places]
+        return key
+
+    with suppress(ArithmeticError, LookupError, SyntaxError, TypeError, ValueError):
+        plain = _REFERENCE.sub(name, text).replace("^", "**").replace("%", "/100")
+        (number,) = _evaluate(ast.parse(plain.strip(), mode="eval").body, cells)
+        return float(number) if math.isfinite(number) else None
+    return None
+
+
+def _list_places(first: str, last: str) -> list[str]:
+    """Addresses of a range within one column; an error of any other."""
+    ends = [
+        re.fullmatch(r"([A-Z]+)(\d+)", one.replace("$", "")) for one in (first, last)
+    ]
+    (column, start), (other, end) = (one.groups() for one in ends if one)
+    rows = range(int(start), int(end) + 1)
+    if column != other or not 0 < len(rows) <= _MOST_SUMMED:
+        raise ValueError(first)
+    return [f"{column}{row}" for row in rows]
+
+
+def _evaluate(node: ast.AST, cells: dict[str, Sequence[object]]) -> list[float]:
+    """Numbers of a part of a formula: one, or all of a range."""
+    match node:
+        case ast.Constant(value=int() | float() as number):
+            return [float(number)]
+        case ast.Name(id=key):
+            found = cells[key]
+            if not all(isinstance(one, int | float) for one in found):
+                raise TypeError(key)
+            return [float(one) for one in found if isinstance(one, int | float)]
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
+            (number,) = _evaluate(operand, cells)
+            return [-number if isinstance(sign, ast.USub) else number]
+        case ast.BinOp(left=left, op=sign, right=right):
+            (one,), (other,) = _evaluate(left, cells), _evaluate(right, cells)
+            return [_OPERATORS[type(sign)](one, other)]
+        case ast.Call(func=ast.Name(id=key), args=given, keywords=[]):
+            numbers = [one for part in given for one in _evaluate(part, cells)]
+            return [_FUNCTIONS[key](*numbers)]
+    raise TypeError(node)

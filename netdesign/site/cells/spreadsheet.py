@@ -234,7 +234,7 @@ _STRICT = b"http://purl.oclc.org/ooxml/"
 _MACRO_PART = "xl/vbaProject.bin"
 
 _Content = tuple[
-    tuple[Sheet, ...], tuple[str, ...], frozenset[str], tuple[Finding, ...]
+    tuple[Sheet, ...], tuple[str, ...], frozenset[str], tuple[Finding, ...], bool
 ]
 
 
@@ -287,7 +287,7 @@ def read_workbook(
             text_format,
             by_name=is_folder,
         )
-        read: _Content = sheets, unread, frozenset(), remarks
+        read: _Content = sheets, unread, frozenset(), remarks, False
         content = b"".join(contents.values())
     else:
         content = _read_file(path, MAX_FILE_BYTES)
@@ -299,6 +299,7 @@ def read_workbook(
         unread=read[1],
         hidden=read[2],
         remarks=read[3],
+        is_by_hand=read[4],
     )
 
 
@@ -339,12 +340,12 @@ def _read_archive(
     except DAMAGE as error:
         rule = say("book.unreadable", detail=_describe_damage(error))
         raise refuse_file(file, rule, _ACCEPTED_FILE) from error
-    sheets, left_out, _ = read
+    sheets, left_out, hidden, is_by_hand = read
     if not (sheets or left_out):
         raise refuse_file(file, say("book.no_sheet"), _ACCEPTED_FILE)
     has_macros = _MACRO_PART in parts
     note = note_file(file, say("book.macros"))
-    return *read, (note,) if has_macros else ()
+    return sheets, left_out, hidden, (note,) if has_macros else (), is_by_hand
 
 
 def _is_root(part: str) -> bool:

@@ -44,7 +44,11 @@ def _open(content: bytes, *, stored_results: bool) -> ExcelReader:
     if not openpyxl.DEFUSEDXML:
         raise NetDesignError(say("program.no_defusedxml"))
     reader = ExcelReader(
-        BytesIO(content), read_only=True, data_only=stored_results, keep_links=False
+        BytesIO(content),
+        read_only=True,
+        data_only=stored_results,
+        keep_links=False,
+        rich_text=stored_results,
     )
     reader.read()
     return reader
@@ -84,8 +88,11 @@ def read_xlsx(
     content: bytes,
     is_wanted: Callable[[str], bool],
     decimal_mark: DecimalMark,
-) -> tuple[tuple[Sheet, ...], tuple[str, ...], frozenset[str]]:
-    """Wanted sheets, names of the others, those that nobody sees; never macros."""
+) -> tuple[tuple[Sheet, ...], tuple[str, ...], frozenset[str], bool]:
+    """Wanted sheets, names of the others, those that nobody sees; never macros.
+
+    The last tells whether its formulas are calculated only by hand.
+    """
     with warnings.catch_warnings():
         # openpyxl warns of features that it would drop on saving; nothing is saved.
         warnings.simplefilter("ignore")
@@ -110,7 +117,9 @@ def read_xlsx(
             for name, layout in layouts.items()
         )
     hidden = {one.title for one in stored.worksheets if one.sheet_state != "visible"}
-    return sheets, tuple(one for one in names if not is_wanted(one)), frozenset(hidden)
+    unread = tuple(one for one in names if not is_wanted(one))
+    is_by_hand = stored.calculation.calcMode == "manual"
+    return sheets, unread, frozenset(hidden), is_by_hand
 
 
 def _read_formulas(typed: Any, layout: _Layout) -> dict[tuple[int, int], str]:
@@ -141,10 +150,8 @@ def _read_sheet(
         )
         for (row, column), formula in formulas.items()
     }
-    struck: dict[int, bool] = {}
     for cell in _filled_cells(stored, layout.last_row):
         place = (cell.row, cell.column)
-        struck[cell.row] = struck.get(cell.row, True) and _is_struck(cell)
         cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
     require_columns(file, stored.title, cells.values())
     return Sheet(
@@ -153,7 +160,6 @@ def _read_sheet(
         rows=group_by_row(cells.values()),
         merged=tuple(layout.merged),
         hidden_rows=frozenset(layout.hidden_rows),
-        struck_rows=frozenset(row for row, is_struck in struck.items() if is_struck),
         hidden_columns=frozenset(layout.hidden_columns),
         is_hidden=stored.sheet_state != "visible",
     )
@@ -168,20 +174,25 @@ def _filled_cells(sheet: Any, last_row: int) -> list[Any]:
 
 def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) -> Cell:
     is_number = cell.data_type == "n" and isinstance(cell.value, int | float)
+    is_rich = isinstance(cell.value, list)  # a text with formats of its own
     shown = str(cell.number_format) if is_number else ""
     return Cell(
         file=file,
         sheet=cell.parent.title,
         row=cell.row,
         column=cell.column,
-        value=cell.value,
+        value=str(cell.value) if is_rich else cell.value,
         formula=formula,
         is_error=cell.data_type == "e",
         is_percent=show_percent(shown),
         is_thousandth=show_thousands(shown),
         shown_unit=find_format_unit(shown, cell.value) if shown else "",
         decimal_mark=decimal_mark,
+        doubt=_STRUCK if _is_struck(cell) else None,
     )
+
+
+_STRUCK = say("cell.struck")
 
 
 @dataclass(slots=True)
@@ -196,8 +207,11 @@ class _Layout:
 
 
 def _is_struck(cell: Any) -> bool:
-    """Text of a cell is struck out."""
-    return bool(cell.has_style and cell.font and cell.font.strike)
+    """Text of a cell is struck out, or a part of it."""
+    parts = cell.value if isinstance(cell.value, list) else ()
+    fonts = [getattr(part, "font", None) for part in parts]
+    fonts += [cell.font] if cell.has_style else []
+    return any(font is not None and font.strike for font in fonts)
 
 
 def _scan_layout(reader: ExcelReader, name: str) -> _Layout:

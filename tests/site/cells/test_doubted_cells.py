@@ -1,0 +1,187 @@
+"""Cells struck out, and formulas whose stored results are old, are asked about."""
+
+import math
+import random
+
+import openpyxl
+import pytest
+import xlsxwriter
+from openpyxl.styles import Font
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.cells.numbers import compute_formula
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.reader import read_site
+from tests.each import each
+from tests.site.plausible.office import draw_office
+from tests.site_lines import write_lines
+
+ASKED = ("Nets", "Ends", "Anchors", "Ropes", "Posts", "Ranges")
+
+
+@pytest.fixture
+def path(tmp_path):
+    write_lines(tmp_path / "site.xlsx", draw_office(3, rows=3))
+    return tmp_path / "site.xlsx"
+
+
+def list_filled(path):
+    book = openpyxl.load_workbook(path)
+    return [
+        (sheet, cell.coordinate)
+        for sheet in ASKED
+        for line in book[sheet].iter_rows(min_row=2)
+        for cell in line
+        if cell.value is not None and not (sheet == "Ranges" and cell.column < 3)
+    ]
+
+
+def strike(path, cells):
+    book = openpyxl.load_workbook(path)
+    for sheet, address in cells:
+        book[sheet][address].font = Font(strike=True)
+    book.save(path)
+
+
+@each("seed", range(12))
+def test_every_cell_that_is_struck_out_is_asked_about(path, seed):
+    draw = random.Random(seed)
+    cells = draw.sample(list_filled(path), draw.randint(1, 4))
+    strike(path, cells)
+    site = read_site(path)
+    told = " ".join(map(str, site.questions))
+    for sheet, address in cells:
+        assert f"{sheet} › {address}" in told
+    assert "is struck out" in told
+    of_rows = {address[-1] for sheet, address in cells if sheet in ("Nets", "Ends")}
+    for number, row in enumerate(site.rows, start=2):
+        if str(number) in of_rows:
+            assert row.questions
+    write_lines(path, draw_office(3, rows=3))
+
+
+def test_a_line_that_is_struck_out_is_one_question(path):
+    cells = [(sheet, one) for sheet, one in list_filled(path) if one.endswith("3")]
+    strike(path, [one for one in cells if one[0] == "Nets"])
+    site = read_site(path)
+    assert len(site.questions) == 1
+    assert [bool(row.questions) for row in site.rows] == [False, True, False]
+
+
+def test_a_part_of_a_text_that_is_struck_out_is_asked_about(path):
+    """As spreadsheets store it: one text with formats of its own."""
+    write_formulas(path, {}, struck_part="Nets!R2")
+    (question,) = read_site(path).questions
+    assert "Nets › R2" in str(question)
+    assert "struck out" in str(question)
+    assert len(read_site(path).rows) == 3
+
+
+@each("sheet, address", [("Project", "B2"), ("Nets", "I1"), ("Declared", "B2")])
+def test_what_no_net_row_rests_on_alone_is_refused_struck_out(path, sheet, address):
+    book = openpyxl.load_workbook(path)
+    line = ("all", "foot_anchor.pull_out", "Report 1", "B. N.", "2026-02-03")
+    for column, value in enumerate(line, start=1):
+        book["Declared"].cell(2, column).value = value
+    book.save(path)
+    strike(path, [(sheet, address)])
+    with pytest.raises(SiteDataError, match="is struck out"):
+        read_site(path)
+
+
+def write_formulas(path, formulas, *, by_hand=False, struck_part=""):
+    """The office's list with formulas and their stored results in some cells."""
+    lines = draw_office(3, rows=3)
+    book = xlsxwriter.Workbook(str(path))
+    if by_hand:
+        book.set_calc_mode("manual")
+    for plan in SHEETS:
+        sheet = book.add_worksheet(plan.name)
+        fields = [field for field in plan.fields if field.is_offered]
+        for column, field in enumerate(fields):
+            sheet.write_string(0, column, field.heading_for("en"))
+            for row, line in enumerate(lines.get(plan.name, ()), start=1):
+                if field.key in line:
+                    sheet.write(row, column, line[field.key])
+        for place, (formula, value) in formulas.items():
+            if place.startswith(f"{plan.name}!"):
+                sheet.write_formula(place.partition("!")[2], formula, None, value)
+        if struck_part.startswith(f"{plan.name}!"):
+            struck = book.add_format({"font_strikeout": True})
+            bold = book.add_format({"bold": True})
+            place = struck_part.partition("!")[2]
+            sheet.write_rich_string(place, struck, "sh", bold, "ort")
+    book.close()
+    return path
+
+
+def draw_formula(draw):
+    """A formula of a snow thickness, and its result from Nets!B2 and Nets!I2."""
+    line = draw_office(3, rows=3)["Nets"][0]
+    slope, height = line["slope_angle"], line["net_height"]
+    a, b = round(draw.uniform(1.5, 3.0), 2), round(draw.uniform(0.8, 0.95), 3)
+    cosine = math.cos(math.radians(slope))
+    return draw.choice(
+        [
+            (f"={a}*{b}", a * b),
+            (f"={a}+0.1*2^2-10%", a + 0.3),
+            (f"=I2*{b}", height * b),
+            ("=ROUND(I2*COS(RADIANS(B2)),2)", round(height * cosine, 2)),
+            (
+                f"=3.4*COS(Nets!$B$2*PI()/180)-(0.1-{a / 100})",
+                3.4 * cosine - (0.1 - a / 100),
+            ),
+            (f"=MIN(I2,SUM(I2:I3,{a}))", height),
+            (f"=AVERAGE({a},{b})+1", (a + b) / 2 + 1),
+        ]
+    )
+
+
+@each("seed", range(20))
+def test_a_stored_result_that_its_formula_does_not_give_is_asked_about(path, seed):
+    draw = random.Random(seed)
+    formula, value = draw_formula(draw)
+    site = read_site(write_formulas(path, {"Nets!C2": (formula, value)}))
+    assert not [one for one in map(str, site.questions) if "calculated anew" in one]
+    old = value * draw.choice((0.9, 1.001, 1.1))
+    site = read_site(write_formulas(path, {"Nets!C2": (formula, old)}))
+    (told,) = [one for one in map(str, site.questions) if "calculated anew" in one]
+    assert "Nets › C2" in told
+    assert site.rows[0].questions
+    assert not site.rows[1].questions
+
+
+def test_a_workbook_calculated_by_hand_is_asked_about_where_nothing_tells(path):
+    """What can be worked out is, whoever calculates; a what-if makes results old."""
+    odd = {"Nets!C2": ("=VLOOKUP(A2,A2:I9,9)*0.9", 2.4)}
+    assert not read_site(write_formulas(path, odd)).questions
+    (question,) = read_site(write_formulas(path, odd, by_hand=True)).questions
+    assert "calculated by hand" in str(question)
+    plain = {
+        "Nets!C2": ("=I2*0.8", draw_office(3, rows=3)["Nets"][0]["net_height"] * 0.8)
+    }
+    assert not read_site(write_formulas(path, plain, by_hand=True)).questions
+    changed = read_site(path, instead={"Nets!I2": "3.6"})
+    assert "calculated anew" in " ".join(map(str, changed.questions))
+
+
+@each(
+    "formula, value",
+    [
+        *(("=2+3*4", 14.0), ("=(2+3)*4", 20.0), ("=2^3^1", 8.0), ("=-2+5", 3.0)),
+        *(("=B2/4", 0.5), ("='My sheet'!$B$2+1", 3.0), ("=SUM(A1:A3)", 6.0)),
+        *(("=ROUND(2.345,2)", 2.35), ("=ROUND(-2.5,0)", -3.0), ("=50%", 0.5)),
+        *(("=-2^2", None), ("=A1&B1", None), ('=IF(A1="x",1,2)', None), ("=1/0", None)),
+        *(
+            ("=NOW()", None),
+            ("=SUM(A1:B3)", None),
+            ("=A9", None),
+            ("=__import__", None),
+        ),
+        *(("=9^9^9", None), ("=SUM(A1:A999999)", None), ("=" + "1+" * 200 + "1", None)),
+    ],
+)
+def test_plain_arithmetic_is_worked_out_and_nothing_else(formula, value):
+    cells = {"A1": 1.0, "A2": 2, "A3": 3.0, "B2": 2.0}
+    found = compute_formula(formula, lambda _, place: cells.get(place))
+    assert found == (value if value is None else pytest.approx(value))
