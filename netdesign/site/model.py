@@ -59,8 +59,7 @@ class Resistance(GivenResistance):
     flattest_test: float | None = None  # dip of the flattest bore that was tested [rad]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
-    # told where what is assumed for it decides: between value and best, without a best
-    # in any case
+    # told where what is assumed decides: between value and best, or without a best
     doubt: Message | None = None
     bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]

@@ -24,7 +24,7 @@ from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
-from netdesign.site.type_lines import find_depth, read_bond
+from netdesign.site.type_lines import find_depth, find_sleeve, read_bond
 from netdesign.site.type_resistances import (
     SECTION,
     SOIL_COLUMNS,
@@ -306,20 +306,15 @@ def _describe_type(
     basis = kind["basis"].word if is_pulled else "declared"
     basis = "computed" if is_derived else basis
     is_strut = is_derived and mode == "compression"
-    value = resistance.si if is_given and not tests else None
-    derivation = resistance.derivation if is_given else None
-    if mode == "rope" and is_given and not is_derived:
-        value, derivation = reduce_breaking(kind)
+    value, derivation = _find_strength(kind, mode)
+    if tests:
+        value = None
     is_rope = mode == "tendon" and may_be_rope(kind)
-    if is_rope and is_given:
-        value, derivation = reduce_loop(kind)
     place = (resistance if is_given or not tests else kind["test_least"]).place
-    if tests and is_given:
-        derivation = say("derivation.one_test", force=resistance.number)
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     if is_pulled and basis == "computed" and is_given and not tests:
-        key = _find_sleeve(kind["sleeve"].word)
+        key = find_sleeve(kind["sleeve"].word)
         value, derivation = (None, None) if key else (value, derivation)
     return Resistance(
         member=member,
@@ -340,6 +335,20 @@ def _describe_type(
         bond=read_bond(kind) if is_pulled and is_derived else None,
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
     )
+
+
+def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
+    """Characteristic resistance of a type in one mode [N], and how it follows."""
+    given = kind[mode]
+    if given.state != "given":
+        return None, None
+    if mode == "rope" and given.derivation is None:
+        return reduce_breaking(kind)
+    if mode == "tendon" and may_be_rope(kind):
+        return reduce_loop(kind)
+    if given.derivation or mode != "pull_out" or kind["basis"].word != "tested":
+        return given.si, given.derivation
+    return given.si, say("derivation.one_test", force=given.number)
 
 
 def _read_wear(kind: Row, mode: str) -> Wear | None:
@@ -364,14 +373,6 @@ def _find_lacking(kind: Row, mode: str) -> str:
     if mode == "tendon" and lacks_inner(kind):
         return "type.no_inner"
     return "type.no_ground" if mode == "pull_out" and lacks_ground(kind) else ""
-
-
-def _find_sleeve(word: str) -> str:
-    """Text of why a computed pull-out resistance does not count; empty where it does.
-
-    Fabric sleeves scatter widely: only tests of the type on the site tell its bond.
-    """
-    return {"no": "", "yes": "type.sleeve_untested"}.get(word, "type.sleeve_unsaid")
 
 
 def _bend_anchor(

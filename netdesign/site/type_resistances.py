@@ -78,7 +78,8 @@ def find_tests(row: Row) -> PullOutTests | None:
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
     one = row["pull_out"]
-    if one.state == "given" and row["basis"].word == "tested":
+    is_typed = one.state == "given" and one.derivation is None
+    if is_typed and row["basis"].word == "tested":
         return PullOutTests(count=1, least=one.si, mean=one.si)
     if any(reading.state != "given" for reading in (count, least, mean)):
         return None
