@@ -97,7 +97,6 @@ def write_reports(
     *,
     language: Language = "en",
     kinds: Sequence[str] = ("html", "xlsx"),
-    rows_map: str | Path | None = None,
     overwrite: bool = False,
 ) -> list[Path]:
     """Write ``study.json`` and the reports of a study into a folder.
@@ -112,8 +111,6 @@ def write_reports(
         ``en``, ``fr`` or ``de``.
     kinds : sequence of str
         Of ``html``, ``xlsx``, ``docx``, ``pdf`` and ``csv``.
-    rows_map : str or Path, optional
-        ``rows.geojson`` of ``netdesign terrain``, for a map of the rows.
     overwrite : bool
         Whether files of others may be replaced; its own are.
 
@@ -126,8 +123,6 @@ def write_reports(
     ------
     OutputError
         If a file is in the way.
-    NetDesignError
-        If the map is not of its rows.
 
     Verified by
     -----------
@@ -143,13 +138,7 @@ def write_reports(
     files = [STUDY_FILE, *(names.get(kind, f"report.{kind}") for kind in kinds)]
     paths = [Path(folder) / name for name in files]
     require_free(paths, overwrite=overwrite, may_force=False)
-    places = None
-    if rows_map is not None:
-        from netdesign.files.rows_map import read_rows_map, require_named
-
-        places = read_rows_map(Path(rows_map))
-        require_named(places, [row.id for row in study.rows])
-    style = ReportStyle(language=language, places=places)
+    style = ReportStyle(language=language)
     contents = render_files([study], [paths], style)
     write_files(contents, overwrite=overwrite, is_recorded=True)
     return paths

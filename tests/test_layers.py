@@ -90,7 +90,7 @@ THIRD_PARTY = {
             "addons.terrain.*",
         ),
         "addons.evidence.*",
-        *("study.record_envelope", "study.record_support"),
+        "study.record_support",
         "commands.doctor",
     ),
     "scipy": (

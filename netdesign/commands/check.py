@@ -48,7 +48,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
     netdesign check site.xlsx --row R1 --row R3 --out some
     netdesign check site.xlsx --size --out sized
     netdesign check site.xlsx --what-if Nets.P8=A40 --out what-if
-    netdesign check site.xlsx --rows-map rows.geojson --out mapped
     netdesign check site.xlsx --json > study.json
 
     The site is an xlsx, xlsm or csv file, or a folder of csv files. Defaults
@@ -79,10 +78,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
         for question in site.questions:
             tell(say("cli.question", text=question), err=True)
     outputs = plan_outputs(folder, [profile.id for profile in profiles], asked)
-    if outputs.style.places is not None:
-        from netdesign.files.rows_map import require_rows
-
-        require_rows(outputs.style.places, site)
 
     def read_again(instead: Mapping[str, str]) -> Site:
         """Site with other texts in some cells."""

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
-    refuse_without,
     take_options,
 )
 from netdesign.commands.running import find_exit_code, print_document, report_places
@@ -22,7 +21,6 @@ from netdesign.words.catalogue import Language
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from netdesign.files.rows_map import RowsMap
     from netdesign.report.difference import Change
     from netdesign.report.files import ReportStyle
     from netdesign.study.records import Study
@@ -71,32 +69,24 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
 
 
 def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
-    """Style of the reports; reads template and map, before anything is solved.
+    """Style of the reports; reads the template before anything is solved.
 
     Raises
     ------
     NetDesignError
-        If the template is no document, or the map not one of ours.
+        If it is no document.
     """
     from netdesign.report.files import ReportStyle
 
-    if not any(asked[one] for one in ("html", "pdf", "docx", "template")):
-        refuse_without(("rows_map",), "--html", "--pdf", "--docx")
     content: bytes | None = None
     if asked["template"]:
         from netdesign.report.document.template import read_template
 
         content = read_template(asked["template"])
-    places: RowsMap | None = None
-    if asked["rows_map"]:
-        from netdesign.files.rows_map import read_rows_map
-
-        places = read_rows_map(asked["rows_map"])
     return ReportStyle(
         language=asked["language"],
         detail=asked["detail"],
         template=content,
-        places=places,
     )
 
 
@@ -114,7 +104,6 @@ def report(study_file: Path, **asked: Any) -> None:
     netdesign report netdesign-out/study.json --verify --out verified
     netdesign report netdesign-out/study.json --language fr --out rapport
     netdesign report netdesign-out/study.json --detail summary --no-excel --force
-    netdesign report netdesign-out/study.json --rows-map rows.geojson --out mapped
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import name_files, render_files
@@ -126,10 +115,6 @@ def report(study_file: Path, **asked: Any) -> None:
     )
     names = name_files(asked["out"], [study.profile.id], wanted)
     style = choose_style(asked)
-    if style.places is not None:
-        from netdesign.files.rows_map import require_named
-
-        require_named(style.places, [row.id for row in study.rows])
     require_free(names[0], overwrite=asked["force"])
     is_verified = _look_at((study,), (study_file,), asked)
     style = replace(style, is_verified=is_verified)

@@ -28,7 +28,6 @@ from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
-from netdesign.study.case_records import DrawnForce
 from netdesign.study.record_envelope import (
     record_envelope,
     record_largest,
@@ -64,13 +63,17 @@ def write_envelope_document(
     language : str
         Of the reason.
     """
-    record = record_envelope(envelope, tuple(QUANTITY_KEYS))
+    record, extremes = record_envelope(envelope), envelope.extremes
     return {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
         "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
-        "extremes": [_write_bound(envelope, one, language) for one in record.drawn],
+        "extremes": [
+            _write_bound(envelope, extremes[one], language)
+            for one in QUANTITY_KEYS
+            if one in extremes
+        ],
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
@@ -153,9 +156,8 @@ def write_grid_document(
 
 
 def _write_bound(
-    envelope: RowEnvelope, drawn: DrawnForce, language: Language
+    envelope: RowEnvelope, extreme: Extreme, language: Language
 ) -> dict[str, Any]:
-    extreme = envelope.extremes[drawn.quantity]
     force = record_largest(extreme, envelope, tuple(QUANTITY_KEYS))
     confirmation, bound = None, force.bound_kN
     if force.confirmed is not None:

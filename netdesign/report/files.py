@@ -16,7 +16,6 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from netdesign.files.rows_map import RowsMap
     from netdesign.report.sections.whole import Detail
     from netdesign.study.records import Study
 
@@ -32,7 +31,6 @@ class ReportStyle:
     language: Language = "en"
     detail: Detail = "full"
     template: bytes | None = None  # docx that report.docx is written into
-    places: RowsMap | None = None  # of the map of the rows
     is_verified: bool = False  # a stored study was solved again in this run
 
 
@@ -101,7 +99,7 @@ def _render_page(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.page.html import render_html
 
     page = render_html(
-        *(study, style.language, style.detail, style.places),
+        *(study, style.language, style.detail),
         is_verified=style.is_verified,
     )
     return page.encode()
@@ -138,7 +136,7 @@ def _render_docx(study: Study, style: ReportStyle) -> bytes:
 
     require_docx()
     return render_document(
-        *(study, style.language, style.detail, style.template, style.places),
+        *(study, style.language, style.detail, style.template),
         is_verified=style.is_verified,
     )
 

@@ -286,14 +286,3 @@ def _correlate(distances: Floats) -> Floats:
     scaled = np.sqrt(5.0) * distances / CORRELATION
     result: Floats = (1.0 + scaled + scaled**2 / 3.0) * np.exp(-scaled)
     return result
-
-
-def follow_axis(
-    model: Surrogate, through: Point, axis: int, quantity: int, count: int
-) -> tuple[Floats, Floats, Floats]:
-    """Shares of a parameter, forces and their standard errors along it."""
-    shares = np.linspace(0.0, 1.0, count)
-    line = np.tile(np.array(through), (count, 1))
-    line[:, axis] = shares
-    found = model.predict(line, (quantity,))
-    return shares, found.mean[:, 0], found.standard_error[:, 0]

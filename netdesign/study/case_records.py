@@ -20,26 +20,6 @@ class AxisRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LineRecord:
-    """Force along one quantity through the governing case."""
-
-    key: str
-    values: Items[float]
-    force_kN: Items[float]
-    bound_kN: Items[float]
-
-
-@dataclass(frozen=True, kw_only=True)
-class MapRecord:
-    """Force over density and friction at one inclination; rows are frictions."""
-
-    inclination_deg: float
-    density_kg_m3: Items[float]
-    friction_deg: Items[float]
-    force_kN: Items[Items[float]]
-
-
-@dataclass(frozen=True, kw_only=True)
 class ConfirmationRecord:
     """The governing case solved again by another fidelity."""
 
@@ -70,15 +50,6 @@ class LargestForce:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DrawnForce:
-    """What a drawing shows of one force over the ranges."""
-
-    quantity: str
-    lines: Items[LineRecord]
-    maps: Items[MapRecord]
-
-
-@dataclass(frozen=True, kw_only=True)
 class EnvelopeRecord:
     """Search for the largest forces of a net row, and what may hide."""
 
@@ -91,7 +62,6 @@ class EnvelopeRecord:
     skipped: int  # known without a solve, since the snow stuck with less friction
     skips_tested: int
     failed: int
-    drawn: Items[DrawnForce]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,10 +14,10 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
-from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
+from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects
-from netdesign.study.governing import find_shown_member, find_worst
+from netdesign.study.governing import find_worst
 from netdesign.study.member_force import RowForces
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
@@ -149,7 +149,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     independent = record_independent(governing, head)
     panel = record_panel(row, solved.results, extremes, governing)
     notes = list_judged_notes(known, checks, cases, panel)
-    drawn = _choose_drawn(solved, checks)
     return RowStudy(
         id=row.id,
         checks=checks,
@@ -172,7 +171,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         notes=notes,
         held_sideways=known.along_row,
         tilt=known.tilt,
-        envelope=record_envelope(solved, REPORTED_MEMBERS, drawn),
+        envelope=record_envelope(solved),
         reliability=_find_reliability(task, known, found, run),
     )
 
@@ -203,18 +202,6 @@ def _check_row(
     if task.count_faults() > before:
         found = replace(found, checks=[distrust(one) for one in found.checks])
     return found, form
-
-
-def _choose_drawn(solved: RowEnvelope, checks: Sequence[Check]) -> str:
-    """Member of the check that is shown; one with a force where that has none."""
-    extremes = solved.extremes
-    loaded = [
-        member
-        for member in REPORTED_MEMBERS
-        if member in extremes and extremes[member].force.high > 0.0
-    ]
-    shown = find_shown_member(checks)
-    return shown if shown in loaded or not loaded else loaded[0]
 
 
 def _name_largest(check: Check) -> str:

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.checks.check import CasePoint
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.ranges import PARAMETERS, Case, Ranges
+from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.search.maxima import RESOLVED_SHARE
-from netdesign.search.surrogate import follow_axis
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
@@ -22,11 +17,8 @@ from netdesign.study.case_records import (
     AxisRecord,
     CaseRecord,
     ConfirmationRecord,
-    DrawnForce,
     EnvelopeRecord,
     LargestForce,
-    LineRecord,
-    MapRecord,
 )
 from netdesign.study.row_to_check import is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -112,28 +104,9 @@ def show_coincident(extreme: Extreme, members: Sequence[str]) -> dict[str, float
     }
 
 
-_LINE_POINTS = 25
-_MAP_POINTS = 9
-_MAPS = 3
-_DRAWN_DECIMALS = 4  # of kN
-
-
-def record_envelope(
-    envelope: RowEnvelope, members: Sequence[str], drawn: str | None = None
-) -> EnvelopeRecord:
-    """Record of an envelope.
-
-    Parameters
-    ----------
-    envelope : RowEnvelope
-        End of a search.
-    members : sequence of str
-        Those that are reported.
-    drawn : str, optional
-        The one that is drawn; by default all are.
-    """
-    maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
-    shown = [one for one in members if one in extremes and drawn in (None, one)]
+def record_envelope(envelope: RowEnvelope) -> EnvelopeRecord:
+    """Record of the end of a search."""
+    maxima, task = envelope.maxima, envelope.task
     return EnvelopeRecord(
         axes=[
             AxisRecord(
@@ -151,82 +124,7 @@ def record_envelope(
         skipped=envelope.skipped,
         skips_tested=envelope.skips_tested,
         failed=sum(not result.is_converged for result in envelope.results),
-        drawn=[_record_drawn(envelope, member) for member in shown],
     )
-
-
-def _record_drawn(envelope: RowEnvelope, member: str) -> DrawnForce:
-    place = envelope.members.index(member)
-    return DrawnForce(
-        quantity=member,
-        lines=_record_lines(envelope, place),
-        maps=_record_maps(envelope, place),
-    )
-
-
-def _show_place(ranges: Ranges, name: str, share: float) -> float:
-    """Value of a parameter at a share of its range, in the unit of its key."""
-    return PARAMETERS[name].show(ranges.find_value(name, share))
-
-
-def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
-    maxima, ranges = envelope.maxima, envelope.task.ranges
-    if maxima.surrogate is None:
-        return []
-    through = maxima.points[maxima.governing[place]]
-    found = []
-    for axis, name in enumerate(ranges.axes):
-        shares, force, standard_error = follow_axis(
-            maxima.surrogate, through, axis, place, _LINE_POINTS
-        )
-        bound = force + envelope.task.search.certainty * standard_error
-        found.append(
-            LineRecord(
-                key=PARAMETERS[name].key,
-                values=[_show_place(ranges, name, s) for s in shares],
-                force_kN=_show_drawn(force),
-                bound_kN=_show_drawn(bound),
-            )
-        )
-    return found
-
-
-def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
-    """Maps over density and friction; none where one of the two does not range."""
-    maxima, ranges = envelope.maxima, envelope.task.ranges
-    axes = ranges.axes
-    if maxima.surrogate is None or not {"density", "friction_angle"} <= set(axes):
-        return []
-    governing = maxima.points[maxima.governing[place]]
-    tilted = axes.index("inclination") if "inclination" in axes else None
-    levels = [k / (_MAPS - 1) for k in range(_MAPS)] if tilted is not None else [None]
-    density, friction = axes.index("density"), axes.index("friction_angle")
-    shares = [k / (_MAP_POINTS - 1) for k in range(_MAP_POINTS)]
-    found = []
-    for level in levels:
-        through = list(governing)
-        if tilted is not None and level is not None:
-            through[tilted] = level
-        at = np.tile(through, (_MAP_POINTS**2, 1))
-        at[:, friction] = np.repeat(shares, _MAP_POINTS)
-        at[:, density] = np.tile(shares, _MAP_POINTS)
-        (force,) = maxima.surrogate.evaluate(at, place)
-        values = ranges.place(through)
-        inclination = values.get("inclination", envelope.results[0].case.inclination)
-        found.append(
-            MapRecord(
-                inclination_deg=PARAMETERS["inclination"].show(inclination),
-                density_kg_m3=[_show_place(ranges, "density", s) for s in shares],
-                friction_deg=[_show_place(ranges, "friction_angle", s) for s in shares],
-                force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),
-            )
-        )
-    return found
-
-
-def _show_drawn(force: NDArray[np.float64]) -> Any:
-    """Modelled forces in kN, as lists, to what a drawing shows."""
-    return (kilonewton_from_newton(1.0) * force).round(_DRAWN_DECIMALS).tolist()
 
 
 def _record_confirmation(

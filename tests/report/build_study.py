@@ -201,7 +201,6 @@ def build_envelope(cases: int) -> EnvelopeRecord:
         skipped=0,
         skips_tested=0,
         failed=0,
-        drawn=[],
     )
 
 

@@ -3,7 +3,7 @@
 from netdesign.report.blocks import Figure, Heading, Items, Paragraph, Part
 from netdesign.report.sections.basis import anchor_rows
 
-ROW = ("drawing", "checks", "worked", "envelope", "changes")
+ROW = ("drawing", "checks", "worked", "changes")
 ANNEXES = ("checks", "model", "profile", "quality", "verify")
 
 

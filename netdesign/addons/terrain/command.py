@@ -79,13 +79,13 @@ def _map_study(
     study_file: Path, places_file: Path | None, asked: Mapping[str, Any]
 ) -> None:
     """Verdicts and anchors of a stored study on the map."""
+    from netdesign.addons.terrain.places import read_places
     from netdesign.addons.terrain.verdict_map import (
         FORMATS,
         map_verdicts,
         write_verdicts,
     )
     from netdesign.commands.stored_study import require_inputs
-    from netdesign.files.rows_map import read_places
     from netdesign.study.document import load_study
 
     out, language = asked["out"], speak()

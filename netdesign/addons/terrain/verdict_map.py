@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from netdesign.addons.terrain.places import Feature, MeasuredPlace
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
 from netdesign.checks.schema import ACCEPTANCE_TEST
-from netdesign.files.rows_map import Feature, MeasuredPlace
 from netdesign.outcome import StudyError, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.layout import SupportPoints

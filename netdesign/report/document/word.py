@@ -50,8 +50,6 @@ from netdesign.words.catalogue import Language
 if TYPE_CHECKING:
     from docx.document import Document
 
-    from netdesign.files.rows_map import RowsMap
-
 
 _EMU = 12700  # of a point
 _DRAWING = "http://schemas.openxmlformats.org/drawingml/2006"
@@ -354,7 +352,6 @@ def render_document(
     language: Language = "en",
     detail: Detail = "full",
     template: bytes | None = None,
-    places: RowsMap | None = None,
     *,
     is_verified: bool = False,
 ) -> bytes:
@@ -370,8 +367,6 @@ def render_document(
         ``summary`` leaves out the pages of net rows and the annexes.
     template : bytes, optional
         Docx whose styles, page, header and footer are kept.
-    places : RowsMap, optional
-        Net rows in plan, for a map of them.
     is_verified : bool
         The stored study was solved again in this run.
     """
@@ -381,7 +376,7 @@ def render_document(
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
     _write_footer(to, properties["subject"])
-    blocks = build_report(study, words, detail, places, is_verified=is_verified)
+    blocks = build_report(study, words, detail, is_verified=is_verified)
     to.write(blocks)
     set_properties(document, **properties)
     return pack(document)

@@ -208,7 +208,7 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
 _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = (
     *("reading.checks", "caption.chains", "caption.arrows", "reading.pressure"),
-    *("caption.maps", "panel_view.caption", "reading.search"),
+    *("panel_view.caption", "reading.search"),
     "reading.directions",
 )
 # Left empty, its factor is taken by the guideline's load.

@@ -33,7 +33,6 @@ from netdesign.report.drawing.charts import (
     describe_monitoring,
     draw_monitoring,
 )
-from netdesign.report.drawing.envelope_maps import draw_envelope
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.sections.basis import is_of_row, show_value
@@ -202,15 +201,7 @@ class RowSections:
                 self._section(
                     "worked", t("heading.worked_check"), *self._show_worked()
                 ),
-                Part(
-                    id=f"{self.anchor}-beside",
-                    blocks=(
-                        self._section(
-                            "envelope", t("heading.envelope"), self._show_envelope()
-                        ),
-                        *self._show_further(),
-                    ),
-                ),
+                *self._show_further(),
                 self._section("changes", heading, *changes),
                 *self._show_notes(),
                 Paragraph(text=name, look="running", on="page"),
@@ -352,10 +343,6 @@ class RowSections:
         loads = describe_loads(check, t)
         if loads:
             yield Paragraph(text=loads, look="small")
-
-    def _show_envelope(self) -> Block:
-        svg = draw_envelope(self.row, self.words)
-        return Figure(svg=svg) if svg else self._none("heading.no_case_converged")
 
     def _show_further(self) -> Iterator[Part]:
         """Panel and measurements, of a row that has them."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from netdesign.report.blocks import Block, Content, Contents, Piece, link, section
 from netdesign.report.sections import (
@@ -22,9 +22,6 @@ from netdesign.report.what_if import mark_title
 from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
-if TYPE_CHECKING:  # it brings numpy, which a report without a map does without
-    from netdesign.files.rows_map import RowsMap
-
 Detail = Literal["summary", "full"]  # two pages for the client, and everything
 _ANNEXES = (
     *("annex-checks", "annex-model", "annex-profile", "annex-quality"),
@@ -36,7 +33,6 @@ def build_report(
     study: Study,
     words: Words,
     detail: Detail,
-    places: RowsMap | None = None,
     *,
     is_verified: bool = False,
 ) -> tuple[Block, ...]:
@@ -50,8 +46,6 @@ def build_report(
         Of the language.
     detail : str
         ``summary`` has two pages for the client: decision, quantities, scope.
-    places : RowsMap, optional
-        Net rows in plan, for a map of them.
     is_verified : bool
         The stored study was solved again in this run.
     """
@@ -60,18 +54,16 @@ def build_report(
         decision.show_decision(study, words, has_rows=detail == "full"),
     )
     answered = filter(None, [guideline.show_difference(study, words)])
-    mapped = _map_rows(study, words, detail, places)
     if detail == "summary":
         listed = basis.list_scope(study, words)
         scope = section("scope", words("heading.scope"), *listed)
         ordered = schedule.show_quantities(study, words)
-        return *begun, *answered, *mapped, ordered, scope
+        return *begun, *answered, ordered, scope
     return (
         *begun,
-        _list_contents(study, words, has_map=places is not None),
+        _list_contents(study, words),
         *answered,
         basis.show_basis(study, words),
-        *mapped,
         schedule.show_schedule(study, words),
         *_list_rows(study, words),
         basis.show_inputs(study, words),
@@ -93,20 +85,9 @@ def _list_rows(study: Study, words: Words) -> Iterator[Block]:
         yield RowSections(rows[anchor], ids, anchor, words, told).build()
 
 
-def _map_rows(
-    study: Study, words: Words, detail: Detail, places: RowsMap | None
-) -> Iterator[Block]:
-    """Map of the rows, where there is one."""
-    if places is not None:
-        from netdesign.report.sections.rows_map import show_rows_map
-
-        yield show_rows_map(study, places, words, has_rows=detail == "full")
-
-
-def _list_contents(study: Study, words: Words, *, has_map: bool) -> Contents:
+def _list_contents(study: Study, words: Words) -> Contents:
     """Links to all parts, and to the rows."""
-    parts = ("basis", *(("map",) if has_map else ()), "schedule")
-    named = {name: words(f"heading.{name}") for name in parts}
+    named = {name: words(f"heading.{name}") for name in ("basis", "schedule")}
     named["inputs"] = words("heading.inputs_of_rows")
     further = [one.annex for one in list_additions(study)]
     for name in (*_ANNEXES, *further):

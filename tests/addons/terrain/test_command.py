@@ -210,22 +210,3 @@ def test_ends_of_the_rows_come_with_the_types(slope, tmp_path, call):
     assert found == {"B", "all"}
     told = [one for one in ended.err.splitlines() if "sheet Ends" in one]
     assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R7 " + LEFT_OUT]
-
-
-def test_a_map_without_a_row_of_the_site_is_refused_before_anything_is_solved(
-    slope, tmp_path, call
-):
-    out = tmp_path / "site.xlsx"
-    call(
-        *("terrain", slope / "slope.asc", slope / "rows.json", "--out", out),
-        *("--types", slope / "types.xlsx"),
-    )
-    rows = json.loads((tmp_path / "rows.geojson").read_text())
-    rows["features"] = [
-        one for one in rows["features"] if one["properties"].get("id") != "B"
-    ]
-    (tmp_path / "rows.geojson").write_text(json.dumps(rows))
-    ended = call("check", out, "--rows-map", tmp_path / "rows.geojson")
-    assert ended.code == 3
-    assert "lacks net rows of the site: B" in ended.err
-    assert not (tmp_path / "netdesign-out").exists()

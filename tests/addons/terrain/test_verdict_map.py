@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 import ezdxf
 import pytest
 
+from netdesign.addons.terrain.places import MeasuredPlace
 from netdesign.addons.terrain.verdict_map import turn_to_map
-from netdesign.files.rows_map import MeasuredPlace
 from netdesign.structure.row_position import Bore
 
 SLOPE = math.radians(37.0)

@@ -12,20 +12,8 @@ from netdesign.checks.check import CasePoint
 from netdesign.outcome import Verdict
 from netdesign.report.drawing.chain_figure import draw_chains
 from netdesign.report.drawing.charts import draw_monitoring
-from netdesign.report.drawing.envelope_maps import (
-    EnvelopeView,
-    draw_lines,
-    draw_maps,
-    view_envelope,
-)
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.study.case_records import (
-    DrawnForce,
-    LargestForce,
-    LineRecord,
-    MapRecord,
-)
 from netdesign.study.records import MonitoringRecord, RowStudy
 from netdesign.study.support_records import (
     Arrow,
@@ -52,21 +40,13 @@ AXES = {
 
 def draw_all(rng: random.Random, words) -> list[str]:
     """Every kind of drawing once, of values drawn with ``rng``."""
-    bounds = [build_view(rng)]
     return [
         draw_section(build_section(rng), "s", words),
-        *(draw(one, words) for draw in (draw_maps, draw_lines) for one in bounds),
         draw_panel(build_panel(rng), words),
         draw_chains(build_chains(rng), words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
         draw_monitoring([build_monitoring(rng)], words),
     ]
-
-
-def draw_grid(rng: random.Random, words) -> list[str]:
-    """The grid of cases."""
-    row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
-    return [draw_maps(one, words) for one in view_envelope(row)]
 
 
 MODES = {
@@ -155,45 +135,6 @@ def _pull(rng, name, at, head):
         force_x_kN=sign * size * across / length,
         force_y_kN=sign * size * up / length,
     )
-
-
-def build_view(rng: random.Random) -> EnvelopeView:
-    """One member over three to eight quantities."""
-    keys = list(AXES)[: rng.randint(3, 8)]
-    return _build_bound(rng, keys, 10 ** rng.uniform(-0.5, 3.3))
-
-
-def _build_bound(rng, keys, size):
-    densities, frictions = (np.linspace(*AXES[key], 9).tolist() for key in keys[:2])
-    line = [size * (0.5 + 0.05 * k) for k in range(9)]
-    angles = np.linspace(*AXES["inclination_deg"], rng.randint(1, 3)).tolist()
-    force = LargestForce(
-        quantity=rng.choice(["foot_anchor", "downhill_guy", "uphill_guy"]),
-        low_kN=size,
-        value_kN=size,
-        high_kN=1.013 * size,
-        bound_kN=1.013 * size,
-        case=CasePoint(**{key: rng.choice(AXES[key]) for key in keys}),
-        beside_kN={},
-    )
-    drawn = DrawnForce(
-        quantity=force.quantity,
-        lines=[
-            LineRecord(
-                key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=line,
-                bound_kN=[1.01 * one for one in line],
-            )
-            for key in keys
-        ],
-        maps=[
-            MapRecord(
-                inclination_deg=angle, density_kg_m3=densities, friction_deg=frictions,
-                force_kN=[line] * 9,
-            )
-            for angle in angles
-        ],
-    )  # fmt: skip
-    return EnvelopeView(force=force, drawn=drawn)
 
 
 def build_panel(rng: random.Random) -> PanelRecord:

@@ -1,0 +1,60 @@
+"""Rows in plan as they are read, and files that are refused."""
+
+import json
+
+import pytest
+
+from netdesign.addons.terrain.places import read_places
+from netdesign.outcome import TerrainError
+
+ZONE = [[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]
+
+
+def row(name, posts=4, **special):
+    properties = {
+        "kind": "net row",
+        "id": name,
+        "aspect_deg": 181.3,
+        "slope_mean_deg": 38.2,
+        "grid": "slope.asc",
+        "grid_sha256": "cd" * 32,
+        **special,
+    }
+    points = [[10.0 + 3.5 * k, 20.0, 1700.0] for k in range(posts)]
+    geometry = {"type": "LineString", "coordinates": points}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def zone(ring):
+    geometry = {"type": "Polygon", "coordinates": [ring]}
+    properties = {"kind": "starting zone"}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def write(folder, *features):
+    path = folder / "rows.geojson"
+    document = {"type": "FeatureCollection", "features": list(features)}
+    path.write_text(json.dumps(document))
+    return path
+
+
+def test_rows_are_read_with_their_posts(tmp_path):
+    found, _ = read_places(write(tmp_path, row("A"), row("7", posts=9), zone(ZONE)))
+    assert [(name, len(one.posts)) for name, one in found.items()] == [
+        ("A", 4),
+        ("7", 9),
+    ]
+
+
+@pytest.mark.parametrize(
+    "features",
+    [
+        (),
+        (zone(ZONE),),
+        (row("A", aspect_deg="steep"),),
+        (row("A"), {"type": "Feature", "properties": None, "geometry": None}),
+    ],
+)
+def test_what_is_no_map_of_ours_is_refused(tmp_path, features):
+    with pytest.raises(TerrainError, match=r"rows\.geojson"):
+        read_places(write(tmp_path, *features))
