@@ -216,6 +216,31 @@ def show_text(text: str) -> str:
     return _BLANKS.sub(" ", make_printable(text)).strip() or MISSING
 
 
+# First words of ids that say already what they name.
+_ROW_NOUNS = frozenset(
+    ("row", "net", "ligne", "rang", "rangée", "filet", "reihe", "werkreihe", "netz")
+)
+
+
+def name_row(ids: str, words: Words, count: int = 1) -> str:
+    """``Net row R1``, and ``Row 1`` where an office calls its rows so.
+
+    Parameters
+    ----------
+    ids : str
+        Id, or several with commas.
+    words : Words
+        Of the report.
+    count : int
+        Number of ids.
+    """
+    first = ids.split()[0].strip(".:").casefold() if ids.split() else ""
+    if first in _ROW_NOUNS:
+        return ids
+    key = "net_row" if count == 1 else "net_rows"
+    return f"{words(f'heading.{key}')} {ids}"
+
+
 def _round_figures(value: float) -> str:
     """Computed number as an engineer writes it: five figures, no zeros behind them."""
     if abs(value) < 1e-4:

@@ -128,3 +128,17 @@ def test_the_source_of_a_creep_law_is_told_in_the_language(law):
     assert all(text.startswith(f"{law.name} (") for text in told)
     own = name_law(replace(law, source="our own tests"))
     assert words.show_own(words.Words("de"), own) == f"{law.name} (our own tests)"
+
+
+@pytest.mark.parametrize(
+    ("ids", "count", "name"),
+    [
+        ("R1", 1, "Net row R1"),
+        ("Row 1", 1, "Row 1"),
+        ("row 1, row 2", 2, "row 1, row 2"),
+        ("Werkreihe 3", 1, "Werkreihe 3"),
+        ("Rowan 2, R5", 2, "Net rows Rowan 2, R5"),
+    ],
+)
+def test_a_row_is_not_called_a_row_twice(ids, count, name):
+    assert words.name_row(ids, words.Words("en"), count) == name

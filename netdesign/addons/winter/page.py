@@ -29,7 +29,14 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.page.render import render_page
-from netdesign.report.words import ENGLISH, MISSING, Words, show_member, show_text
+from netdesign.report.words import (
+    ENGLISH,
+    MISSING,
+    Words,
+    name_row,
+    show_member,
+    show_text,
+)
 
 PAGE_FILE, DOCUMENT_FILE = "winter.html", "winter.json"
 
@@ -59,7 +66,7 @@ def render_winter(document: Mapping[str, Any]) -> dict[str, bytes]:
         *(
             section(
                 f"row-{place}",
-                words("winter_page.row", row=show_text(row["id"])),
+                name_row(show_text(row["id"]), words),
                 *_show_row(row, document, words),
             )
             for place, row in enumerate(document["rows"], 1)

@@ -31,6 +31,7 @@ from netdesign.study.support_records import PanelDrawing, PanelRecord
 
 SPAN, LEFT = 56.0, 42.0  # of a panel on paper, room at its left [pt]
 LONGEST = 22.0  # arrow [pt]
+_SHORTEST = 0.02  # none of a force that would be shorter [pt]
 _PLACE = 140.0  # from one picture to the next
 _TOP = 3 * LINE_PT  # below titles of two lines
 _AROUND = 4.0  # an arrow above and below a view
@@ -190,13 +191,15 @@ def _draw_forces(
             (0.0, drawn.foot_kN, drawn.lower_along_kN),
             (head, drawn.head_kN, drawn.upper_along_kN),
         ):
+            size = math.hypot(along * rope, share * math.hypot(*force))
+            if size * per_kn < _SHORTEST:
+                continue
             start = view.at(place, at)
             across = view.sign * share * force[part] * per_kn
             reach = math.copysign(min(abs(across), LONGEST), across)
             tip = (start[0] + along * rope * per_kn, start[1] + reach)
             sketch.arrow(start, tip)
             board.avoid([start, tip])
-            size = math.hypot(along * rope, share * math.hypot(*force))
             name = words.show_with_unit("size_kN", size)
             side = (-1.0 if place == 0.0 else 1.0, 0.0)
             labels.append(write_label(name, start, side, ACCENT))

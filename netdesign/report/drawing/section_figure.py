@@ -247,12 +247,10 @@ def _draw_arrow(sketch: Chart, paper: Paper, arrow: Arrow, words: Words) -> Labe
     size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
     largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
     start = (arrow.x_m, arrow.y_m)
-    named = (
-        (show_member(words, arrow.member), INK),
-        (words.show_with_unit("max_kN", size), ACCENT),
-    )
-    if size <= _SLACK * largest:
-        return _draw_anchor(sketch, paper, start, _aim(frame, start), named)
+    member = (show_member(words, arrow.member), INK)
+    if size <= _SLACK * largest:  # no arrow of 0.00 kN
+        return _draw_anchor(sketch, paper, start, _aim(frame, start), (member,))
+    named = (member, (words.show_with_unit("max_kN", size), ACCENT))
     along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
     length = frame.unit * max(LONGEST_ARROW * size / largest, _SHORTEST_ARROW)
     tip = move(start, along, length)

@@ -23,6 +23,7 @@ from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
     Words,
+    name_row,
     show_check,
     show_member,
     show_own,
@@ -129,7 +130,9 @@ def _build_row(
     members = [one for one in _ORDER if any(one in group for group in groups)]
     headings = [words("heading.member"), *_name_profiles(studies)]
     return Table(
-        caption=words("compare.rows_caption", row=show_text(rows[0].id)),
+        caption=words(
+            "compare.rows_caption", row=name_row(show_text(rows[0].id), words)
+        ),
         columns=name_columns(headings, numbers=()),
         rows=tuple(
             (

@@ -17,7 +17,10 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.drawing.chain_figure import draw_loads
-from netdesign.report.words import Words
+from netdesign.report.words import (
+    Words,
+    name_row,
+)
 from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.records import RowStudy, Study, find_input
 
@@ -35,16 +38,14 @@ def show_difference(study: Study, words: Words) -> Part | None:
     worst = max(compared, key=lambda row: _compare(row) or 0.0)
     record = worst.guideline
     ratios = [one for row in compared if (one := _compare(row))]
-    lead = words(
-        "why_more.lead",
-        low=words.show_fixed(min(ratios), 2),
-        high=words.show_fixed(max(ratios), 2),
-    )
+    ends = [words.show_fixed(end(ratios), 2) for end in (min, max)]
+    ratio = words("show.from_to", low=ends[0], high=ends[1])
+    lead = words("why_more.lead", ratio=ratio if ends[0] != ends[1] else ends[0])
     blocks: list[Block] = [Paragraph(text=lead), _tabulate(compared, words)]
     height = find_input(worst, "net_height")
     svg = draw_loads(record, height, words) if record and height else ""
     if record and svg:
-        caption = words("why_more.caption", row=worst.id)
+        caption = words("why_more.caption", row=name_row(worst.id, words))
         blocks.append(Figure(svg=svg, caption=caption))
     if record:
         label, text = worst.id, words.show(record.sentence)

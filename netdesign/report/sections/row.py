@@ -51,6 +51,7 @@ from netdesign.report.words import (
     MISSING,
     Words,
     append_unit,
+    name_row,
     show_check,
     show_member,
     show_text,
@@ -179,8 +180,7 @@ class RowSections:
     def build(self) -> Part:
         """All sections of the row."""
         row, t = self.row, self.words
-        key = "net_row" if len(self.ids) == 1 else "net_rows"
-        name = f"{t(f'heading.{key}')} {', '.join(map(show_text, self.ids))}"
+        name = name_row(", ".join(map(show_text, self.ids)), t, count=len(self.ids))
         title = (
             Piece(name, "name"),
             Piece(" "),
