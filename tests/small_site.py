@@ -139,6 +139,7 @@ def build_row(name, **changes):
         "net_stiffness_per_m": 8e6,
         "slack": 0.05,
         "altitude": 1417.0,
+        "post_count": 20,
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),

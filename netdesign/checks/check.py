@@ -190,7 +190,7 @@ class Check:
     clause: str
     member: str
     mode: str
-    position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
+    position: str = ""  # of its support: "intermediate", "second" or "edge"
     steps: Items[Step] = field(default_factory=list)
     # By its own comparison, of a check without a force; not proven of forces that are
     # information only.
@@ -338,26 +338,30 @@ class Check:
 
     @property
     def is_by_panel(self) -> bool:
-        """The force by the panel between posts is larger than that of the section."""
-        return self._find_high("p") > self._find_high("c")
+        """The force by panel, or by post, guys and end guy, is above the section's."""
+        return max(map(self._find_high, "pt")) > self._find_high("c")
 
     @property
     def governs(self) -> str:
-        """Load of the largest force: "coupled", "panel", "guideline"; "" of no force.
+        """Load of the largest force: "coupled", "panel", "truss", "guideline".
+
+        "" of no force.
 
         Solved forces count with their upper ends.
         """
         if not self.is_of_force:
             return ""
         least = self._find_high("g")
-        if least and least >= max(map(self._find_high, "cp")):
+        if least and least >= max(map(self._find_high, "cpt")):
             return "guideline"
+        if self._find_high("t") > max(map(self._find_high, "cp")):
+            return "truss"
         return "panel" if self.is_by_panel or not self._has_section else "coupled"
 
     @property
     def reason(self) -> Message:
         """Why it has its verdict, in one sentence, with the load that governs."""
-        loads = [load for load in "cpg" if self.name_force(load) in self.known]
+        loads = [load for load in "cptg" if self.name_force(load) in self.known]
         is_alone = len(loads) < 2 or not self._has_section
         if is_alone or not any(map(self._find_high, loads)):
             return self.told

@@ -1,7 +1,7 @@
 """Forces on the members of a support and their utilisation, step by step.
 
 Each function is a line of a theory page: checks/THEORY.md, (V1) and (V2);
-structure/THEORY.md, (S9) to (S20); panel/THEORY.md, (P7) to (P9);
+structure/THEORY.md, (S9) to (S26); panel/THEORY.md, (P7) to (P11);
 resistance/THEORY.md, (R1), (R12), (R15). Forces in kN, lengths in m, angles in degrees.
 """
 
@@ -22,6 +22,8 @@ from netdesign.calculation.quantity import (
     tan,
 )
 
+Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Support:
@@ -33,12 +35,18 @@ class Support:
         b and b_e [m]; None inside the row, where one is the other.
     end_factor, end_length : Quantity or None
         f_R [-] and its length [m]; None inside the row.
+    is_second : bool
+        It stands beside the end.
+    reaching : int
+        End effects that reach the last bay.
     """
 
     spacing: Quantity | None = None
     width: Quantity | None = None
     end_factor: Quantity | None = None
     end_length: Quantity | None = None
+    is_second: bool = False
+    reaching: int = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,34 +59,79 @@ class MemberLoad:
         g, of the section's force in the member [-]; None of all of it.
     added : Quantity or None
         A, by the load along the row [kN]; None of nothing.
-    lateral : Quantity or None
-        k_q, by the load along the row at the net's foot [-]; None of 1.
-    across : Quantity or None
-        Of two guys on one anchor, square to what they share in the section [kN].
+    lateral, along : Quantity or None
+        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
+    across, splay : Quantity or None
+        Of two guys on one anchor, square to what they share in the section [kN]; and
+        the angle of each out of it [deg].
     """
 
     share: Quantity | None = None
     added: Quantity | None = None
     lateral: Quantity | None = None
+    along: Quantity | None = None
     across: Quantity | None = None
+    splay: Quantity | None = None
 
 
 def place_end_support(
-    spacing: Quantity, factor: Quantity, length: Quantity, *, is_shared: bool = False
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    *,
+    other: Quantity | None = None,
+    beside: Quantity | None = None,
+    is_shared: bool = False,
 ) -> Support:
     """First or last support of a row: half a bay and the end effect.
 
     An anchor that it shares holds a guy of the next post, which carries a whole bay.
+    ``other`` and ``beside`` are parts of a bay of the other end's effect on it, and of
+    the end effects on the next support.
     """
     width = spacing / 2 + factor * length
+    if other is not None:
+        width = width + factor * other * spacing
     if is_shared:
-        width = largest(width, (width + spacing) / 2)
+        of_next = spacing
+        if beside is not None:
+            of_next = _widen(spacing, factor, beside)
+        width = largest(width, (width + of_next) / 2)
     return Support(
         spacing=spacing,
         width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
         end_factor=factor,
         end_length=length,
+        reaching=1 if other is None else 2,
     )
+
+
+def place_second_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    part: Quantity,
+    *,
+    is_shared: bool = False,
+) -> Support:
+    """Support beside an end: a bay, and a part of the end effect by the lever rule.
+
+    An anchor that it shares with the one after it holds a guy of that, too.
+    """
+    width = _widen(spacing, factor, part)
+    if is_shared:
+        width = (width + spacing) / 2
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S10a)"),
+        end_factor=factor,
+        end_length=length,
+        is_second=True,
+    )
+
+
+def _widen(spacing: Quantity, factor: Quantity, part: Quantity) -> Quantity:
+    return spacing + factor * part * spacing
 
 
 def find_lateral_factor(share: Quantity) -> Quantity:
@@ -104,7 +157,8 @@ def load_shared_anchor(guys: Quantity, *along: Quantity, mark: str = "") -> Memb
     of_one = load_guy(*along, mark=mark).added
     if of_one is None:
         raise ValueError("a guy holds no load along the row")
-    return MemberLoad(across=(guys * of_one).named(f"B{mark}", "kN", "(S20)"))
+    across = (guys * of_one).named(f"B{mark}", "kN", "(S20)")
+    return MemberLoad(across=across, splay=along[-1])
 
 
 def load_shared_anchor_in_line(
@@ -143,22 +197,44 @@ def bring_to_support(
 ) -> Quantity:
     """Force on a member of a support from that of the section inside the row.
 
-    ``push`` is what the end guy adds to it.
+    ``push`` is what the ropes' pull along the row adds to it there.
     """
     force = inside if load.share is None else load.share * inside
     if load.added is not None:
         force = force + load.added
-    if load.across is not None:
+    if load.across is not None and (push is None or load.splay is None):
         force = sqrt(force * force + load.across * load.across)
     if support.width is not None and support.spacing is not None:
         force = force * support.width / support.spacing
     elif support.end_factor is not None:  # of the net itself: the end effect is local
         force = force * (1 + support.end_factor)
-    if load.lateral is not None:
-        force = force * load.lateral
     if push is not None:
-        force = force + push
+        force = _add_push(force, load, support, push)
+    elif load.lateral is not None:
+        force = force * load.lateral
     return force.named(symbol, "kN", "(V1)")
+
+
+def _add_push(
+    force: Quantity, load: MemberLoad, support: Support, push: Quantity
+) -> Quantity:
+    """Force with what the ropes add: along the row at a foot, else along the member."""
+    if load.along is not None:
+        along = load.along * force + push
+        return sqrt(force * force + along * along)
+    if load.across is not None and load.splay is not None:
+        return _pull_shared(force, load.across, load.splay, support, push)
+    return force + push
+
+
+def _pull_shared(
+    force: Quantity, across: Quantity, splay: Quantity, at: Support, push: Quantity
+) -> Quantity:
+    """Pull of two guys on one anchor, to one of which the ropes add a force."""
+    if at.width is not None and at.spacing is not None:
+        across = across * at.width / at.spacing
+    in_section, square = force + push * cos(splay), across + push * sin(splay)
+    return sqrt(in_section * in_section + square * square)
 
 
 def take_largest(symbol: str, *forces: Quantity) -> Quantity:
@@ -172,13 +248,24 @@ def take_largest(symbol: str, *forces: Quantity) -> Quantity:
 
 def pull_at_end(rope: Quantity, support: Support) -> Quantity:
     """Pull of a border rope along the row under the end effect, at most."""
+    return (rope * (1 + _raise_pull(support))).named("H", "kN", "(P8)")
+
+
+def pull_one_way(rope: Quantity, support: Support) -> Quantity:
+    """Pull of a border rope in the last bay beyond that in the next one, at most."""
+    return (rope * _raise_pull(support)).named("D", "kN", "(P10)")
+
+
+def _raise_pull(support: Support) -> Quantity:
+    """Growth of a rope's pull in the last bay by the end effect, at most [-]."""
     factor, length, spacing = support.end_factor, support.end_length, support.spacing
     if factor is None:
         raise ValueError("a support inside the row has no end effect")
-    grown = 1 + factor  # beyond half a bay it counts as if it were all over the bay
+    if support.reaching > 1:
+        factor = support.reaching * factor
     if length is not None and spacing is not None and _is_short(length, spacing):
-        grown = 1 + factor * length / spacing
-    return (rope * grown).named("H", "kN", "(P8)")
+        return factor * length / spacing
+    return factor  # beyond half a bay it counts as if it were all over the bay
 
 
 def pull_border_rope(tension: Quantity, support: Support) -> Quantity:
@@ -186,6 +273,8 @@ def pull_border_rope(tension: Quantity, support: Support) -> Quantity:
     factor, length, spacing = support.end_factor, support.end_length, support.spacing
     if factor is None:
         return tension.named("E_k", "kN", "(P9)")
+    if support.reaching > 1:
+        factor = support.reaching * factor
     grown = 1 + factor  # beyond half a bay it counts as if it were all over the bay
     if length is not None and spacing is not None and _is_short(length, spacing):
         grown = 1 + factor * (2 * length / spacing)
@@ -201,9 +290,38 @@ def pull_end_guy(rope: Quantity, angle: Quantity) -> Quantity:
     return (rope / cos(angle)).named("E_k", "kN", "(P7)")
 
 
-def push_end_post(rope: Quantity, angle: Quantity) -> Quantity:
-    """Compression of the end post by its end guy."""
-    return (rope * tan(angle)).named("Z", "kN", "(P7)")
+def push_by_end_guy(
+    rope: Quantity,
+    angle: Quantity,
+    part: Quantity | None = None,
+    splay: Quantity | None = None,
+) -> Quantity:
+    """Force that the end guy's pull on the head brings to a member of the support.
+
+    All of it to one that stands along that pull; half to each of two splayed guys.
+    """
+    push = rope * tan(angle)
+    if part is not None:
+        push = part * push
+    if splay is not None:
+        push = push / (2 * cos(splay))
+    return push.named("Z", "kN", "(S25)")
+
+
+def hold_one_way(rope: Quantity, part: Quantity, splay: Quantity) -> Quantity:
+    """Tension of a splayed guy of the second head by the rope's unbalanced pull."""
+    return (part * rope / sin(splay)).named("Z", "kN", "(P11)")
+
+
+def press_one_way(
+    rope: Quantity, post: Leaves, at: Support, mark: str = ""
+) -> Quantity:
+    """Compression of the second post by that pull and the load along the row, (S18)."""
+    sideways, least = post["k"] * post[f"P{mark}"], post[f"T_min{mark}"]
+    if at.width is not None and at.spacing is not None:
+        sideways, least = (one * at.width / at.spacing for one in (sideways, least))
+    held = above_zero((sideways + rope) / tan(post["β"]) - least)
+    return (post["w"] * held).named(f"Z{mark}", "kN", "(P11)")
 
 
 def slide_base(pressing: Quantity, tilt: Quantity) -> Quantity:
@@ -247,7 +365,9 @@ class SupportForce:
         On the support, by section, panel and guideline [kN]; None where there is none.
         Of a base that slides, those across it.
     support, load, push : Support, MemberLoad, Quantity or None
-        What turns a force inside the row into the member's, and the end guy's part.
+        What turns a force inside the row into the member's, and the ropes' part.
+    shared : Quantity or None
+        That of a linear truss of post, guys and end guy, on a guy or its anchor [kN].
     pressing, tilt : Quantity or None
         Force across the base plate [kN], and that along it over it [-], of a base that
         slides.
@@ -260,6 +380,7 @@ class SupportForce:
     support: Support
     load: MemberLoad = MemberLoad()
     push: Quantity | None = None
+    shared: Quantity | None = None
     pressing: Quantity | None = None
     tilt: Quantity | None = None
 
@@ -267,7 +388,6 @@ class SupportForce:
 # Symbols of the number of guys on one anchor, by how their pulls are added.
 GUYS_ON_ANCHOR = {"vector": "n_g", "scalar": "n_h"}
 _SHARED = {"n_g": load_shared_anchor, "n_h": load_shared_anchor_in_line}
-Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
 
 
 def calculate_force(leaves: Leaves) -> SupportForce:
@@ -285,17 +405,20 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     )
     if inside is None or "T_b" in leaves:
         return _calculate_end(leaves, support)
-    load, push = _find_load(leaves), _find_push(leaves, support)
-    is_alone = in_panel is None and by_floor is None
+    load, push = _find_load(leaves, support), _find_push(leaves, support)
+    shared = leaves.get("E_t")
+    is_alone = in_panel is None and by_floor is None and shared is None
     name = f"{letter}_k" if is_alone else f"{letter}_c"
-    coupled = bring_to_support(name, inside, load, support)
+    on_section = push if support.is_second else None
+    coupled = bring_to_support(name, inside, load, support, on_section)
     by_panel = guideline = None
     if in_panel is not None:
         by_panel = bring_to_support(f"{letter}_p", in_panel, load, support, push)
     if by_floor is not None:
-        own = _find_load(leaves, mark="_g")
-        guideline = bring_to_support(f"{letter}_g", by_floor, own, support)
-    loads = [one for one in (coupled, by_panel, guideline) if one is not None]
+        own = _find_load(leaves, support, mark="_g")
+        of_floor = _find_push(leaves, support, mark="_g")
+        guideline = bring_to_support(f"{letter}_g", by_floor, own, support, of_floor)
+    loads = [x for x in (coupled, by_panel, guideline, shared) if x is not None]
     action, tilt = take_largest(f"{letter}_k", *loads), leaves.get("t")
     return SupportForce(
         action=action if tilt is None else slide_base(action, tilt),
@@ -305,6 +428,7 @@ def calculate_force(leaves: Leaves) -> SupportForce:
         support=support,
         load=load,
         push=push,
+        shared=shared,
         pressing=None if tilt is None else action,
         tilt=tilt,
     )
@@ -313,12 +437,19 @@ def calculate_force(leaves: Leaves) -> SupportForce:
 def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
     """Force in a border rope, or on a member that holds its pull along the row."""
     if "T_b" in leaves:
-        action = pull_border_rope(leaves["T_b"], support)
+        action = pull_border_rope(_take_rope(leaves, "T_b"), support)
     elif "γ" in leaves:
-        action = pull_end_guy(pull_at_end(leaves["T_r"], support), leaves["γ"])
+        pull = pull_at_end(_take_rope(leaves), support)
+        action = pull_end_guy(pull, leaves["γ"])
     else:
-        action = pull_at_end(leaves["T_r"], support).named("E_k", "kN", "(P8)")
+        action = pull_at_end(_take_rope(leaves), support).named("E_k", "kN", "(P8)")
     return SupportForce(action=action, coupled=action, by_panel=action, support=support)
+
+
+def _take_rope(leaves: Leaves, symbol: str = "T_r") -> Quantity:
+    """Force of a border rope, raised to the guideline's load where that is larger."""
+    rope = leaves[symbol]
+    return leaves["φ_g"] * rope if "φ_g" in leaves else rope
 
 
 def _find_support(leaves: Leaves) -> Support:
@@ -326,15 +457,15 @@ def _find_support(leaves: Leaves) -> Support:
         return Support()
     if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
         return Support(end_factor=leaves["f_R"])
-    return place_end_support(
-        leaves["b"],
-        leaves["f_R"],
-        leaves["Δl"],
-        is_shared=any(one in leaves for one in _SHARED),
-    )
+    effect = (leaves["b"], leaves["f_R"], leaves["Δl"])
+    is_shared = any(one in leaves for one in _SHARED)
+    if "s_2" in leaves:
+        return place_second_support(*effect, leaves["s_2"], is_shared=is_shared)
+    other, beside = leaves.get("s_e"), leaves.get("s_n")
+    return place_end_support(*effect, other=other, beside=beside, is_shared=is_shared)
 
 
-def _find_load(leaves: Leaves, mark: str = "") -> MemberLoad:
+def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:
     """Load along the row; with a mark that of the guideline's own pull on the head."""
     along = [leaves[one] for one in ("k", f"P{mark}", "β") if one in leaves]
     for guys, load in _SHARED.items():
@@ -343,14 +474,25 @@ def _find_load(leaves: Leaves, mark: str = "") -> MemberLoad:
     if "c" in leaves:
         return load_guy(leaves["c"], *along, mark=mark)
     if "w" in leaves:
+        if support.is_second and "T_r" in leaves:
+            return MemberLoad()  # what presses the post is worked out together
         given = [leaves["w"], *along, leaves[f"T_min{mark}"]]
         return load_post(*given, mark=mark)
     if "k" in leaves:
-        return MemberLoad(lateral=find_lateral_factor(leaves["k"]))
+        share = leaves["k"]
+        return MemberLoad(lateral=find_lateral_factor(share), along=share)
     return MemberLoad()
 
 
-def _find_push(leaves: Leaves, support: Support) -> Quantity | None:
+def _find_push(leaves: Leaves, support: Support, mark: str = "") -> Quantity | None:
+    """What the ropes' pull along the row adds at the row's end, or beside it."""
     if "T_r" not in leaves:
         return None
-    return push_end_post(pull_at_end(leaves["T_r"], support), leaves["γ"])
+    rope, splay = _take_rope(leaves), leaves.get("β") if "c" in leaves else None
+    if not support.is_second:
+        pull = pull_at_end(rope, support)
+        return push_by_end_guy(pull, leaves["γ"], leaves.get("e"), splay)
+    pull = pull_one_way(rope, support)
+    if splay is not None:
+        return hold_one_way(pull, leaves["c"], splay)
+    return press_one_way(pull, leaves, support, mark) if "w" in leaves else pull

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 from netdesign.checks import Declaration, GivenResistance
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
-from netdesign.panel.inputs import Panel
+from netdesign.panel.inputs import Ends, Panel
 from netdesign.resistance.post import BasePlate, PostSection
 from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import Link, Wear
@@ -84,6 +84,8 @@ class RowEnd:
         Between the end guy and the row [rad]; None where none is given.
     guy_from_base : float or None
         Of the end guy's anchor, as `EndGuy` has it [m].
+    stiffnesses : tuple of tuple of float, shape (4, 2)
+        Least and largest EA of uphill and downhill guys, end guy and post there [N].
     ropes_slide : bool
         The border ropes slide at the supports; not where nobody says so.
     lateral_distance, lateral_axis : float or None
@@ -97,6 +99,7 @@ class RowEnd:
 
     guy_angle: float | None
     guy_from_base: float | None = None
+    stiffnesses: tuple[Ends, ...] = ()
     ropes_slide: bool = False
     lateral_distance: float | None = None
     lateral_axis: float | None = None
@@ -301,10 +304,8 @@ class NetRow:
 
     def has_same_type_at_end(self, member: str) -> bool:
         """Whether a member is of one type at the row's end and inside it."""
-        inside, end = (
-            {one.type_id for one in self.resistances_at(place) if one.member == member}
-            for place in get_args(Position)
-        )
+        places = (self.resistances, self.resistances_at("edge"))
+        inside, end = ({x.type_id for x in of if x.member == member} for of in places)
         return inside == end and "" not in inside
 
     @property

@@ -272,7 +272,7 @@ def _compose_net_row(
         anchors=read_anchor_types(row, types),
         panels=build_panels(row, types["Ropes"]),
         panel_assumed=list_assumed(row, types["Ropes"]),
-        row_end=build_row_end(row, end, types) if has_end else None,
+        row_end=build_row_end(at_end, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
         panel_lack=explain_panel_lack(row),
         unsaid=list_unsaid(row),

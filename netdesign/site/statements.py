@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
 from netdesign.panel.inputs import CUTS, Ends, Panel, find_stiffness, list_panels
+from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
@@ -179,7 +180,32 @@ def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
     return (*lacking, *(say("panel.stiffness_of", id=one) for one in open_ropes))
 
 
+def list_stiffnesses(
+    at_end: Row, end: Row, types: Mapping[str, Mapping[str, Row]]
+) -> tuple[Ends, ...]:
+    """Least and largest EA of uphill guys, downhill guys, end guy and post [N]."""
+    guys = (at_end[Member.UPHILL_GUY], at_end[Member.DOWNHILL_GUY])
+    ropes = (*guys, end[EndMember.END_GUY])
+    post = types["Posts"].get(at_end[Member.POST].word)
+    return (
+        *(_find_stiffness(types["Ropes"].get(one.word)) for one in ropes),
+        _find_post_stiffness(post),
+    )
+
+
+_POST_AREAS = (5e-4, 2e-2)  # that are built [m2]
+
+
+def _find_post_stiffness(line: Row | None) -> Ends:
+    """Least and largest EA of a post's type [N]; without an area that of all."""
+    area = line["area"].given_si if line else None
+    low, high = _POST_AREAS if area is None else (area, area)
+    modulus = 1e6 * load_catalogue()["buckling"]["E_MPa"]
+    return modulus * low, modulus * high
+
+
 def _find_stiffness(line: Row | None) -> Ends:
+    """Least and largest EA of a rope's type [N]; of no type that of all."""
     if line is None:
         return find_stiffness(None, None)
     return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))

@@ -24,6 +24,7 @@ from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
+from netdesign.site.statements import list_stiffnesses
 from netdesign.site.type_lines import find_depth, find_sleeve, read_bond
 from netdesign.site.type_resistances import (
     SECTION,
@@ -216,12 +217,13 @@ def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     )
 
 
-def build_row_end(row: Row, end: Row | None, types: Types) -> RowEnd | None:
+def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     """Members that hold a row along itself, all of them, given or not.
 
-    None of a row without ropes between its posts.
+    None of a row without ropes between its posts. ``at_end`` is its line with the types
+    of its first and last support.
     """
-    if row["panel_system"].word == "none":
+    if at_end["panel_system"].word == "none":
         return None
     if end is None:
         lack = say("row_end.no_members")
@@ -233,9 +235,10 @@ def build_row_end(row: Row, end: Row | None, types: Types) -> RowEnd | None:
                 for member, mode in (*END_MODES, *beside)
             ),
         )
-    anchors = _read_anchors(end, END_ANCHORS, types, row["ground"].word)
+    anchors = _read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
     return RowEnd(
         guy_angle=end["end_guy_angle"].given_si,
+        stiffnesses=list_stiffnesses(at_end, end, types),
         guy_from_base=end["end_guy_place"].given_si,
         ropes_slide=end["ropes_at_supports"].word == "slide",
         lateral_distance=end["lateral_distance"].given_si,

@@ -12,7 +12,7 @@ from netdesign.outcome import require_positive, require_within
 from netdesign.structure.members import EndMember, Member
 from netdesign.structure.splay import Place
 
-Position = Literal["intermediate", "edge"]
+Position = Literal["intermediate", "second", "edge"]
 
 # A gap that lies this close to a threshold, as a share of it, counts as either side.
 NEAR_THRESHOLD = 0.1
@@ -52,13 +52,18 @@ class LoadedWidth:
     Attributes
     ----------
     position : str
-        "intermediate" or "edge".
+        "intermediate", "second" (beside an end) or "edge".
     width : float
         Width under plain load that gives the same force [m].
     end_factor : float
         f_R; 0 for an intermediate support [-].
     end_length : float
         Length over which the end effect acts [m].
+    share : float
+        Part of a bay by which end effects load it that begin at another support, over
+        f_R [-].
+    beside : float
+        The same of the support beside an end [-].
     other_width : float or None
         Width on the other side of a threshold that the gap lies close to; at most
         ``width``. None away from a threshold [m].
@@ -68,6 +73,8 @@ class LoadedWidth:
     width: float
     end_factor: float = 0.0
     end_length: float = 0.0
+    share: float = 0.0
+    beside: float = 0.0
     other_width: float | None = None
 
 
@@ -151,10 +158,37 @@ def _find_effect_beside(
     return min(slope * gap / 2.0, cap), min(rule.length * gap / 2.0, longest)
 
 
+def share_end_effect(reach: float, support: int) -> float:
+    """Part s_j of a bay by which an end effect loads a support, over f_R [-].
+
+    Each strip of net hangs between its two posts, by the lever rule. Theory:
+    structure/THEORY.md, eq. (S10a).
+
+    Parameters
+    ----------
+    reach : float
+        l_R / b, length of the end effect over the post spacing [-].
+    support : int
+        0 is the one at the end, 1 the next one, and so on.
+
+    Verified by
+    -----------
+    tests/verification/test_second_support.py
+    """
+    begins = reach - (support - 1)
+    if support == 0 or begins > 1.0:
+        beyond = min(max(begins - 1.0, 0.0), 1.0)
+        return (0.5 if support else 0.0) + beyond - beyond**2 / 2.0
+    return max(begins, 0.0) ** 2 / 2.0
+
+
 def list_supports(
-    post_spacing: float, edge: LoadedWidth | None
+    post_spacing: float, edge: LoadedWidth | None, post_count: int | None = None
 ) -> tuple[LoadedWidth, ...]:
-    """Supports of a row that differ in their load: one inside it, then its end.
+    """Supports of a row that differ in their load: inside, beside the end, at the end.
+
+    Both ends have the same effect, and one of them may reach the other's supports. Of a
+    number of posts that is not given the worse of two and three counts.
 
     Parameters
     ----------
@@ -162,9 +196,31 @@ def list_supports(
         b [m].
     edge : LoadedWidth or None
         Of the row's first or last support; None where the row has no end.
+    post_count : int or None
+        Posts of the row, at least 2; None where nobody gives it.
     """
     inside = LoadedWidth(position="intermediate", width=post_spacing)
-    return (inside,) if edge is None else (inside, edge)
+    if edge is None:
+        return (inside,)
+    reach = edge.end_length / post_spacing
+    last = (post_count or 2) - 1
+    other, bay = share_end_effect(reach, last), edge.end_factor * post_spacing
+    beside = 0.0
+    if last > 1 or post_count is None:
+        beside = share_end_effect(reach, 1)
+        beside += share_end_effect(reach, max(last, 2) - 1)
+    wide = replace(
+        edge,
+        width=edge.width + bay * other,
+        share=other,
+        beside=beside,
+        other_width=edge.other_width and edge.other_width + bay * other,
+    )
+    if not beside:
+        return inside, wide
+    width = post_spacing + bay * beside
+    second = replace(edge, position="second", width=width, share=beside)
+    return inside, replace(second, other_width=None), wide
 
 
 _LONG = 60.0  # of an anchor whose length is not given [m]

@@ -7,10 +7,19 @@ is found here. Theory: structure/THEORY.md, eqs. (S15) to (S19) and (S24) to (S2
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, require_within
-from netdesign.structure.head import FailedSupport, compute_head_forces
+from netdesign.structure.head import (
+    FailedSupport,
+    HeadForces,
+    compute_head_forces,
+)
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import say
 
@@ -215,6 +224,138 @@ def weigh_splay(points: SupportPoints) -> SplayWeights | None:
         uphill=share,
         post=share * _dot(uphill, post) + (1 - share) * _dot(downhill, post),
     )
+
+
+def hold_end_guy(points: SupportPoints, guy: EndGuy) -> HeadForces | FailedSupport:
+    """Forces in post and guys that hold the end guy's pull across the row.
+
+    Parameters
+    ----------
+    points : SupportPoints
+        Of the support at the row's end, in the section [m].
+    guy : EndGuy
+        That holds all of the ridge rope's pull along the row.
+
+    Returns
+    -------
+    HeadForces or FailedSupport
+        For each unit of that pull's part V across the row; structure/THEORY.md, (S25).
+
+    Verified by
+    -----------
+    tests/verification/test_end_guy.py
+    """
+    x, y, _ = EndGuy(angle=math.pi / 2.0, from_base=guy.from_base).find_way(points)
+    return compute_head_forces((x, y), points)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EndHead:
+    """Head at a row's end, pulled by its net and along the row by the ridge rope.
+
+    Attributes
+    ----------
+    points : SupportPoints
+        In the section [m].
+    pull : tuple of float, shape (2,)
+        Of the net, in the section [N].
+    along : float
+        H, of the ridge rope along the row [N].
+    """
+
+    points: SupportPoints
+    pull: Point
+    along: float
+
+
+_ROPES = 5  # outer and inner guy uphill, the two downhill, end guy
+_WORKING = np.array(list(product((False, True), repeat=_ROPES)))
+_SINGULAR = 1e-12  # determinant of stiffnesses, over their sum, of what stands not
+_NO_LENGTH = 1e-9  # of a rope that is slack: its lengthening over the largest [-]
+
+
+def share_with_end_guy(
+    heads: Sequence[EndHead],
+    *,
+    splay: float,
+    guy: EndGuy,
+    stiffness: Sequence[Sequence[float]],
+) -> Floats | None:
+    """Tensions of the ropes at a row's end as a linear truss shares H among them.
+
+    Post, four splayed guys and end guy on a head that moves a little; ropes only pull.
+    Of all sets of working ropes one has none that pushes and no slack one that is
+    longer. Theory: structure/THEORY.md, eq. (S26).
+
+    Parameters
+    ----------
+    heads : sequence of EndHead
+        States.
+    splay : float
+        beta [rad].
+    guy : EndGuy
+        The sixth member.
+    stiffness : sequence of float, shape (m, 4)
+        EA of uphill guys, downhill guys, end guy and post, each way that they may be
+        [N].
+
+    Returns
+    -------
+    ndarray or None, shape (n, m, 5)
+        Of outer and inner uphill guy, outer and inner downhill guy, end guy, by state
+        and by stiffness [N]; None where the truss does not stand.
+
+    Verified by
+    -----------
+    tests/verification/test_end_guy.py
+    """
+    ways, lengths = _list_ropes([one.points for one in heads], splay, guy)
+    loads = np.array([(*one.pull, one.along) for one in heads])
+    given = np.array(stiffness)
+    ends = given[:, [0, 0, 1, 1, 2]] / lengths[:, None]  # (n, m, 5)
+    posts = np.array([(*_list_directions(one.points)[0], 0.0) for one in heads])
+    of_post = given[:, 3] / np.array([[one.points.post_length] for one in heads])
+    frame = of_post[..., None, None] * (posts[:, :, None] * posts[:, None, :])[:, None]
+    squares = ways[..., :, None] * ways[..., None, :]  # (n, 5, 3, 3)
+    of_ropes = ends[..., None, None] * squares[:, None]
+    matrices = frame[:, :, None] + np.einsum("sr,nmrij->nmsij", _WORKING, of_ropes)
+    size = np.trace(matrices, axis1=-2, axis2=-1)
+    stands = np.linalg.det(matrices / size[..., None, None]) > _SINGULAR
+    matrices[~stands] = np.eye(3)
+    pulls = np.broadcast_to(loads[:, None, None], matrices.shape[:-1])
+    moved = np.linalg.solve(matrices, pulls[..., None])
+    longer = -np.einsum("nri,nmsi->nmsr", ways, moved[..., 0])
+    small = _NO_LENGTH * np.abs(longer).max(axis=-1, keepdims=True)
+    fits = stands & np.where(_WORKING, longer >= -small, longer <= small).all(axis=-1)
+    if not fits.any(axis=-1).all():
+        return None
+    first = fits.argmax(axis=-1)[..., None, None]
+    found = np.take_along_axis(longer, first, axis=2)[:, :, 0]
+    tensions: Floats = ends * np.maximum(found, 0.0)
+    return tensions
+
+
+def _list_ropes(
+    places: Sequence[SupportPoints], splay: float, guy: EndGuy
+) -> tuple[Floats, Floats]:
+    """Unit vectors from each head along its five ropes, (n, 5, 3); lengths (n, 5) [m].
+
+    The outer guys go towards the row's end, against the pull of the ridge rope.
+    """
+    ways, lengths = [], []
+    for points in places:
+        _, *guys = _list_directions(points)
+        anchors = (points.uphill_anchor, points.downhill_anchor)
+        in_section = [math.dist(points.head, one) for one in anchors]
+        flat, out = math.cos(splay), math.sin(splay)
+        ways.append(
+            [(x * flat, y * flat, side * out) for x, y in guys for side in (-1.0, 1.0)]
+        )
+        ways[-1].append(guy.find_way(points))
+        long = [one / flat for one in in_section for _ in range(2)]
+        end = math.dist((*points.head, 0.0), guy.find_anchor(points))
+        lengths.append([*long, end])
+    return np.array(ways), np.array(lengths)
 
 
 def _share_on_loaded_side(

@@ -57,7 +57,8 @@ class RowEffects:
     Attributes
     ----------
     supports : tuple of LoadedWidth
-        One inside the row, and where the row has an end its first or last one.
+        One inside the row, and where the row has an end the one beside it and its
+        first or last one.
     lateral_share : float
         Share of the load along the row [-].
     missing : tuple of Message
@@ -163,7 +164,7 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
     if share is None:
         lacks.append(say("ends.no_lateral_load", value=LATERAL_SHARE))
     return RowEffects(
-        supports=list_supports(spacing, edge),
+        supports=list_supports(spacing, edge, row.post_count),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
         end_lack=end_lack,

@@ -18,7 +18,11 @@ from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.check_run import CheckRun
 from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_worst
-from netdesign.study.member_force import RowForces
+from netdesign.study.member_force import (
+    RowForces,
+    find_end_pull,
+    find_one_way_pull,
+)
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_judged_notes,
@@ -56,7 +60,13 @@ from netdesign.study.row_checks import (
     distrust,
 )
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
-from netdesign.study.sideways import find_held_sideways, find_tilt
+from netdesign.study.sideways import (
+    EndShare,
+    find_end_guy,
+    find_held_sideways,
+    find_rope_factors,
+    find_tilt,
+)
 from netdesign.words.message import Message, say
 
 
@@ -171,6 +181,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         notes=notes,
         held_sideways=known.along_row,
         tilt=known.tilt,
+        end_guy=known.at_end,
         envelope=record_envelope(solved),
         reliability=_find_reliability(task, known, found, run),
     )
@@ -235,23 +246,31 @@ def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
     results, extremes = task.solved.results, task.extremes
     effects = find_effects(row, standard, site.ranges)
     head = floor.head if floor else None
-    held = find_held_sideways(task, head)
-    return RowForces(
+    held, factors = find_held_sideways(task, head), (1.0, 1.0)
+    if floor is not None:
+        factors = find_rope_factors(results, floor)
+    known = RowForces(
         site=site,
         row=row,
         standard=standard,
         law=task.law,
         effects=effects,
         largest={k: record_largest(one, task.solved) for k, one in extremes.items()},
-        floor=record_floor(floor, row),
+        floor=record_floor(floor, row, factors),
         held=held,
         tilt=find_tilt(
             row, (one.case.inclination for one in results if one.is_converged)
         ),
-        pulls=tuple(list_pulls(task, effects.lateral_share, head)),
         gap=task.solved.gap,
         panel_gap=_find_failed_panel(row, results),
     )
+    share, one_way = effects.lateral_share, find_one_way_pull(known)
+    known = replace(known, pulls=tuple(list_pulls(task, share, head, one_way)))
+    along = find_end_pull(known)
+    if along is None:
+        return known
+    load = EndShare(end=effects.supports[-1], along=along, factor=factors[1])
+    return replace(known, end_guy=find_end_guy(task, load))
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:

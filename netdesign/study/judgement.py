@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
@@ -13,8 +13,14 @@ from netdesign.checks.tested import find_proof_factor
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.members import CONNECTED, ROPE_OF, Member
-from netdesign.structure.row_position import LoadedWidth
+from netdesign.structure.members import (
+    CONNECTED,
+    ROPE_OF,
+    EndMember,
+    Member,
+    NetPart,
+)
+from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.dependent import (
     connect,
@@ -25,13 +31,11 @@ from netdesign.study.dependent import (
 )
 from netdesign.study.geometry_checks import check_row_geometry
 from netdesign.study.member_force import (
+    PUSHED,
     MemberForce,
     RowForces,
     find_force,
-    find_lack,
-    find_other_panel,
     lifts,
-    name_unsaid,
 )
 from netdesign.study.posts import find_short_post
 from netdesign.study.pulls import (
@@ -40,18 +44,27 @@ from netdesign.study.pulls import (
     find_pull,
     lack_sharing,
 )
-from netdesign.study.row_to_check import Basis, find_doubt
+from netdesign.study.row_to_check import Basis, find_doubt, name_unsaid
 from netdesign.study.sideways import check_sideways
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 
+_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
 UNBOUNDED = (
     *("post_bending.too_much", "wedge.slab", "direction.rope_beyond"),
     LOOSE_LIFTS.key,
 )
+
+
+# What stands behind the id of a check, by the support that it is of.
+AT_SUPPORT: Mapping[Position, str] = {
+    "intermediate": "",
+    "second": ".second",
+    "edge": ".end",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,26 +114,55 @@ def judge_members(known: RowForces) -> list[MemberCheck]:
     at_end, not_checked = effects.find_support("edge"), known.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
-    checked = [
-        (width, given)
+    of_supports: dict[str, list[MemberCheck]] = {
+        width.position: list(
+            _judge_at(known, width, row.resistances_at(width.position))
+        )
         for width in effects.supports
-        for given in row.resistances_at(width.position)
-        if _concerns(known, given)
+    }
+    judged = [
+        *_place_second(known, of_supports),
+        *_judge_at(known, at_end, (*parts, *held)),
     ]
-    checked += [(at_end, given) for given in (*parts, *held)]
-    turned = [one for one in checked if one[1].mode == "direction"]
-    judged = []
-    for width, given in checked:
-        if given.mode == "direction":
-            continue
-        judged.append(_judge_member(known, given, width))
-        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
-        if is_rope and "connections" not in not_checked:
-            chain = _find_chain(known, given, width)
-            judged.append(_judge_member(known, chain, width))
     gap = find_open(row, judged)
-    return judged + [
-        _judge_direction(known, given, width, gap) for width, given in turned
+    turned: dict[str, list[MemberCheck]] = {
+        width.position: _judge_directions(
+            known, row.resistances_at(width.position), width, gap
+        )
+        for width in effects.supports
+    }
+    of_end = _judge_directions(known, held, at_end, gap)
+    return [*judged, *_place_second(known, turned), *of_end]
+
+
+def _judge_at(
+    known: RowForces, width: LoadedWidth, resistances: Iterable[Resistance]
+) -> Iterator[MemberCheck]:
+    """Checks of the members of one support, each rope's with those of its links.
+
+    Those of the directions come once these are known.
+    """
+    for given in resistances:
+        if given.mode == "direction" or not _concerns(known, given):
+            continue
+        yield _judge_member(known, given, width)
+        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
+        if is_rope and "connections" not in known.standard.not_checked:
+            chain = _find_chain(known, given, width)
+            yield _judge_member(known, chain, width)
+
+
+def _judge_directions(
+    known: RowForces,
+    resistances: Iterable[Resistance],
+    width: LoadedWidth,
+    gap: Message | None,
+) -> list[MemberCheck]:
+    """Checks of the angles of rope anchors of one support."""
+    return [
+        _judge_direction(known, given, width, gap)
+        for given in resistances
+        if given.mode == "direction"
     ]
 
 
@@ -132,13 +174,61 @@ def _judge_direction(
     check = check_direction(pull, known.standard, gap) if pull else None
     if check is None:
         return _judge_member(known, given, width)
-    is_at_end = width.position == "edge"
     check = replace(
-        check,
-        id=f"{check.id}.end" if is_at_end else check.id,
-        position=width.position,
+        check, id=check.id + AT_SUPPORT[width.position], position=width.position
     )
     return MemberCheck(given=given, width=width, check=check, pull=pull)
+
+
+_AS_INSIDE = 1.01  # times the utilisation inside the row: the second support is alike
+_WORSE = (Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL)
+
+
+def _place_second(
+    known: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
+) -> list[MemberCheck]:
+    """Checks of all supports, those of the second one where they can govern.
+
+    It has the types inside and no less load. Where that is alike, its check is the one
+    inside; where the end has the same type with more load, that check says all.
+    """
+    inside, at_end = of_supports["intermediate"], of_supports.get("edge", ())
+    ends = {one.name: one for one in at_end}
+    kept, beside = list(inside), []
+    for place, one in enumerate(of_supports.get("second", ())):
+        within = inside[place]
+        if _is_no_worse(one, within) or _is_covered(known, one, ends.get(one.name)):
+            continue
+        if 0.0 < _rate_load(one) <= _AS_INSIDE * _rate_load(within):
+            as_inside = replace(one.check, id=within.check.id, position="intermediate")
+            kept[place] = replace(one, check=as_inside)
+        else:
+            beside.append(one)
+    return [*kept, *beside, *at_end]
+
+
+def _rate_load(one: MemberCheck) -> float:
+    """Upper end of the utilisation, or of the force where no resistance is known."""
+    return one.ratio if one.ratio >= 0.0 else one.check.read_band("E_d")[1] or 0.0
+
+
+def _is_no_worse(one: MemberCheck, other: MemberCheck) -> bool:
+    """Neither more used nor loaded nor of a worse verdict."""
+    verdicts = [_WORSE.index(each.check.verdict) for each in (one, other)]
+    loads = [each.check.read_band("E_d")[1] or 0.0 for each in (one, other)]
+    is_less = one.ratio <= other.ratio and loads[0] <= loads[1]
+    return is_less and verdicts[0] <= verdicts[1]
+
+
+def _is_covered(known: RowForces, one: MemberCheck, end: MemberCheck | None) -> bool:
+    """The end's check of the same type is worse; no document for it alone."""
+    if end is None or not end.given.type_id or end.given.type_id != one.given.type_id:
+        return False
+    at_end, here = (
+        known.site.find_declaration(known.row, *one.name, place)
+        for place in ("edge", "second")
+    )
+    return at_end == here and _is_no_worse(one, end)
 
 
 def _concerns(known: RowForces, given: Resistance) -> bool:
@@ -189,7 +279,8 @@ def _list_open(
     gaps = (
         known.gap,
         None if given.member in ROPE_OF else known.floor_gap,
-        find_other_panel(known.row, given, width.position),
+        _find_other_panel(known.row, given, width.position),
+        _find_loose_end(known, given.member, width.position),
     )
     for gap in filter(None, gaps):
         yield Open(kind=OpenKind.UNSOLVED, message=gap)
@@ -210,7 +301,7 @@ def judge_force(
     Nothing of the post is left for its force then: the utilisation has no bound. So it
     is with a loose foot that its post surely lifts.
     """
-    standard, is_at_end = known.standard, width.position == "edge"
+    standard = known.standard
     gap = points[0].message if points else say("check.no_case_solved")
     check = check_member(
         force.action if force else find_missing_force(gap),
@@ -223,7 +314,7 @@ def judge_force(
     doubted = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
     check = replace(
         check,
-        id=f"{check.id}.end" if is_at_end else check.id,
+        id=check.id + AT_SUPPORT[width.position],
         position=width.position,
         case=force.largest.case if force else None,
         load_case=least.load_case if least else "",
@@ -287,8 +378,43 @@ def _find_unsaid(
         return known.panel_gap
     if given.member in ROPE_OF and known.effects.end_lack is not None:
         return known.effects.end_lack
-    is_inside = width.position == "intermediate" and given.member in tuple(Member)
-    return None if is_inside else find_lack(row, given)
+    is_inside = width.position != "edge" and given.member in tuple(Member)
+    return None if is_inside else _find_lack(row, given)
+
+
+def _find_lack(row: NetRow, given: Resistance) -> Message | None:
+    """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
+    if given.member in _ROPES:
+        return None if row.panels else row.panel_lack
+    if row.row_end is None or given.member not in (*EndMember, *PUSHED):
+        return None
+    if not row.panels:
+        return row.panel_lack
+    if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
+        return None
+    return say("row_end.no_angle")
+
+
+def _find_loose_end(
+    forces: RowForces, member: str, position: Position
+) -> Message | None:
+    """Reason why nothing holds what the end guy does to a member of the row's end."""
+    is_pushed = member in PUSHED and position == "edge"
+    return forces.end_guy if is_pushed and isinstance(forces.end_guy, Message) else None
+
+
+def _find_other_panel(
+    row: NetRow, given: Resistance, position: Position
+) -> Message | None:
+    """Doubt that the ropes between the posts are those that were computed.
+
+    It concerns what they load more than the section does.
+    """
+    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR, *_ROPES]
+    if row.layout.is_foot_shared or (position == "second" and row.row_end):
+        pulled.append(Member.FOOT_ANCHOR)
+    at_end = (*EndMember, *PUSHED) if position != "intermediate" and row.row_end else ()
+    return row.panel_lack if given.member in (*pulled, *at_end) else None
 
 
 def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
@@ -325,7 +451,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     if row.unsaid:
         return name_unsaid(row)
     members = [one for one in judged if not one.is_of_end]
-    of_end = [find_lack(row, one.given) or row.panel_lack for one in members]
+    of_end = [_find_lack(row, one.given) or row.panel_lack for one in members]
     points = (
         point.message
         for one in members

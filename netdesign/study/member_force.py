@@ -30,17 +30,35 @@ from netdesign.structure.members import (
     RopeForce,
     name_in_panel,
 )
-from netdesign.structure.row_position import LoadedWidth, Position
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
 from netdesign.study.effects import RowEffects
 from netdesign.study.pulls import may_share
 from netdesign.study.row_to_check import Basis
-from netdesign.study.support_records import HeldSidewaysRecord, PullRecord
-from netdesign.units import degree_from_radian
+from netdesign.study.support_records import (
+    EndGuyRecord,
+    HeldSidewaysRecord,
+    PullRecord,
+)
+from netdesign.units import degree_from_radian, newton_from_kilonewton
 from netdesign.words.message import Message, say
 
-PUSHED = (Member.POST, Member.POST_BASE)  # by the end guy
-_MOST_NAMES = 3  # of inputs that a row lacks, in the reason of a check
+# What the end guy's pull on the head loads, by the part of it in each.
+PUSHED: Mapping[str, str] = {
+    Member.POST: "post_part",
+    Member.POST_BASE: "base_part",
+    Member.UPHILL_GUY: "uphill_part",
+    Member.UPHILL_ANCHOR: "uphill_part",
+    Member.DOWNHILL_GUY: "downhill_part",
+    Member.DOWNHILL_ANCHOR: "downhill_part",
+}
+# Tension of the outer guy of each side by the linear truss.
+_BY_TRUSS: Mapping[str, str] = {
+    Member.UPHILL_GUY: "uphill_guy_kN",
+    Member.UPHILL_ANCHOR: "uphill_guy_kN",
+    Member.DOWNHILL_GUY: "downhill_guy_kN",
+    Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
+}
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
@@ -67,6 +85,9 @@ class RowForces(Basis):
         Load along the row at the head, or why nothing holds it.
     tilt : float
         Largest force along the slope at a post's base over that across, (S19) [-].
+    end_guy : EndGuyRecord, Message or None
+        What the end guy does to the end's support, or why nothing holds that; None
+        without a guy whose angle is given.
     pulls : tuple of PullRecord
         Directions at the anchors.
     gap : Message or None
@@ -80,6 +101,7 @@ class RowForces(Basis):
     floor: FloorRecord | None
     held: HeldSidewaysRecord | Message
     tilt: float
+    end_guy: EndGuyRecord | Message | None = None
     pulls: tuple[PullRecord, ...] = ()
     gap: Message | None = None
     panel_gap: Message | None = None
@@ -88,6 +110,11 @@ class RowForces(Basis):
     def along_row(self) -> HeldSidewaysRecord | None:
         """Load along the row at the head; None where nothing holds it."""
         return self.held if isinstance(self.held, HeldSidewaysRecord) else None
+
+    @property
+    def at_end(self) -> EndGuyRecord | None:
+        """What the end guy does to the end's support; None where it is not known."""
+        return self.end_guy if isinstance(self.end_guy, EndGuyRecord) else None
 
     @property
     def floor_gap(self) -> Message | None:
@@ -134,6 +161,14 @@ class MemberForce:
         return _high(self.on.by_panel) > _high(self.on.coupled)
 
     @property
+    def is_by_ropes(self) -> bool:
+        """No multiple of the solved force: beside the end, or by the truss."""
+        loads = (self.on.coupled, self.on.by_panel, self.on.guideline)
+        is_shared = _high(self.on.shared) >= max(map(_high, loads))
+        is_beside = self.on.support.is_second and self.on.push is not None
+        return is_beside or (self.on.shared is not None and is_shared)
+
+    @property
     def on_support(self) -> float:
         """Force on the support over that inside the row, lateral load included [-]."""
         support, lateral = self.on.support, self.on.load.lateral
@@ -177,10 +212,11 @@ class MemberForce:
 
     def find_high(self, force: float) -> float:
         """Upper end of the member's force inside the row, from one solved [kN]."""
-        push = _high(self.on.push) if self.is_by_panel else 0.0
+        is_pushed = self.is_by_panel or self.on.support.is_second
+        push = _high(self.on.push) if is_pushed else 0.0
         along = self._tilt * push / self.on_support
         if self.on.load.across is not None:
-            return math.hypot(force, _high(self.on.load.across))
+            return math.hypot(force, _high(self.on.load.across)) + along
         return self.share * force + self.added_high + along
 
 
@@ -223,10 +259,10 @@ def find_force(
     least = forces.find_least(member)
     if least is not None:
         leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
-    added, rise = _list_load_leaves(forces, member)
+    added, rise = _list_load_leaves(forces, member, width)
     leaves += added
-    if panel is not None and member in PUSHED and width.position == "edge":
-        leaves += _list_push_leaves(forces)
+    if panel is not None:
+        leaves += _list_rope_leaves(forces, member, width)
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
     force = calculate_force({one.symbol: one for one in leaves})
@@ -258,10 +294,34 @@ def _find_end_force(
         return None
     symbol = "T_b" if member in _ROPES else "T_r"
     leaves = [*_list_support_leaves(forces.row, width, member), solve_for(rope, symbol)]
+    leaves += _list_floor_factor(forces, ROPE_OF[member])
     if member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
         leaves += _list_guy_angle(forces.row)
     force = calculate_force({one.symbol: one for one in leaves})
     return MemberForce(on=force, solved=(rope,), largest=rope)
+
+
+def find_end_pull(forces: RowForces) -> float | None:
+    """Largest pull of the ridge rope along the row at its end [N]; None without one."""
+    width = forces.effects.supports[-1]
+    rope = forces.largest.get(RopeForce.UPPER_ALONG)
+    if forces.row.row_end is None or rope is None or width.position != "edge":
+        return None
+    leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
+    leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
+    pull = calculate_force({one.symbol: one for one in leaves}).action
+    return newton_from_kilonewton(_high(pull))
+
+
+def find_one_way_pull(forces: RowForces) -> float:
+    """Pull of a border rope that the second support holds, over that inside [-]."""
+    width, end = forces.effects.find_support("second"), forces.row.row_end
+    if end is None or end.ropes_slide or width.position != "second":
+        return 0.0
+    leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
+    leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
+    found = calculate_force({one.symbol: one for one in leaves})
+    return _high(found.push)
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
@@ -277,18 +337,24 @@ def _list_support_leaves(
     """
     if width.position == "intermediate":
         return []
-    rule = "end.constant"
+    rule, count = "end.constant", find_cell(row, "post_count")
     factor = given("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
     if member == NetPart.MESH:
         return [factor]
+    parts = {"s_2" if width.position == "second" else "s_e": width.share}
+    if is_shared(row, member):
+        parts["s_n"] = width.beside if width.position == "edge" else 0.0
     return [
         given("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
         factor,
         given("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
+        *(given(symbol, part, "-", count) for symbol, part in parts.items() if part),
     ]
 
 
-def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], float]:
+def _list_load_leaves(
+    forces: RowForces, member: str, width: LoadedWidth
+) -> tuple[list[Quantity], float]:
     """Leaves of what the load along the row adds, and how that may grow [kN]."""
     share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
     held = forces.along_row
@@ -325,7 +391,8 @@ def _list_load_leaves(forces: RowForces, member: str) -> tuple[list[Quantity], f
     if by_floor:
         of_floor, own = by_floor
         added.append(load_post(weight, share, of_floor, splay, own).added)
-    return ([*leaves, *by_floor] if any(map(_high, added)) else []), rise
+    is_loaded = any(map(_high, added)) or width.position == "second"
+    return ([*leaves, *by_floor] if is_loaded else []), rise
 
 
 def _list_floor_leaves(
@@ -350,11 +417,51 @@ def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
     return any(force > 0.0 for force in pulls)
 
 
-def _list_push_leaves(forces: RowForces) -> list[Quantity]:
-    """Rope and guy that push the post at the row's end."""
+def _list_rope_leaves(
+    forces: RowForces, member: str, width: LoadedWidth
+) -> list[Quantity]:
+    """Pull of a border rope along the row that a member at or beside its end holds.
+
+    At the end it comes by the end guy; besides, the truss of both has its own force.
+    """
+    row = forces.row
+    if row.row_end is None or width.position == "intermediate":
+        return []
+    if width.position == "second":
+        return _list_unbalanced(forces, member, slide=row.row_end.ropes_slide)
+    angle, at_end = _list_guy_angle(row), forces.at_end
     rope = forces.largest.get(RopeForce.UPPER_ALONG)
-    angle = _list_guy_angle(forces.row)
-    return [solve_for(rope, "T_r"), *angle] if rope is not None and angle else []
+    if member not in PUSHED or at_end is None or rope is None:
+        return []
+    truss = getattr(at_end, _BY_TRUSS.get(member, ""), None)
+    leaves = [] if truss is None else [_solved("E_t", truss, "kN", "truss")]
+    part: float = getattr(at_end, PUSHED[member])
+    if part > 0.0:
+        of_rope = _list_floor_factor(forces, rope.quantity)
+        leaves += [solve_for(rope, "T_r"), *of_rope, *angle]
+        leaves.append(_solved("e", part, "-", PUSHED[member]))
+    return leaves
+
+
+def _list_unbalanced(forces: RowForces, member: str, *, slide: bool) -> list[Quantity]:
+    """Rope that pulls a member beside the row's end more from one side; none slides."""
+    of_head = member in PUSHED and forces.along_row is not None
+    if slide or not (of_head or member == Member.FOOT_ANCHOR):
+        return []
+    rope = RopeForce.UPPER_ALONG if of_head else RopeForce.LOWER_ALONG
+    solved = forces.largest.get(rope)
+    if solved is None:
+        return []
+    return [solve_for(solved, "T_r"), *_list_floor_factor(forces, rope)]
+
+
+def _list_floor_factor(forces: RowForces, rope: str) -> list[Quantity]:
+    """Factor by which the guideline's load raises a rope; none where it does not."""
+    if forces.floor is None:
+        return []
+    is_lower = rope in (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+    factor = forces.floor.lower_rope if is_lower else forces.floor.ridge_rope
+    return [_solved("φ_g", factor, "-", "floor")] if factor > 1.0 else []
 
 
 def _list_guy_angle(row: NetRow) -> list[Quantity]:
@@ -369,42 +476,3 @@ def is_shared(row: NetRow, member: str) -> bool:
     """An anchor holds a guy of each of two neighbouring posts, or may do so."""
     of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
     return may_share(row.guys) and member in of_guys
-
-
-def name_unsaid(row: NetRow) -> Message:
-    """The columns that a row leaves empty, and that every force depends on.
-
-    The first of many: each check says it, and the row has them all.
-    """
-    names = row.unsaid
-    if len(names) <= _MOST_NAMES:
-        return say("check.unsaid", names=names)
-    first = names[: _MOST_NAMES - 1]
-    return say("check.unsaid_many", names=first, count=len(names) - len(first))
-
-
-def find_lack(row: NetRow, given: Resistance) -> Message | None:
-    """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
-    if given.member in _ROPES:
-        return None if row.panels else row.panel_lack
-    if row.row_end is None or given.member not in (*EndMember, *PUSHED):
-        return None
-    if not row.panels:
-        return row.panel_lack
-    if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
-        return None
-    return say("row_end.no_angle")
-
-
-def find_other_panel(
-    row: NetRow, given: Resistance, position: Position
-) -> Message | None:
-    """Doubt that the ropes between the posts are those that were computed.
-
-    It concerns what they load more than the section does.
-    """
-    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR, *_ROPES]
-    if row.layout.is_foot_shared:
-        pulled.append(Member.FOOT_ANCHOR)
-    at_end = (*EndMember, *PUSHED) if position == "edge" and row.row_end else ()
-    return row.panel_lack if given.member in (*pulled, *at_end) else None

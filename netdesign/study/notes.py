@@ -152,12 +152,26 @@ def list_row_notes(known: RowForces) -> list[Message]:
             notes.append(told)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
-    notes += list_assumed(row)
+    notes += [*_list_end_notes(known), *list_assumed(row)]
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
     if row.panel_assumed and row.solved_panels:
         notes.append(say("panel.assumed", names=row.panel_assumed))
     return [*notes, *_list_pull_notes(known.pulls)]
+
+
+def _list_end_notes(known: RowForces) -> Iterator[Message]:
+    """What is assumed of the end of a row: its posts, the end guy and its anchor."""
+    row, end = known.row, known.row.row_end
+    if row.has_end and row.post_count is None:
+        yield say("row.posts_unknown")
+    if end is None or known.at_end is None:
+        return
+    yield say("row.end_guy_holds_all")
+    if end.guy_from_base is None:
+        yield say("row.end_guy_at_head")
+    if known.at_end.uphill_guy_kN and any(low < high for low, high in end.stiffnesses):
+        yield say("row.end_stiffness")
 
 
 def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:

@@ -31,7 +31,7 @@ from netdesign.structure.row_position import (
 )
 from netdesign.structure.splay import Guys
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import list_states, place_row
+from netdesign.study.sideways import SupportState, list_states, place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
@@ -45,12 +45,13 @@ _CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
 
 
 def list_pulls(
-    task: RowToCheck, share: float, floor: HeadSpan | None
+    task: RowToCheck, share: float, floor: HeadSpan | None, one_way: float = 0.0
 ) -> list[PullRecord]:
     """Pull on every anchor over the converged cases and under the floor's load.
 
-    ``share`` acts along the row. The anchors of the row's end come last: those of types
-    of their own, then those that hold the row along itself.
+    ``share`` acts along the row. Behind those inside comes the foot beside the end,
+    which holds ``one_way`` of the lower rope's pull along the row; last the anchors of
+    the row's end: those of types of their own, then those that hold the row along it.
     """
     row, solved = task.row, [one for one in task.solved.results if one.is_converged]
     points = [place_row(row, one.case.inclination) for one in solved]
@@ -75,7 +76,21 @@ def list_pulls(
         for anchor, pulls in ranges.items()
         if pulls is not None
     ]
+    at_foot, turn = ranges[Member.FOOT_ANCHOR], one_way * _find_along(states)
+    if at_foot is not None and turn > 0.0:
+        foot = (row, Member.FOOT_ANCHOR, at_foot, share + turn)
+        of_supports.insert(len(ANCHORS), build_pull(*foot, position="second"))
     return [*of_supports, *_list_end_pulls(row, points)]
+
+
+def _find_along(states: Sequence[SupportState]) -> float:
+    """Largest pull of the lower rope along the row over that of the net on a foot."""
+    shares = (
+        one.panel.solution.lower.along / one.anchors.foot_anchor.size
+        for one in states
+        if one.panel is not None and one.anchors.foot_anchor.size > 0.0
+    )
+    return max(shares, default=0.0)
 
 
 def _list_end_pulls(

@@ -104,8 +104,13 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
     )
 
 
-def record_floor(floor: Floor | None, row: NetRow) -> FloorRecord | None:
-    """Floor of a row in engineer's units, each force with what it follows from."""
+def record_floor(
+    floor: Floor | None, row: NetRow, on_ropes: tuple[float, float] = (1.0, 1.0)
+) -> FloorRecord | None:
+    """Floor of a row in engineer's units, each force with what it follows from.
+
+    ``on_ropes`` are its factors on lower and ridge rope.
+    """
     if floor is None:
         return None
     standard = load_guideline()
@@ -116,6 +121,8 @@ def record_floor(floor: Floor | None, row: NetRow) -> FloorRecord | None:
         altitude_factor=find_altitude_factor(row),
         assumed=list_assumed(row),
         reason=floor.reason,
+        lower_rope=on_ropes[0],
+        ridge_rope=on_ropes[1],
     )
 
 

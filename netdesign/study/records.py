@@ -34,6 +34,7 @@ from netdesign.study.parts import PartRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
+    EndGuyRecord,
     HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
@@ -173,6 +174,7 @@ class RowStudy:
     envelope: EnvelopeRecord
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    end_guy: EndGuyRecord | None = None  # None without one, or where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: Items[PartRecord] = field(default_factory=list)  # that it is built of

@@ -77,6 +77,8 @@ def _list_resistance_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
         sense="at least",
         note=note,
     )
+    if one.force is not None and one.force.on.shared is not None:
+        return [change]  # another rope has another stiffness, and so another force
     kind = find_type_change(basis, one.given, demand, one.pull)
     return [change, kind] if kind else [change]
 
@@ -85,9 +87,15 @@ def find_spacing_remedy(
     post_spacing: float, width: LoadedWidth, utilisation: float
 ) -> Change:
     """Largest post spacing at which a check passes: every force is in proportion."""
-    allowed = width.width / utilisation
-    ends = width.end_factor * width.end_length
-    widest = 2.0 * (allowed - ends) if width.position == "edge" else allowed
+    is_edge = width.position == "edge"
+    part = 0.5 if is_edge else 1.0
+    left = width.width / utilisation
+    if is_edge:
+        left -= width.end_factor * width.end_length
+    # the part of an end effect that begins at another support falls with the spacing
+    reached = width.end_factor * width.share * post_spacing**2
+    root = left**2 - 4.0 * part * reached
+    widest = (left + math.sqrt(root)) / (2.0 * part) if left > 0.0 <= root else 0.0
     bound = math.floor(100.0 * widest + 1e-9) / 100.0
     return Change(
         quantity=say("change.post_spacing"),

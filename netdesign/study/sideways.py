@@ -1,7 +1,8 @@
 """Load along the row at a post head: what holds it, and what it adds to each member.
 
-Theory: structure/THEORY.md, (S15) to (S18). The bounds take the largest forces over all
-cases, each in its own case, so that whoever has the report can work them out again.
+Theory: structure/THEORY.md, (S15) to (S18), (S24) to (S26). The
+bounds take the largest forces over all cases, each in its own case, so that whoever has
+the report can work them out again.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from netdesign.checks import Band, Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -17,16 +19,24 @@ from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.floor import HeadSpan
+from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces
-from netdesign.structure.head import FailedSupport
+from netdesign.structure.head import FailedSupport, HeadForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
-from netdesign.structure.members import Member, name_in_panel
-from netdesign.structure.splay import compute_splayed_head, weigh_splay
+from netdesign.structure.members import Member, RopeForce, name_in_panel
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.structure.splay import (
+    EndGuy,
+    EndHead,
+    compute_splayed_head,
+    hold_end_guy,
+    share_with_end_guy,
+    weigh_splay,
+)
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.study.support_records import EndGuyRecord, HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
@@ -127,6 +137,126 @@ def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
     if floor is None:
         return math.inf
     return 0.0 if row.altitude is None else floor.least_tension
+
+
+_INCLINATIONS = 8  # parts of their range: what the guy brings changes smoothly
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EndShare:
+    """Load on the head at a row's end.
+
+    Attributes
+    ----------
+    end : LoadedWidth
+        Of the support.
+    along : float
+        H, largest pull of the ridge rope along the row [N].
+    factor : float
+        By which the guideline's load raises the pull on the head [-].
+    """
+
+    end: LoadedWidth
+    along: float
+    factor: float
+
+
+def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | None:
+    """Forces that the end guy brings to the end's support, or why nothing holds them.
+
+    None without a guy whose angle is given.
+
+    Parameters
+    ----------
+    task : RowToCheck
+        Row with its end, cases and largest forces.
+    load : EndShare
+        On the head there.
+    """
+    row, span = task.row, task.site.ranges["inclination"]
+    guy = row.row_end.guy if row.row_end else None
+    if guy is None:
+        return None
+    step = (span.high - span.low) / _INCLINATIONS
+    tried = {span.low + one * step for one in range(_INCLINATIONS)} | {span.high}
+    places = [place_row(row, one) for one in sorted(tried)]
+    held = [hold_end_guy(place, guy) for place in places]
+    failed = next((one for one in held if isinstance(one, FailedSupport)), None)
+    if failed is not None:
+        return failed.reason
+    heads = [one for one in held if isinstance(one, HeadForces)]
+    posts = [one.post_compression for one in heads]
+    upright = [place.head[1] / place.post_length for place in places]
+    tensions = _share_end(task, guy, load)
+    if isinstance(tensions, Message):
+        return tensions
+    return EndGuyRecord(
+        post_part=max(posts),
+        base_part=max(a * b for a, b in zip(posts, upright, strict=True)),
+        uphill_part=max(one.uphill_guy_tension for one in heads),
+        downhill_part=max(one.downhill_guy_tension for one in heads),
+        uphill_guy_kN=tensions and kilonewton_from_newton(tensions[0]),
+        downhill_guy_kN=tensions and kilonewton_from_newton(tensions[1]),
+    )
+
+
+def _share_end(
+    task: RowToCheck, guy: EndGuy, load: EndShare
+) -> tuple[float, float] | Message | None:
+    """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
+
+    Of the cases in which guys and ridge rope pull most, with what may hide. None of one
+    guy on a side.
+    """
+    row, splay = task.row, task.row.guys.splay
+    if row.row_end is None or row.guys.count < 2 or splay is None:
+        return None
+    keys = (*GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
+    extremes = [task.extremes[key] for key in keys if key in task.extremes]
+    hidden = 1.0 + max(
+        (one.hidden / one.force.high for one in extremes if one.force.high > 0.0),
+        default=0.0,
+    )
+    scale = load.end.width / row.layout.post_spacing * load.factor * hidden
+    found = {one.governing.case: one.governing for one in extremes}
+    states = [one for result in found.values() for one in list_states(row, result)]
+    heads = [
+        EndHead(points=one.points, pull=(scale * x, scale * y), along=load.along)
+        for one in states
+        if one.panel is not None
+        for x, y in (one.anchors.head_pull,)
+    ]
+    if not heads:
+        return None
+    ways = list(dict.fromkeys(product(*row.row_end.stiffnesses)))
+    tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)
+    if tensions is None:
+        return say("support.not_held_sideways")
+    outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)
+    return float(outer[0]), float(outer[2])
+
+
+def find_rope_factors(
+    results: Sequence[CaseResult], floor: Floor
+) -> tuple[float, float]:
+    """Pull of the guideline's load on lower and ridge rope over that of the cases [-].
+
+    At least 1. Sizes of the pulls at foot and head, each its own largest; of several
+    panels that may be built the one that is pulled least counts. Theory:
+    panel/THEORY.md, (P12).
+    """
+    solved = [one.panel for one in results if isinstance(one.panel, PanelForces)]
+    foot = floor.find(Member.FOOT_ANCHOR)
+    if not solved or floor.head is None or foot is None:
+        return 1.0, 1.0
+    least = []
+    for variant in zip(*(one.variants for one in solved), strict=True):
+        found = [one.solution for one in variant]
+        feet = [(a.foot[0] + a.mid_foot[0], a.foot[1] + a.mid_foot[1]) for a in found]
+        pulls = (feet, [one.head for one in found])
+        least.append(tuple(max(math.hypot(*one) for one in of) for of in pulls))
+    lower, ridge = (min(one) for one in zip(*least, strict=True))
+    return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
 
 
 def check_sideways(

@@ -71,7 +71,7 @@ class PullRecord:
     """
 
     anchor: Member | EndMember
-    position: Position  # "edge" of what the row's end has alone
+    position: Position  # "edge" of what the end has alone, "second" of the foot beside
     kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
     least_deg: float
     largest_deg: float
@@ -135,6 +135,23 @@ class HeldSidewaysRecord:
     post_part: float  # w
     floor_pull_kN: float = 0.0  # largest pull on a head by the guideline's load
     floor_tension_kN: float = 0.0  # its least tension of the guys
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndGuyRecord:
+    """What the end guy does to the support at a row's end: (S25), (S26).
+
+    Parts are over V, the part across the row of its pull on the head; the largest over
+    the net's inclinations.
+    """
+
+    post_part: float
+    base_part: float  # across the base plate
+    uphill_part: float  # in the plane of post and guys
+    downhill_part: float
+    # of the outer guy by a linear truss; None where there is no second guy on a side
+    uphill_guy_kN: float | None = None
+    downhill_guy_kN: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -35,7 +35,8 @@ def name_mode(mode: str) -> Message:
 def name_check(member: str, mode: str, position: str = "") -> Message:
     """Name of a check by its member and mode: "Foot anchor, pull-out".
 
-    That of a row's first and last support says so.
+    That of a row's first and last support says so, and that of the one beside it.
     """
     title = say("check.title", member=name_member(member), mode=name_mode(mode))
-    return say("check.of_end", check=title) if position == "edge" else title
+    key = {"edge": "check.of_end", "second": "check.of_second"}.get(position)
+    return say(key, check=title) if key else title

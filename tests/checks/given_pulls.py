@@ -18,6 +18,15 @@ from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests.grid import build_cases, wrap_results
 
+
+def find_second(gap):
+    """Load beside an end over that inside, (S10a); it stands for all of its types.
+
+    N = 1.2, bays of 3.5 m: f_R = (0.92 + 0.65 * 1.2) A / 2 over 0.6 A / 2.
+    """
+    return 1.0 + 0.85 * gap * (0.3 * gap) ** 2 / (2.0 * 3.5**2)
+
+
 NETS = {
     "id": "R",
     "slope angle [deg]": 35,
@@ -27,6 +36,7 @@ NETS = {
     "net height [m]": 3.0,
     "net stiffness [kN/m]": 10000,
     "post spacing [m]": 3.5,
+    "number of posts": 12,
     "post tilt [deg]": 15,
     "uphill anchor distance [m]": 3.0,
     "downhill anchor distance [m]": 3.0,

@@ -1,6 +1,7 @@
 """Formulas of the forces on a support, each with its own arithmetic by hand."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -64,15 +65,15 @@ def test_a_post_has_what_the_guys_do_not_hold_anyway():
 
 
 def test_a_force_inside_the_row_comes_to_its_support():
-    """(V1): (0.6 * 100 + 5) * 3.2 / 4 * 1.25 + 7 = 72 kN."""
+    """(V1): (0.6 * 100 + 5) * 3.2 / 4 = 52 kN; 52 + 7 = 59, 52 * 1.25 = 65 kN."""
     load = MemberLoad(share=q("g", 0.6), added=q("A", 5.0, 4.0, 8.0))
-    load_at_foot = MemberLoad(
-        share=load.share, added=load.added, lateral=q("k_q", 1.25)
-    )
-    force = formulas.bring_to_support(
-        "E_c", q("E_s", 100.0, 90.0, 120.0), load_at_foot, END, q("Z", 7.0, 6.0, 9.0)
-    )
-    assert ends(force) == pytest.approx((64.0, 72.0, 89.0), rel=1e-14)
+    load_at_foot = replace(load, lateral=q("k_q", 1.25))
+    of = ("E_c", q("E_s", 100.0, 90.0, 120.0))
+    push = q("Z", 7.0, 6.0, 9.0)
+    force = formulas.bring_to_support(*of, load, END, push)
+    assert ends(force) == pytest.approx((52.4, 59.0, 73.0), rel=1e-14)
+    force = formulas.bring_to_support(*of, load_at_foot, END)
+    assert ends(force) == pytest.approx((58.0, 65.0, 80.0), rel=1e-14)
     plain = formulas.bring_to_support("E_c", q("E_s", 100.0), MemberLoad(), Support())
     assert plain.value == 100.0
 
@@ -132,10 +133,13 @@ def test_a_rope_pulls_more_at_the_end_of_the_row():
 
 
 def test_an_end_guy_pulls_and_presses():
-    """(P7): 39 / cos 60 = 78 kN, 39 tan 45 = 39 kN."""
-    rope = q("T_r", 39.0)
+    """(P7), (S25): 39 / cos 60 = 78 kN; 1.2 * 39 tan 45 = 46.8 kN, half to a guy."""
+    rope, angle, part = q("T_r", 39.0), q("γ", 45.0), q("e", 1.2)
     assert formulas.pull_end_guy(rope, q("γ", 60.0)).value == pytest.approx(78.0)
-    assert formulas.push_end_post(rope, q("γ", 45.0)).value == pytest.approx(39.0)
+    assert formulas.push_by_end_guy(rope, angle).value == pytest.approx(39.0)
+    assert formulas.push_by_end_guy(rope, angle, part).value == pytest.approx(46.8)
+    one = formulas.push_by_end_guy(rope, angle, part, q("β", 60.0))
+    assert one.value == pytest.approx(46.8)
 
 
 def test_a_base_slides_by_the_tilt_of_its_post():

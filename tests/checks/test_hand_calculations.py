@@ -11,7 +11,9 @@ Axes: x downslope, y out of the ground, origin at the net's foot.
 import pytest
 
 from netdesign.outcome import Verdict
-from tests.checks.given_pulls import judge_row
+from tests.checks.given_pulls import find_second, judge_row
+
+SECOND = find_second(1.0)
 
 CLOSE = {"rel": 1e-3}
 
@@ -245,19 +247,23 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
     post = (-42.0 * 0.80692 - 0.59070 * 70.0) / -0.77942  # 96.53 kN
     guy = (0.25882 * 70.0 - 0.96593 * 42.0) / -0.77942  # 28.81 kN
     assert (post, guy) == (pytest.approx(96.53, **CLOSE), pytest.approx(28.81, **CLOSE))
+    # Beside the end f_R l^2 / (2 b) = 0.85 * 0.09 / 7 = 0.0109 m more, 0.312 %.
+    assert pytest.approx(1.00312, abs=5e-6) == SECOND
     # S = 0.1 * 81.63 kN; the uphill guys have at most 0.5351 * 8.163 / 0.5 = 8.736 kN.
-    assert checks["uphill_guy.rope"].demand_kN == pytest.approx(13.104, **CLOSE)
+    slack = 13.104 * SECOND
+    assert checks["uphill_guy.rope"].demand_kN == pytest.approx(slack, **CLOSE)
     assert checks["uphill_guy.rope"].verdict is Verdict.PASS
     one_guy = guy / (2.0 * 0.86603) + 0.5 * 8.163 / 0.5  # 24.80 kN
-    # Gap 1 m, N = 1: f_R = 1.57 * 0.5 = 0.785 over 0.3 m, edge 1.985 m < 3.5 m.
+    one_guy, post = one_guy * SECOND, post * SECOND
+    # Gap 1 m, N = 1.2: f_R = 1.7 * 0.5 = 0.85 over 0.3 m, edge 2.005 m < 3.5 m.
     # Foot: 3.5 * sqrt(18^2 + 20^2) = 94.18 kN.
-    foot = 1.5 * 94.18 * 1.00499
+    foot = 1.5 * 94.18 * 1.00499 * SECOND
     # Tendon pi/4 * 25^2 * 500 = 245.4 kN over 1.495; ONR 24810, classes 1 and 2.
     expect(
         checks["foot_anchor.tendon"],
         demand=foot,
         resistance=245.44 / 1.495,
-        utilisation=0.8648,
+        utilisation=0.8648 * SECOND,
         verdict=Verdict.PASS,
     )
     # One test: 180 / 1.40 = 128.57 kN (EN 1997-1 A.9), over 1.2: 107.14 kN.
@@ -265,21 +271,21 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
         checks["foot_anchor.pull_out"],
         demand=foot,
         resistance=128.57 / 1.2,
-        utilisation=1.3251,
+        utilisation=1.3251 * SECOND,
         verdict=Verdict.FAIL,
     )
     expect(
         checks["downhill_guy.rope"],
         demand=1.5 * one_guy,
         resistance=201.64 / 1.5,
-        utilisation=0.2767,
+        utilisation=0.2767 * SECOND,
         verdict=Verdict.PASS,
     )
     expect(
         checks["downhill_anchor.pull_out"],
         demand=1.5 * one_guy,
         resistance=128.57 / 1.2,
-        utilisation=0.3472,
+        utilisation=0.3472 * SECOND,
         verdict=Verdict.PASS,
     )
     # Post over gamma_M1 = 1.1.
@@ -287,9 +293,9 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
         checks["post.compression"],
         demand=1.5 * post,
         resistance=395.7 / 1.1,
-        utilisation=0.4025,
+        utilisation=0.4025 * SECOND,
         verdict=Verdict.PASS,
     )
-    # Tests needed: R_d = 141.98 kN wants R_k = 170.4 kN.
+    # Tests needed: R_d = 142.42 kN wants R_k = 170.9 kN.
     needed = checks["foot_anchor.pull_out"].changes[0]
     assert needed.bound == pytest.approx(foot * 1.2, **CLOSE)

@@ -79,11 +79,13 @@ def test_width_has_no_jump_that_a_slip_of_the_gap_could_hide():
 
 def test_row_has_a_support_inside_and_its_end():
     edge = an_edge(gap=1.0)
-    inside, end = list_supports(4.0, edge)
+    inside, second, end = list_supports(4.0, edge, 12)
     assert (inside.position, inside.width, inside.end_factor) == (
         "intermediate", 4.0, 0.0,
     )  # fmt: skip
-    assert end is edge
+    assert second.position == "second"
+    assert end.width == edge.width
+    assert end.share == 0.0
     assert [one.width for one in list_supports(4.0, None)] == [4.0]
 
 

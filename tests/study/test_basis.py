@@ -156,7 +156,10 @@ def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
 
 @pytest.mark.parametrize(
     ("position", "expected"),
-    [("", ["foot_anchor.pull_out"]), ("edge", ["foot_anchor.pull_out.end"])],
+    [
+        ("", ["foot_anchor.pull_out", "foot_anchor.pull_out.second"]),
+        ("edge", ["foot_anchor.pull_out.end"]),
+    ],
 )
 def test_an_end_of_another_type_is_declared_by_its_own_line(judge, position, expected):
     ends = tuple(replace(one, type_id="T2") for one in resist())

@@ -33,6 +33,12 @@ def solved(tmp_path_factory):
     lines = load_example()
     for sheet, key in (("Nets", "id"), ("Ends", "row"), ("Declared", "row")):
         lines[sheet] = [one for one in lines[sheet] if one[key] == "R4"]
+    lines["Nets"][0]["post_count"] = 20
+    lines["Ends"][0] |= {"end_guy_place": 0, "ropes_at_supports": "slide"}
+    stretch = {"G22": 22_300, "G24": 26_500, "E36": 59_600}
+    for one in lines["Ropes"]:
+        if one["id"] in stretch:
+            one["axial_stiffness"] = stretch[one["id"]]
     spans = {"density": (270, 400)}
     for one in lines["Ranges"]:
         low, high = spans.get(one["quantity"], (30, 30))

@@ -22,7 +22,7 @@ from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
 from tests.grid import solve_site
-from tests.read_check import bring
+from tests.read_check import bring, compare_support
 from tests.small_site import (
     LASTS,
     RANGES,
@@ -69,6 +69,7 @@ def an_end(angle=40.0, value=1e7):
     )
     return RowEnd(
         guy_angle=None if angle is None else math.radians(angle),
+        stiffnesses=((15e6, 15e6), (15e6, 15e6), (36e6, 36e6), (700e6, 700e6)),
         lateral_distance=2.0,
         lateral_axis=math.radians(80.0),
         resistances=(*resistances, *turn(END_ANCHORS)),
@@ -109,25 +110,39 @@ def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
     assert foot.demand_kN == plain["foot_anchor.tendon"].demand_kN
 
 
+def add_push(check, panel):
+    """Force by the panel with what the end guy adds, on one of two guys or alone."""
+    push, across = (check.read(symbol) or 0.0 for symbol in ("Z", "B"))
+    if not (push and across):
+        return panel + push
+    splay, wide = math.radians(check.read("β")), compare_support(check)
+    in_section = math.sqrt(panel**2 - (across * wide) ** 2) + push * math.cos(splay)
+    return math.hypot(in_section, across * wide + push * math.sin(splay))
+
+
 def test_numbers_of_the_record_give_the_demand(pair):
     seen = set()
     for check in checks_of(pair[1]).values():
-        if not check.is_of_force or check.member in ROPE_OF:
+        is_beside = check.position == "second"  # test_second_support.py
+        if not check.is_of_force or check.member in ROPE_OF or is_beside:
             continue
         letter = check.name_force("k")[0]
         section, panel = (
             bring(check, check.read(f"{letter}_{one}") or 0.0) for one in ("s", "p0")
         )
-        panel += check.read("Z") or 0.0
+        panel = add_push(check, panel)
         least = check.read(f"{letter}_g") or 0.0
-        across = max(section, panel, least)
+        across = max(section, panel, least, check.read("E_t") or 0.0)
         tilt = check.read("t")
         value = across if tilt is None else tilt * across
         assert check.read("E_k") == pytest.approx(value, rel=1e-12)
         assert check.read(f"{letter}_k") == pytest.approx(across, rel=1e-12)
         highs = {
             load: check.read_band(check.name_force(letter))[1] or 0.0
-            for load, letter in (("guideline", "g"), ("coupled", "c"), ("panel", "p"))
+            for load, letter in (
+                *(("guideline", "g"), ("coupled", "c")),
+                *(("panel", "p"), ("truss", "t")),
+            )
         }
         high = max(highs.values()) * (1.0 if tilt is None else tilt)
         assert check.read_band("E_d")[1] == pytest.approx(
@@ -193,14 +208,16 @@ def test_no_demand_falls_below_that_without_a_panel(seed):
         for one, end in (((), None), (panel, an_end()))
     )
     before, after = checks_of(plain), checks_of(both)
-    assert [name for name in after if name in before] == list(before)
+    beside = {name for name in (*before, *after) if name.endswith(".second")}
+    kept = [name for name in before if name not in beside]
+    assert [name for name in after if name in kept] == kept
     force_checks = name_force_checks(has_ropes=True, has_end=True)
     added = set(force_checks) - set(name_force_checks())
     added |= set(name_directions(has_end=True)) - set(name_directions())
-    assert set(after) == set(before) | added
+    assert set(after) - beside == set(kept) | added
     order = [Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL]
     for name, check in after.items():
-        if name in added:
+        if name in added or name not in before:
             continue
         assert order.index(check.verdict) >= order.index(before[name].verdict)
         if None in (check.demand_kN, before[name].demand_kN):

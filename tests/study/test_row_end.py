@@ -10,13 +10,25 @@ from scipy.optimize import brentq
 from netdesign.calculation.quantity import given
 from netdesign.checks import load_standard
 from netdesign.checks.forces import place_end_support, pull_at_end
-from netdesign.outcome import Verdict
+from netdesign.outcome import Outcome, Verdict
+from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study import sideways
 from netdesign.study.effects import find_effects
+from netdesign.study.record_guideline import find_row_floor
 from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.sideways import find_rope_factors
 from netdesign.words.message import say
 from tests.each import each
-from tests.small_site import RANGES, RUN, build_row, name_force_checks, resist
+from tests.grid import solve_site
+from tests.small_site import (
+    RANGES,
+    RUN,
+    build_row,
+    build_site,
+    name_force_checks,
+    resist,
+)
 from tests.study.test_panel_study import (
     PROFILE,
     a_panel,
@@ -52,6 +64,9 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     lower, upper = (
         factor * forces[f"panel_{rope}_along"].value_kN for rope in ("lower", "upper")
     )
+    upper *= row.floor.ridge_rope  # the guideline's load pulls more on it, (P12)
+    lower *= row.floor.lower_rope
+    assert row.floor.ridge_rope > 1.0
     expected = {
         "lateral_anchor.tendon.end": lower,
         "lateral_anchor.pull_out.end": lower,
@@ -65,7 +80,10 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
         assert check.verdict is Verdict.PASS
         assert check.position == "edge"
     post = checks["post.compression.end"]
-    pushed = upper * math.tan(math.radians(37.0))
+    # Abreast of the head: 30 deg of the net, 15 of the post, both anchors 3 m away.
+    fall = math.atan2(2.5, 2.5 * math.tan(math.radians(30.0)) + 3.0)
+    part = math.cos(fall) / math.cos(fall + math.radians(15.0))
+    pushed = part * upper * math.tan(math.radians(37.0))
     assert post.read("Z") == pytest.approx(pushed, rel=1e-12)
     assert post.read(post.name_force("p")) > pushed
     assert checks["post.compression"].read("Z") is None
@@ -108,6 +126,14 @@ def test_a_profile_that_lacks_values_loses_no_row_and_improves_no_check(
         assert less["foot_anchor.tendon"].verdict is full["foot_anchor.tendon"].verdict
 
 
+def is_loaded(name):
+    """The check is of what a rope pulls along the row: at the end, or beside it."""
+    if name == "downhill_anchor.direction.end":
+        return False
+    at_end = name.startswith(("post", "uphill", "downhill")) and name.endswith(".end")
+    return at_end or name.endswith(".second")
+
+
 def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
     """A system that is not computed must not turn a row with an end guy into a pass."""
     row = with_panel(a_panel(), end=an_end(angle=37.0))
@@ -122,7 +148,7 @@ def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost()
     }
     assert open_checks == {
         *name_force_checks(has_ropes=True, has_end=True)[-12:],
-        *(name for name in checks if name.startswith("post") and name[-4:] == ".end"),
+        *filter(is_loaded, checks),
         *(name for name in checks if name.startswith("uphill_")),
         "lateral_anchor.direction.end",  # pulled at 80 degrees to its axis
     }
@@ -150,7 +176,7 @@ def test_what_the_end_guy_presses_holds_the_base_too():
 def test_nothing_that_holds_the_row_leaves_it_unproven():
     _, study = judge(with_panel(a_panel(), end=an_end(value=None)))
     checks = checks_of(study)
-    assert study.verdict is Verdict.NOT_PROVEN
+    assert study.verdict is not Verdict.PASS
     for name in ("lateral_anchor.tendon.end", "end_guy.rope.end"):
         assert checks[name].verdict is Verdict.NOT_PROVEN
         assert checks[name].demand_kN > 0.0
@@ -250,3 +276,126 @@ def test_change_that_mends_an_end_member(judged):
     changes = {one.quantity.key: one for one in check.changes}
     needed = changes["change.characteristic_resistance"].bound
     assert needed == pytest.approx(1.11e-3 * value, abs=0.1)
+
+
+def test_the_guideline_s_load_reaches_the_ropes():
+    """(P12): its largest pulls at foot and head over those of the solved panels."""
+    row = with_panel(a_panel(), end=an_end(angle=37.0))
+    (envelope,) = solve_site(build_site(row), RUN)
+    floor = find_row_floor(row, RANGES, load_standard("swiss-guideline-2007"))
+    panels = [one.panel.solution for one in envelope.results]
+    feet = [np.hypot(*np.add(one.foot, one.mid_foot)) for one in panels]
+    heads = [np.hypot(*one.head) for one in panels]
+    foot = floor.find("foot_anchor").force / max(feet)
+    head = floor.head.pull / max(heads)
+    found = find_rope_factors(envelope.results, floor)
+    assert found == pytest.approx((max(1.0, foot), max(1.0, head)), rel=1e-12)
+    assert max(found) > 1.0
+    half = replace(floor, head=replace(floor.head, pull=0.3 * floor.head.pull))
+    assert find_rope_factors(envelope.results, half)[1] == 1.0
+    double = replace(floor, head=replace(floor.head, pull=2.0 * floor.head.pull))
+    assert find_rope_factors(envelope.results, double)[1] == pytest.approx(2.0 * head)
+
+
+# Of other types at the end, whose checks say nothing of those inside.
+OTHER = tuple(replace(one, type_id="T2") for one in resist())
+
+
+def test_ropes_that_slide_leave_the_second_support_its_width_alone():
+    end = an_end(angle=37.0)
+    row = with_panel(a_panel(), end=end, end_resistances=OTHER)
+    held, slide = (
+        checks_of(judge(replace(row, row_end=one))[1])
+        for one in (end, replace(end, ropes_slide=True))
+    )
+    for name in ("uphill_guy.rope", "post.compression", "foot_anchor.tendon"):
+        both = [one[f"{name}.second"] for one in (held, slide)]
+        assert both[0].read("D") > 0.0
+        assert both[1].read("D") is None
+        assert both[0].demand_kN > both[1].demand_kN
+        assert both[1].read("b_e") > both[1].read("b")
+
+
+def test_no_load_of_the_second_support_is_lost():
+    """Inside, at the end or of its own: some check of the type has its force."""
+    end, seen = an_end(angle=37.0), 0
+    for gap in (0.7, 1.6, math.inf):
+        row = with_panel(a_panel(), end=end, gap=gap)
+        apart = replace(row, end_resistances=OTHER)
+        _, together = judge(row)
+        _, alone = judge(apart)
+        shown = checks_of(together)
+        for name, check in checks_of(alone).items():
+            if not name.endswith(".second") or check.demand_kN is None:
+                continue
+            inside = name.removesuffix(".second")
+            beside = (inside, name, f"{inside}.end")
+            told = [shown[one].demand_kN for one in beside if one in shown]
+            assert max(told) >= check.demand_kN * (1.0 - 1e-12), name
+            seen += 1
+    assert seen > 20
+
+
+def test_an_end_guy_that_nothing_holds_proves_no_member_of_the_end(monkeypatch):
+    def fail(*_):
+        reason = say("support.not_held_sideways")
+        return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=reason)
+
+    monkeypatch.setattr(sideways, "hold_end_guy", fail)
+    _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
+    checks = checks_of(study)
+    for name in ("post.compression", "uphill_guy.rope", "downhill_anchor.pull_out"):
+        assert checks[f"{name}.end"].verdict is Verdict.NOT_PROVEN
+        assert checks[name].verdict is Verdict.PASS
+    assert study.rows[0].end_guy is None
+
+
+def test_a_truss_that_does_not_stand_proves_no_member_of_the_end(monkeypatch):
+    monkeypatch.setattr(sideways, "share_with_end_guy", lambda *_, **__: None)
+    _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
+    assert checks_of(study)["uphill_guy.rope.end"].verdict is Verdict.NOT_PROVEN
+
+
+def test_what_is_assumed_of_the_end_is_told():
+    row = with_panel(a_panel(), end=an_end(angle=37.0))
+    keys = {one.key for one in judge(row)[1].rows[0].notes}
+    assert {"row.end_guy_holds_all", "row.end_guy_at_head"} <= keys
+    assert not {"row.posts_unknown", "row.end_stiffness"} & keys
+    wide = replace(row.row_end, stiffnesses=((5e6, 40e6),) * 4, guy_from_base=0.0)
+    loose = replace(row, post_count=None, row_end=wide)
+    keys = {one.key for one in judge(loose)[1].rows[0].notes}
+    assert {"row.posts_unknown", "row.end_stiffness"} <= keys
+    assert "row.end_guy_at_head" not in keys
+
+
+@pytest.mark.parametrize("from_base", [-1.5, 0.0, 0.3])
+def test_no_place_up_to_the_head_loads_the_end_more_than_none_given(from_base):
+    end = an_end(angle=37.0)
+    given_, empty = (
+        checks_of(judge(with_panel(a_panel(), end=one))[1])
+        for one in (replace(end, guy_from_base=from_base), end)
+    )
+    for name in ("post.compression", "post_base.bearing", "uphill_guy.rope"):
+        assert given_[f"{name}.end"].demand_kN <= empty[f"{name}.end"].demand_kN + 1e-9
+
+
+def test_the_foot_beside_the_end_is_pulled_farther_along_the_row():
+    """tan of the turn: 0.1 of the load, and D over the foot's force, (P11)."""
+    row = with_panel(a_panel(), end=an_end(angle=37.0), gap=1.0)
+    site, study = judge(row)
+    of_foot = {
+        one.position: one for one in study.rows[0].pulls if one.anchor == "foot_anchor"
+    }
+    assert set(of_foot) == {"intermediate", "second"}
+    width = find_effects(row, PROFILE, RANGES).find_support("second")
+    grown = width.end_factor * width.end_length / 3.5
+    (envelope,) = solve_site(site, RUN)
+    along = max(
+        one.panel.solution.lower.along / np.hypot(*one.panel.solution.foot)
+        for one in envelope.results
+    )
+    plain, beside = (of_foot[one] for one in ("intermediate", "second"))
+    flat = math.cos(plain.angle) * math.hypot(1.0, 0.1)
+    turned = math.acos(flat / math.hypot(1.0, 0.1 + along * grown))
+    assert beside.angle == pytest.approx(turned, rel=1e-6)
+    assert beside.angle > plain.angle + 0.01

@@ -58,7 +58,7 @@ def add(held, member):
         held=held,
         tilt=0.0,
     )
-    leaves, rise = _list_load_leaves(forces, member)
+    leaves, rise = _list_load_leaves(forces, member, forces.effects.supports[0])
     if not leaves:
         return 0.0, rise
     load = load_guy if leaves[0].symbol == "c" else load_post

@@ -16,7 +16,9 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
 from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
-from tests.checks.given_pulls import POST, judge_row, study_row, write_row
+from tests.checks.given_pulls import POST, find_second, judge_row, study_row, write_row
+
+SECOND = find_second(0.5)
 
 SWISS = "swiss-guideline-2007"
 GUYS, SPLAY = "guys on each side of the post", "splay of the guys [deg]"
@@ -61,7 +63,7 @@ def test_load_along_the_row_that_nothing_holds_is_not_proven(tmp_path, changes, 
     assert reason in text
     guy = checks["uphill_guy.rope"]
     assert [guy.read(symbol) for symbol in ("g", "A", "k_q")] == [None] * 3
-    assert guy.read("E_k") == guy.read("E_s")
+    assert guy.read("E_k") == pytest.approx(SECOND * guy.read("E_s"), rel=1e-14)
 
 
 def test_each_of_two_guys_has_its_part_and_its_anchor_the_same(tmp_path):
@@ -130,14 +132,14 @@ def test_rope_anchor_turns_up_to_the_angle_of_the_profile(tmp_path, axis, verdic
 
 def foot_across(angle):
     """Design force across the axis of the foot anchor [kN], by hand."""
-    pull = 3.5 * math.hypot(20.0, 18.0) * math.hypot(1.0, 0.1)
+    pull = SECOND * 3.5 * math.hypot(20.0, 18.0) * math.hypot(1.0, 0.1)
     return 1.5 * pull * math.sin(math.radians(angle))
 
 
 @pytest.mark.parametrize("head", [60.0, 106.0, 107.0, 400.0])
 @pytest.mark.parametrize("kind", ["rope anchor", None])
 def test_a_head_takes_the_force_across_beyond_the_angle_of_a_rope(tmp_path, kind, head):
-    """E_d sin(delta) against R / 1.4; 32.4 degrees: 76.07 kN of 106.5."""
+    """E_d sin(delta) against R / 1.4; 32.4 degrees: 76.10 kN of 106.5."""
     anchor = BAR | {"kind of anchor": kind, "head resistance across [kN]": head}
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: 10.0})
     angle = math.degrees(
@@ -677,7 +679,8 @@ def test_a_lifted_post_asks_for_its_foot(tmp_path, held, verdict, reason):
     ways = np.array([[lean, lean - 3.0], [3.0, 3.0]])
     post_kn, guy = np.linalg.solve(ways, 3.5 * np.array(LIFTED))
     assert guy > 0.0
-    assert found.read("E_k") == pytest.approx(post_kn * math.hypot(lean, 3.0), 1e-12)
+    expected = SECOND * post_kn * math.hypot(lean, 3.0)
+    assert found.read("E_k") == pytest.approx(expected, rel=1e-12)
     assert found.demand_kN == pytest.approx(1.5 * found.read("E_k"), rel=1e-14)
     if held:
         assert found.resistance_kN == pytest.approx(held / 1.4, rel=1e-14)

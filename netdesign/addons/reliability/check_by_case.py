@@ -143,10 +143,11 @@ def _follows_cases(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
     A resistance that follows the snow does not, nor what is added to no force at all,
-    nor an anchor of two guys: what these add may grow while its own force falls.
+    nor an anchor of two guys, nor what ropes pull beside the end or by the truss: what
+    these add may grow while its own force falls.
     """
     force = one.force
-    if force is not None and force.on.load.across is not None:
+    if force is not None and (force.on.load.across is not None or force.is_by_ropes):
         return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False

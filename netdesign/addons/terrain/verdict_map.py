@@ -129,7 +129,10 @@ def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[Check]:
     """Checks of the members at a post: of the end ones those of the row's end."""
     is_end = post in (1, len(place.posts))
     at_end = [one for one in row.checks if one.position == "edge"]
-    inside = [one for one in row.checks if one.position == "intermediate"]
+    places = ["intermediate"]
+    if post in (2, len(place.posts) - 1):
+        places.append("second")
+    inside = [one for one in row.checks if one.position in places]
     return (at_end or inside) if is_end else inside
 
 

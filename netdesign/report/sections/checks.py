@@ -108,7 +108,8 @@ def describe_loads(check: Check, words: Words) -> str:
     Solved ones at most: with their error and what may hide between cases.
     """
     found = {}
-    for load, letter in {"coupled": "c", "panel": "p", "guideline": "g"}.items():
+    letters = {"coupled": "c", "panel": "p", "truss": "t", "guideline": "g"}
+    for load, letter in letters.items():
         symbol = check.name_force(letter)
         _, force = check.read_band(symbol)
         if force is not None:
@@ -202,9 +203,10 @@ class CheckLine:
         return (first.member, first.resistance_type, *forces)
 
     def name(self, words: Words) -> str:
-        """Member and mode, without the place."""
+        """Member and mode; of places the second support alone, which has a line."""
         first = self.checks[0]
-        return words.show(name_check(first.member, first.mode))
+        position = first.position if first.position == "second" else ""
+        return words.show(name_check(first.member, first.mode, position))
 
     def describe(self, words: Words) -> str:
         """Mode, design resistance, and utilisations inside the row and at its end."""
@@ -242,8 +244,10 @@ def list_lines(checks: Sequence[Check]) -> Iterator[CheckLine]:
             places.setdefault(_name_resistance(check), []).append(check)
     for together in places.values():
         # one inside and one at the end belong together; more never share a line
-        is_pair = [one.position == "edge" for one in together] == [False, True]
-        for group in [together] if is_pair else [[one] for one in together]:
+        pair = [one for one in together if one.position != "second"]
+        is_pair = [one.position == "edge" for one in pair] == [False, True]
+        alone = [one for one in together if not is_pair or one not in pair]
+        for group in [*([pair] if is_pair else []), *([one] for one in alone)]:
             shown = {one.position == "edge": one for one in group}
             yield CheckLine(inside=shown.get(False), end=shown.get(True))
 

@@ -225,8 +225,8 @@ def _name_group(group: Sequence[Check], words: Words) -> str:
     """Members that a design force acts on, and their place."""
     members = dict.fromkeys(show_member(words, one.member) for one in group)
     named = words.join(members)
-    is_end = group[0].position == "edge"
-    return words("check.of_end", check=named) if is_end else named
+    key = {"edge": "check.of_end", "second": "check.of_second"}.get(group[0].position)
+    return words(key, check=named) if key else named
 
 
 def _set_leaves_first(steps: Sequence[Step]) -> list[Step]:

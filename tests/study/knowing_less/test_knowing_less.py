@@ -71,9 +71,20 @@ def list_improvements(before, after):
                 continue  # nobody says what its ground bears: the cover tells so
             # the net of a row that goes on is checked at its end, once it has one
             at_end = checks.get(f"{check.id}.end") if check.member in PARTS else None
-            again = checks.get(check.id, at_end)
-            found += [(name, *one) for one in compare(check, again)]
+            beside = [checks.get(one) for one in list_alike(check)]
+            again = [one for one in beside if one] or [at_end]
+            told = [list(compare(check, one)) for one in again]
+            found += [(name, *one) for one in min(told, key=len)]
     return found
+
+
+def list_alike(check):
+    """Ids under which the load of a support is told that has the types inside."""
+    if check.position == "edge":
+        return [check.id]
+    inside = check.id.removesuffix(".second")
+    at_end = [f"{inside}.end"] if inside != check.id else []
+    return [inside, f"{inside}.second", *at_end]
 
 
 def compare(check, now):
