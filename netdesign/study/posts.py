@@ -77,13 +77,14 @@ def find_plate_resistance(
     """Bearing resistance of the ground to a post's force, which leans; (R6a).
 
     Uphill, since the post's head is downslope of its base. A load that leans downhill
-    fails towards the slope's free side: nothing is known of it.
+    fails towards the slope's free side: nothing is known of it but that it bears no
+    more than level ground does under a load across the plate.
     """
     span = basis.site.ranges["inclination"]
     heads = [place_row(basis.row, one) for one in (span.low, span.high)]
     tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in heads]
     if min(tilts) < 0.0:
-        return replace(given, value=None, lack=say("bearing.downhill"))
+        return replace(given, doubt=say("bearing.downhill"))
     factor = find_inclination_factor(plate, max(tilts))
     told = say(
         "bearing.inclined",

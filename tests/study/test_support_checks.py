@@ -372,12 +372,26 @@ def test_a_plate_bears_the_load_that_leans_as_the_post_does(tmp_path, tilt, type
     )
 
 
-def test_a_plate_under_a_post_that_leans_uphill_is_not_proven(tmp_path):
-    verdict, text = told(
-        judge(tmp_path, **{"post tilt [deg]": -5.0})["post_base.bearing"]
-    )
-    assert verdict is Verdict.NOT_PROVEN
-    assert "leans downhill" in text
+@pytest.mark.parametrize(
+    ("stress", "verdict"), [(900, Verdict.NOT_PROVEN), (300, Verdict.FAIL)]
+)
+def test_a_plate_under_a_post_that_leans_uphill_is_not_proven(
+    tmp_path, stress, verdict
+):
+    post = POST | {"bearing stress [kPa]": stress}
+    found = judge(tmp_path, post=post, **{"post tilt [deg]": -5.0})["post_base.bearing"]
+    assert told(found)[0] is verdict
+    assert "leans downhill" in told(found)[1]
+    assert found.read("R_k") == pytest.approx(0.3 * stress)
+
+
+def test_a_plate_under_a_post_that_leans_by_half_a_right_angle_bears_nothing(tmp_path):
+    """Head 1.732 m downslope of the foot, 3 m up: base 1.2 m and 1.4 m uphill of it."""
+    for base, is_beyond in ((-1.2, False), (-1.4, True)):
+        row = {"post tilt [deg]": None, "post base distance [m]": base}
+        found = judge(tmp_path, **row)["post_base.bearing"]
+        assert found.verdict is Verdict.FAIL
+        assert found.is_unbounded is is_beyond
 
 
 def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
