@@ -249,6 +249,7 @@ def _draw_anchors(draw):
         "kind": "rope anchor",
         "tendon": _round(330.0 * scale),
         "pull_out": _round(255.0 * scale),
+        "loop_efficiency": 0.9,
         "basis": draw.choice(("tested", "computed")),
         "sleeve": "no",
     }
