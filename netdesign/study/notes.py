@@ -134,6 +134,7 @@ def list_judged_notes(
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
+        *_list_weak_tendons(checks),
         *list_guy_notes(row, ranges, checks, standard),
         *list_sag_notes(row, panel),
         *list_case_notes(cases),
@@ -202,6 +203,19 @@ def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
         if isinstance(how, Message) and how.key == "bending.of_tube"
     )
     return list(dict.fromkeys(told))
+
+
+def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
+    """Anchor types whose tendon bears less than the ground holds: (R34) of theory."""
+    by_type: dict[str, dict[str, float]] = {}
+    for one in checks:
+        design = one.read("R_d")
+        if one.mode in ("tendon", "pull_out") and design is not None:
+            by_type.setdefault(one.resistance_type, {})[one.mode] = design
+    for kind, found in by_type.items():
+        tendon, ground = found.get("tendon", math.inf), found.get("pull_out", 0.0)
+        if tendon < ground:
+            yield say("row.weak_tendon", type=kind, tendon=tendon, ground=ground)
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:

@@ -89,6 +89,18 @@ def test_no_proof_load_pulls_the_tendon_beyond_its_limit(tmp_path):
     assert cell.text.endswith("needs a stronger tendon or more tests")
 
 
+def test_a_tendon_that_bears_less_than_the_ground_holds_is_told(tmp_path):
+    """500 kN, loop 0.8, factor 1.5: 266.7 kN; five tests of 320 over 1.15: 278.3 kN."""
+    strong = [(320.0, "held", None)] * 5
+    for tests, is_told in ((strong, True), (TESTS, False)):
+        study = study_row(tmp_path, "eurocode", tests=tests, **ROW)
+        notes = [one for one in study.rows[0].notes if one.key == "row.weak_tendon"]
+        assert len(notes) == is_told
+        if notes:
+            assert notes[0].arguments["tendon"] == pytest.approx(500 * 0.8 / 1.5)
+            assert notes[0].arguments["ground"] == pytest.approx(320.0 / 1.15)
+
+
 def judge_typed(tmp_path, **typed):
     anchor = STEEL | {"pull-out resistance [kN]": 330} | typed
     study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))
