@@ -28,7 +28,7 @@ from tests.verification.second_reader.checks import (
 from tests.verification.second_reader.row import Cells, Row, read_profile
 
 ROOT = Path(__file__).parents[2]
-PROFILE = ROOT / "standards" / "nf-p-95-304-style"
+PROFILES = ROOT / "standards"
 EXAMPLE = ROOT / "templates" / "example_site.toml"
 ROWS = ("R4", "R5")
 SITES = {  # cells that differ from the example's, by sheet
@@ -59,6 +59,13 @@ SITES = {  # cells that differ from the example's, by sheet
                   "efficiency": 2, "head_eccentricity": 20, "foot_joint": "hinge"},
     },
 }  # fmt: skip
+PROFILE_OF = {
+    "as it is": "nf-p-95-304-style",
+    "free end, heads in blocks": "onr-24805-style",
+    "free end of strong types": "nf-p-95-304-style",
+    "three posts, ropes that slide": "swiss-guideline-2007",
+    "all that may be typed": "eurocode",
+}
 OF_BARS = {"tube_diameter", "tube_wall", "ground_modulus"}
 OF_ROPES = {"loop_efficiency"}
 
@@ -70,8 +77,10 @@ def solved(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("redone")
     write_lines(folder / "site.xlsx", deepcopy(lines))
     chosen = [word for row in ROWS for word in ("--row", row)]
-    ended = call_program("check", folder / "site.xlsx", *chosen, "--json", "--quiet")
-    values, tables = read_profile(PROFILE)
+    profile = PROFILE_OF[request.param]
+    how = ("--standard", profile, "--json", "--quiet")
+    ended = call_program("check", folder / "site.xlsx", *chosen, *how)
+    values, tables = read_profile(PROFILES / profile)
     return [
         (Row(Cells(lines), values, tables, row), row["checks"])
         for row in json.loads(ended.out)["rows"]

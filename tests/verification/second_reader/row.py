@@ -24,9 +24,11 @@ def read_profile(folder):
     values, tables = {}, {}
     for path in sorted(Path(folder).glob("*.toml")):
         for kind, listed in tomllib.loads(path.read_text(encoding="utf-8")).items():
-            if kind == "table":
+            if kind == "anchors":
+                values["anchors.sum"] = listed["sum"]
+            elif kind == "table":
                 tables |= {one["id"]: one["rows"] for one in listed}
-            elif kind in ("limit", "factor", "value", "choice"):
+            elif kind in ("limit", "factor", "value"):
                 values |= {one["id"]: one["value"] for one in listed}
     return values, tables
 
@@ -401,6 +403,10 @@ class Row:
         found = self.demand(f"{side}_guy", law, self.push_guy(side, position))
         return np.maximum(found, self.share_by_truss(side, position))
 
+    @property
+    def is_scalar(self):
+        return self.values.get("anchors.sum") == "scalar"
+
     def load_anchor(self, side, position):
         """Anchor that two neighbouring supports share, a guy of each (S20).
 
@@ -414,6 +420,8 @@ class Row:
 
         def law(force, pull, pushed):
             guy = besides + pushed
+            if self.is_scalar:  # the two guys' forces as numbers
+                return (force / math.cos(splay) + part * pull) * width + guy
             in_section = force * width + guy * math.cos(splay)
             return np.hypot(in_section, part * pull * width + guy * math.sin(splay))
 
