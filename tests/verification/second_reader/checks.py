@@ -13,6 +13,7 @@ ROCKS = {"slate", "limestone", "sandstone", "granite", "gneiss", "rock"}
 TUBE_STRENGTH = 235.0  # MPa: S235
 ROPE_ENDS = {"included": 1.0, "spelter": 1.0, "swaged": 0.9, "ferrule": 0.9,
              "clips": 0.8, "splice": 0.86, "wedge": 0.75}  # fmt: skip
+END_ANCHORS = ("lateral_anchor", "end_guy_anchor")
 CONES = {"lateral_anchor.wedge.end", "end_guy_anchor.wedge.end"}
 NEAR, NEAR_CONE = 1e-9, 1e-6  # the program's cone is the least of a grid of ways
 LEAST_DIP = math.radians(15.0)  # of a bore that nobody gives
@@ -169,7 +170,7 @@ def lift_ground(row, member, cells):
     ]
     if resistance.hold_slab(soil, depths[1], abs(slope), drained=drained) < 1.0:
         return 0.0
-    if member in ("lateral_anchor", "end_guy_anchor"):
+    if member in END_ANCHORS:
         way = (0.0, 0.0, 1.0) if member == "lateral_anchor" else find_end_guy_way(row)
         return min(
             resistance.lift_cone(soil, depth, abs(slope), way, drained=drained)
@@ -206,6 +207,28 @@ def redo_rope(row, member, name, load, angle):
     yield f"{member}.rope", rate(row, load, holds, "rope")
     chain = find_chain(row, name, angle)
     yield f"{member}.connection", rate(row, load, chain, "connection")
+
+
+def find_covers(row):
+    """Cover of each bond's middle over the least that is asked for, by anchor [m].
+
+    Normal to the slope, of a bond that is taken to be as long as its bore.
+    """
+    covers = {}
+    for member in ("foot_anchor", "uphill_anchor", "downhill_anchor", *END_ANCHORS):
+        for position in ("intermediate", "edge"):
+            name = (
+                row.end[member]
+                if member in END_ANCHORS
+                else row.find_type(member, position)
+            )
+            cells = row.cells.find("Anchors", "id", name)
+            if "least_cover" in cells:
+                bond = cells.get("bond_length", cells["drilled_length"])
+                middle = cells["drilled_length"] - bond / 2.0
+                rise = math.sin(find_pulls(row, member).axis)
+                covers[member, position] = middle * rise - cells["least_cover"]
+    return covers
 
 
 @dataclass(frozen=True)
