@@ -252,3 +252,13 @@ def test_a_second_name_keeps_the_first_one():
     pull = force.named("H", "kN", "(P8)")
     assert [one.symbol for one in list_named(pull)] == ["T_r", "H"]
     assert (pull.value, pull.kind, pull.source) == (2.0, Kind.WORKED, "(P8)")
+
+
+def test_units_that_do_not_fit_are_refused_by_their_names():
+    force, length = given("F", 3.7, "kN", ""), given("l", 2.3, "m", "")
+    with pytest.raises(ModelError) as refused:
+        _ = force + length
+    told = refused.value.message
+    assert told.key == "calculation.units"
+    assert told.arguments["operation"] == "+"
+    assert len(told.arguments["units"].split(", ")) == 2

@@ -84,3 +84,16 @@ def test_steps_that_are_no_calculation_are_refused(fault):
     require_calculation(steps)
     with pytest.raises(ContentError):
         require_calculation(fault(*steps))
+
+
+def test_an_end_that_is_the_value_is_not_stored_twice():
+    above = given("E", 3.0, "kN", "", band=(3.0, 4.5))
+    below = given("F", 3.0, "kN", "", band=(1.5, 3.0))
+    stored = [
+        (one.low, one.high) for one in list_steps((above + below).named("G", "kN"))
+    ]
+    assert stored == [
+        (None, 4.5),
+        (1.5, None),
+        (4.5, 7.5),
+    ]

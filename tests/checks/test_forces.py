@@ -168,3 +168,10 @@ def test_utilisation_of_a_design_force():
     force = q("E_k", 100.0, 90.0, 120.0)
     used = formulas.rate(force, q("γ_E", 1.5), q("R_k", 500.0), q("γ_R", 1.25))
     assert ends(used) == pytest.approx((0.3375, 0.375, 0.45), rel=1e-15)
+
+
+def test_a_force_keeps_the_support_that_it_is_on():
+    leaves = [q("E_s", 50.0), q("b", 4.0), q("f_R", 1.5), q("Δl", 0.8)]
+    found = formulas.calculate_force({one.symbol: one for one in leaves})
+    assert found.support.width.value == pytest.approx(3.2, rel=1e-15)
+    assert found.action.value == pytest.approx(40.0, rel=1e-14)

@@ -13,12 +13,14 @@ from netdesign.checks import (
     list_standards,
     load_standard,
 )
+from netdesign.checks.check import OpenKind
 from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
 from netdesign.checks.schema import SPACING_CAP
 from netdesign.outcome import Verdict
 from tests.each import each
 
 SWISS = load_standard("swiss-guideline-2007")
+EUROCODE = load_standard("eurocode")
 ROW = RowGeometry(
     inclination_low=math.radians(25),
     inclination_high=math.radians(35),
@@ -211,3 +213,41 @@ def test_one_end_of_a_range_alone_is_no_limit():
         values = tuple(v for v in SWISS.values if v.id != left_out)
         check = check_slope(ROW.slope_angle, replace(SWISS, values=values))
         assert str(check.reason).endswith("lies inside 25 to 60 degrees.")
+
+
+BARE = replace(SWISS, values=())
+UNCAPPED = replace(
+    SWISS, values=tuple(one for one in SWISS.values if one.id != SPACING_CAP)
+)
+FAR = {"upslope_length": 24.9, "slope_angle": math.radians(31)}
+
+
+@each(
+    "mode, standard, changes, kind, key, numbers",
+    [
+        ("inclination", BARE, {}, OpenKind.RESISTANCE_MISSING,
+         "geometry.no_inclination_limits", set()),
+        ("slope", BARE, {}, OpenKind.RESISTANCE_MISSING,
+         "geometry.no_plausible_slope", set()),
+        ("slope", EUROCODE, {"slope_angle": math.radians(73.0)},
+         OpenKind.VALUE_ASKED, "geometry.percentage", {73.0}),
+        ("slope", EUROCODE, {"slope_angle": math.radians(22.5)},
+         OpenKind.VALUE_ASKED, "geometry.slope_not_plausible", {22.5, 25.0, 60.0}),
+        ("spacing", SWISS, FAR, OpenKind.UNSOLVED, "geometry.spacing_capped", {24.9}),
+        ("spacing", UNCAPPED, FAR, OpenKind.UNSOLVED, "geometry.no_cap", set()),
+        ("gap", SWISS, {"gap": math.inf}, OpenKind.VALUE_ASKED, "geometry.no_gap",
+         set()),
+    ],
+)  # fmt: skip
+def test_what_leaves_geometry_open_is_said_with_its_kind(
+    mode, standard, changes, kind, key, numbers
+):
+    row = replace(ROW, **changes)
+    (check,) = (one for one in check_geometry(row, standard) if one.mode == mode)
+    (point,) = check.open
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert (point.kind, point.message.key) == (kind, key)
+    given = [one for one in point.message.arguments.values() if isinstance(one, float)]
+    assert numbers <= {round(one, 9) for one in given}
+    if key == "geometry.spacing_capped":
+        assert len(point.message.arguments) == 2

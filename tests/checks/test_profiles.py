@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import tomllib
 from dataclasses import replace
 
 import pytest
@@ -301,3 +302,18 @@ def test_profiles_have_the_guideline_as_floor_unless_they_say_otherwise(folder, 
     assert load_standard(mine).floor == "guideline"
     file.write_text(text.replace('"guideline"', '"none"'), "utf-8")
     assert load_standard(mine).floor == "none"
+
+
+def test_a_profile_says_its_choice_and_what_it_does_not_check():
+    """What document.toml and choices.toml have, read by themselves."""
+    folder = find_resource("standards") / "eurocode"
+    document = tomllib.loads((folder / "document.toml").read_text("utf-8"))
+    choices = tomllib.loads((folder / "choices.toml").read_text("utf-8"))["choice"]
+    (chosen,) = (one for one in choices if one["name"] == document["choice"])
+    scope = document.get("scope", {})
+    loaded = load_standard("eurocode")
+    assert loaded.choice_text == chosen["text"] != ""
+    unchecked = {topic for topic, said in scope.items() if said == "not checked"}
+    assert set(loaded.not_checked) >= unchecked
+    other = load_standard("nf-p-95-304-style")
+    assert other.choice_text == ""
