@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 ENDS = (0, 1, 2)  # low end, value, high end
 # Formulas that the annex states once for all checks.
 OF_ALL = {"E_d": "γ_E · E_k", "R_d": "R_k / γ_R", "μ": "E_d / R_d"}
-# The guideline's load is a closed form, and a resistance has no interval: they take
-# what they follow from at its value.
-WITHOUT_INTERVAL = ("E_g", "V_g", "R_k")
+# A resistance has no interval: it takes what it follows from at its value.
+WITHOUT_INTERVAL = ("R_k",)
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 _VALUE = re.compile(rf"({_NUMBER}|∞|-)(?: \(({_NUMBER})–({_NUMBER})\))?(°| .*)?$")
 _LINE = re.compile(r"[✓✗?†] (.+?): (.*)$", re.DOTALL)
