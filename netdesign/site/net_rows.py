@@ -30,6 +30,7 @@ from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.snow_sheets import (
     build_layers,
     echo_layers,
+    fits_slope,
     measure_normal,
     resolve_thickness,
 )
@@ -347,6 +348,9 @@ def _understand_thickness(
         return None
     is_blank = all(one.state != "given" for one in sizes)
     blank = sizes[0] if lines and not is_ranged and is_blank else None
+    is_twice = all(one.state == "given" for one in (*sizes, row["slope_angle"]))
+    if is_twice and fits_slope(*sizes, row["slope_angle"]):
+        blank = sizes[0]  # the height says the same
     given = blank or choose_given(row, _SIZES, findings)
     if given is None:
         return None
@@ -418,7 +422,8 @@ def _echo_inputs(
     echoes: list[InputEcho] = []
     for key, reading in row.items():
         echoes.append(reading.echo())
-        if key == "snow_height" and reading.state == "given":
+        is_alone = row["snow_thickness"].state != "given"
+        if key == "snow_height" and reading.state == "given" and is_alone:
             slope = row["slope_angle"].number
             how = say("column.thickness_of_height", height=reading.si, slope=slope)
             echoes.append(_echo_derived(row["snow_thickness"], thickness, reading, how))

@@ -19,6 +19,7 @@ from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.snow_sheets import find_vertical, fits_slope
 from netdesign.site.type_lines import name_bare
 from netdesign.site.type_resistances import (
     find_bond,
@@ -145,6 +146,8 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         if told:
             alone[key] = told
             yield reading, told
+    if told := _doubt_height(line, alone):
+        yield line["vertical_height"], told
     for key in _TESTED if _TESTED[0] in line else ():
         if key not in alone and (told := _doubt_pulled(line[key], key, line)):
             yield line[key], told
@@ -231,6 +234,24 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
         return None
     tendon = _name_with_value(line["tendon"])
     return say("plausible.tested", tendon=tendon, limit=limit / 1e3)
+
+
+def _doubt_height(line: Row, doubted: Container[str]) -> Message | None:
+    """The vertical height of a net is not that of its height and slope."""
+    keys = ("net_height", "vertical_height", "slope_angle")
+    cells = [line[key] for key in keys if key in line and key not in doubted]
+    if len(cells) < len(keys) or any(one.state != "given" for one in cells):
+        return None
+    if fits_slope(*cells):
+        return None
+    low, high = find_vertical(cells[0], cells[2])
+    return say(
+        "plausible.beside",
+        others=tuple(_name_with_value(cells[n]) for n in (0, 2)),
+        low=low,
+        high=high,
+        unit="m",
+    )
 
 
 def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
@@ -324,7 +345,8 @@ def _name_span(low: float, high: float) -> Message:
     return say("plausible.span", low=low, high=high)
 
 
-_LEAST_LINES = 5
+_LEAST_LINES = {"Nets": 3}  # rows are alike; types are not
+_LEAST_OF_TYPES = 5
 _BEYOND = 4.0  # times the scatter of a column about its median
 _NAME = re.compile(r"^(\D*)(\d+(?:[.,]\d+)?)(.*)$")
 # Force over the square of the diameter that a type's name gives [kN/mm2].
@@ -347,7 +369,8 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
     keys = lines[0].keys() if lines and sheet else ()
     for key in keys:
         if not lines[0][key].field.scatters:
-            yield from _list_outliers([one[key] for one in lines])
+            least = _LEAST_LINES.get(sheet, _LEAST_OF_TYPES)
+            yield from _list_outliers([one[key] for one in lines], least)
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])
     if sheet == "Tests":
@@ -370,10 +393,10 @@ def _are_alike(one: Row, other: Row) -> bool:
     return is_known and all(first.value == second.value for first, second in both)
 
 
-def _list_outliers(readings: Sequence[Reading]) -> Iterator[Doubt]:
-    """Numbers far off the median of five or more, by ratio."""
+def _list_outliers(readings: Sequence[Reading], least: int) -> Iterator[Doubt]:
+    """Numbers far off the median of so many, by ratio."""
     typed = [one for one in readings if is_typed(one) and one.number > 0.0]
-    if len(typed) < _LEAST_LINES:
+    if len(typed) < least:
         return
     middle = median(one.number for one in typed)
     scatter = median(_find_ratio(one.number, middle) for one in typed)

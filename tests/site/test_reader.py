@@ -283,11 +283,13 @@ def test_two_units_for_one_column_are_refused(sheets, save, refused):
     assert str(finding.rule).startswith("is not the unit")
 
 
-def test_thickness_and_height_exclude_each_other(sheets, save, refused):
-    put(sheets, "snow height", 4.0)
+def test_thickness_and_height_of_another_slope_exclude_each_other(
+    sheets, save, refused
+):
+    put(sheets, "snow height", 4.4)  # 3.0 / cos 40 deg = 3.92
     put(sheets, "snow thickness", None, SECOND)
     both, neither = refused(save(sheets))
-    assert (both.cell, both.text) == ("D2", "4")
+    assert (both.cell, both.text) == ("D2", "4.4")
     assert str(both.rule) == "is given beside snow thickness in Nets!C2"
     assert (neither.cell, neither.text) == ("C3", "")
     assert str(neither.rule).startswith("is empty: neither")

@@ -126,12 +126,18 @@ def draw_measures(
 
 
 def show_heights(paper: Paper, words: Words) -> tuple[str, str]:
-    """Height of the net and thickness of the snow, across the slope."""
-    drawing = paper.frame.drawing
-    return (
-        f"Dk = {words.show_with_unit('snow_thickness_m', drawing.head_m[1])}",
-        f"d = {words.show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}",
-    )
+    """Height of the net and thickness of the snow, across the slope and vertical.
+
+    Whoever typed one for the other sees it.
+    """
+    frame, drawing = paper.frame, paper.frame.drawing
+
+    def show(across: str, upright: str, size: float) -> str:
+        vertical = size / math.cos(frame.slope)
+        sizes = [words.show_with_unit("snow_thickness_m", x) for x in (size, vertical)]
+        return f"{across} = {sizes[0]} ({upright} = {sizes[1]})"
+
+    return show("Dk", "Hk", drawing.head_m[1]), show("d", "H", drawing.snow_thickness_m)
 
 
 def find_post_tilt(paper: Paper) -> float:
