@@ -50,7 +50,7 @@ SITES = {  # cells that differ from the example's, by sheet
         "Ends": {"ropes_at_supports": "slide", "end_guy_place": 0.5},
     },
     "all that may be typed": {
-        "Nets": {"post_count": 5},
+        "Nets": {"post_count": 2},
         "Ends": {"end_guy_place": 0.0, "lateral_axis": 25},
         "Anchors": {"head_across": 400, "loop_efficiency": 0.9, "test_count": 3,
                     "tube_diameter": 76.1, "tube_wall": 8, "ground_modulus": 20,

@@ -23,6 +23,8 @@ def redo_checks(row: Row):
     """Every check of a force, by its id."""
     redone = {}
     for position, suffix in SUFFIX.items():
+        if position not in row.widths:  # no second support
+            continue
         for name, check in redo_support(row, position):
             redone[name + suffix] = check
     for name, check in redo_end(row):

@@ -163,27 +163,28 @@ class Row:
         """Loaded widths of the last, the second and the supports inside [m].
 
         With n posts the other end adds its share of support n - 1 to the last one, of
-        n - 2 to the second.
+        n - 2 to the second. The third, whose types are those of the second, has less.
         """
         spacing = self.net["post_spacing"]
         ratio, length = self.end_effect
         extra = [*spread_end_effect(ratio, length, spacing), *[0.0] * 100]
-        last = max(extra[count - 1] for count in self.posts)
-        second = max(
-            extra[1] + extra[count - 2] for count in self.posts if count > 2
-        ) if max(self.posts) > 2 else 0.0  # fmt: skip
-        return {
-            "edge": spacing / 2.0 + ratio * length + last,
-            "second": spacing + second,
-            "intermediate": spacing + extra[2],
+        found = {
+            "edge": spacing / 2.0
+            + ratio * length
+            + max(extra[count - 1] for count in self.posts),
+            "intermediate": spacing,
         }
+        longer = [count for count in self.posts if count > 2]
+        if longer:
+            more = max(extra[count - 2] for count in longer)
+            found["second"] = spacing + extra[1] + more
+        return found
 
     @property
     def shared_widths(self):
         """Widths of anchors that two supports share: 0|1, 1|2, inside [m]."""
-        last, second, inside = (
-            self.widths[one] for one in ("edge", "second", "intermediate")
-        )
+        last, inside = (self.widths[one] for one in ("edge", "intermediate"))
+        second = self.widths.get("second", last)
         return {
             "edge": max(last, (last + second) / 2.0),
             "second": (second + inside) / 2.0,
