@@ -349,7 +349,7 @@ def _understand_thickness(
     is_blank = all(one.state != "given" for one in sizes)
     blank = sizes[0] if lines and not is_ranged and is_blank else None
     is_twice = all(one.state == "given" for one in (*sizes, row["slope_angle"]))
-    if is_twice and fits_slope(*sizes, row["slope_angle"]):
+    if is_twice and fits_slope(sizes[0], sizes[1], row["slope_angle"]):
         blank = sizes[0]  # the height says the same
     given = blank or choose_given(row, _SIZES, findings)
     if given is None:
