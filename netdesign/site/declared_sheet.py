@@ -138,11 +138,21 @@ def describe_replaced(was: str) -> Message:
 # Words of the names of checks, and those of earlier versions that workbooks still have.
 _FORMER = {
     "en": (
+        ("Net anchor (foot)", "Foot anchor"),
         ("bending under off-axis pull", "bending beside the axis"),
         ("around the bond length", "around the bond"),
     ),
-    "fr": (("ontant", "oteau"), ("ligne", "rangée")),
+    "fr": (
+        *(("Ancrage du filet (pied)", "Ancrage de pied"),),
+        *(
+            ("portance du sol", "appui au sol"),
+            ("ontant", "oteau"),
+            ("ligne", "rangée"),
+        ),
+    ),
     "de": (
+        *(("Netzanker (Fuß)", "Fußanker"), ("Verankerungslänge", "Verbundlänge")),
+        ("Grundbruch unter der Fußplatte", "Fundation, Druck"),
         *(("Ausziehen", "Herausziehen"), ("Fundation, Druck", "Bodenpressung")),
         ("Biegung bei Schrägzug", "Biegung neben der Achse"),
         ("Baugrund um die Verbundlänge", "Boden um den Verbund"),

@@ -184,7 +184,7 @@ def test_missing_resistance_names_member_type_and_cell():
 def test_missing_resistance_without_a_type_names_the_cell():
     resistance = a_resistance(None, type_id="", source="Nets!K5")
     result = check_member(a_force(0.2), resistance, plain_standard())
-    assert "Foot anchor (tendon), cell Nets!K5" in str(result.reason)
+    assert "Net anchor (foot) (tendon), cell Nets!K5" in str(result.reason)
     assert "type" not in str(result.reason)
 
 
@@ -387,7 +387,8 @@ NO_RESISTANCE = "resistance missing: type GEWI 25, cell Anchors!B4"
         ),
         (
             {"action": a_force(0.5), "resistance": a_resistance(None, type_id="")},
-            "Not proven: resistance missing: Foot anchor (tendon), cell Anchors!B4.",
+            "Not proven: resistance missing: Net anchor (foot) (tendon), "
+            "cell Anchors!B4.",
         ),
         (
             {

@@ -192,7 +192,7 @@ def test_all_cases_of_the_document_stand_in_the_workbook(book):
         for case in row["cases"]:
             line = next(lines)
             for key, heading in (
-                ("foot_anchor_kN", "Foot anchor [kN]"),
+                ("foot_anchor_kN", "Net anchor (foot) [kN]"),
                 ("error_percent", "Estimated error [%]"),
                 ("balance_residual", "Balance residual"),
             ):

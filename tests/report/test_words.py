@@ -109,7 +109,7 @@ def test_a_utilisation_that_is_not_one_does_not_read_as_one(value):
 def test_names_of_checks_and_cases():
     row = build_row("A", 2, scale=0.6)
     check = build_check("foot_anchor", "pull_out", row.member_forces[0], 480.0)
-    assert words.show_check(words.ENGLISH, check) == "Foot anchor, pull-out"
+    assert words.show_check(words.ENGLISH, check) == "Net anchor (foot), pull-out"
     worst = build_extreme("post", row.cases).case
     assert words.ENGLISH.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
     assert words.ENGLISH.name_case_short(worst) == "450 / 15 / 35"

@@ -77,7 +77,7 @@ def test_a_column_that_is_ignored_is_told(sheets, give):
         ),
         (
             '[headings.Nets]\n"slope angle [deg]" = "net height [m]"\n',
-            'names "net height" again',
+            'names "effective height D_K" again',
         ),
     ],
 )
@@ -93,7 +93,7 @@ def test_what_is_asked_stands_in_the_file_with_what_is_understood(sheets, save):
     text, missing = write_questions(save(sheets), language="de")
     assert missing == 3
     answers = tomllib.loads(text)["headings"]
-    assert answers["Nets"] == {"Neigung [°]": "?", "Netzhöhe": "Netzhöhe [?]"}
+    assert answers["Nets"] == {"Neigung [°]": "?", "Netzhöhe": "wirksame Höhe D_K [?]"}
     assert answers["Ranges"] == {"Raumgewicht Schnee": "?"}
     assert '# "post spacing [m]" = "Stützenabstand [m]"' in text
 

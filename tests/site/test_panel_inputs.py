@@ -110,7 +110,7 @@ def test_mid_anchors_that_nobody_states_may_be_there_or_not(with_panel, save):
     row = read_site(save(with_panel)).rows[0]
     assert {one.has_mid_anchors for one in row.panels} == {False, True}
     assert [render(one, "en") for one in row.panel_assumed] == [
-        "foot anchors in mid-panel"
+        "net anchors at the foot in mid-panel"
     ]
 
 

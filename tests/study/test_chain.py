@@ -466,7 +466,9 @@ def test_a_bond_in_a_flat_borehole_is_proven_by_tests_in_flat_ones(solved, axis,
     is_open = dip < 10.0 and not ("flat" in basis and dip > -25.99)
     assert (check.verdict is Verdict.NOT_PROVEN) is is_open, check.reason
     assert ("grout may run out" in str(check.reason)) is is_open
-    of_foot = [x for x in study.rows[0].notes if "Foot anchor: the bore" in str(x)]
+    of_foot = [
+        x for x in study.rows[0].notes if "Net anchor (foot): the bore" in str(x)
+    ]
     assert bool(of_foot) is (dip < 15.0)
 
 

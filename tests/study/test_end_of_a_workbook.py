@@ -98,7 +98,7 @@ def test_with_its_panel_each_of_them_has_a_demand(tmp_path, mid):
 
 
 def require_one_anchor_told(row):
-    """Foot anchor and lateral anchor as one: the root of both squares."""
+    """Net anchor (foot) and lateral anchor as one: the root of both squares."""
     forces = {
         member: max(
             one.read("E_k")

@@ -200,7 +200,7 @@ def test_anchors_along_the_pull_are_drilled_15_degrees_down(tmp_path, slope, axi
     assert min(foot.dip_deg, uphill.dip_deg) >= 15.0 - 1e-9
     assert downhill.axis_deg == pytest.approx(downhill.least_deg)
     notes = map(str, study.rows[0].notes)
-    (note,) = [one for one in notes if "Foot anchor: to be drilled" in one]
+    (note,) = [one for one in notes if "Net anchor (foot): to be drilled" in one]
     assert f"{foot.dip_deg:.1f}° below the horizontal" in note
 
 
@@ -311,7 +311,10 @@ def test_a_row_says_how_long_its_tubes_are_at_least(tmp_path):
     notes = [str(one) for one in row.notes if "the tube at the head" in str(one)]
     assert len(notes) == 3
     # 0.30518 m pi / 0.3224 = 2.974 m
-    assert "Foot anchor: the tube at the head of type A is at least 3.0 m" in notes[0]
+    assert (
+        "Net anchor (foot): the tube at the head of type A is at least 3.0 m"
+        in notes[0]
+    )
 
 
 def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):

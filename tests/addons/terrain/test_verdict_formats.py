@@ -34,7 +34,7 @@ def draw_features(seed=3, name="R1"):
             "type": "B40",
             "is_rising": False,
         }
-        given = {"kind": "anchor", "part": "Foot anchor", **told, **axis}
+        given = {"kind": "anchor", "part": "Net anchor (foot)", **told, **axis}
         found.append(make(given, place))
     return found
 
@@ -56,9 +56,9 @@ def write(tmp_path, name, features, language="en"):
 @pytest.mark.parametrize(
     ("language", "layers"),
     [
-        ("en", {"Net row - FAIL", "Foot anchor - NOT PROVEN"}),
-        ("fr", {"Net row - NON VÉRIFIÉ", "Foot anchor - NON JUSTIFIÉ"}),
-        ("de", {"Net row - NICHT ERFÜLLT", "Foot anchor - NICHT NACHGEWIESEN"}),
+        ("en", {"Net row - FAIL", "Net anchor (foot) - NOT PROVEN"}),
+        ("fr", {"Net row - NON VÉRIFIÉ", "Net anchor (foot) - NON JUSTIFIÉ"}),
+        ("de", {"Net row - NICHT ERFÜLLT", "Net anchor (foot) - NICHT NACHGEWIESEN"}),
     ],
 )
 def test_a_drawing_has_posts_heads_and_axes_in_metres(tmp_path, language, layers):
@@ -88,7 +88,7 @@ def test_a_drawing_has_posts_heads_and_axes_in_metres(tmp_path, language, layers
     assert labels[:3] == [
         "R1",
         "R1-1 Base of the post",
-        "R1-1 Foot anchor, B40, 123.4 kN",
+        "R1-1 Net anchor (foot), B40, 123.4 kN",
     ]
     assert len(labels) == len(features)
 

@@ -121,8 +121,8 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
 
 
 def count_mid(anchors):
-    """Foot anchors between two posts."""
-    feet = [one for one in anchors if one["part"] == "Foot anchor"]
+    """Net anchors (foot) between two posts."""
+    feet = [one for one in anchors if one["part"] == "Net anchor (foot)"]
     return len(feet) - len({one["post"] for one in feet})
 
 

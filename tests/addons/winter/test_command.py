@@ -148,5 +148,5 @@ def test_measured_forces_stand_beside_the_chain(call, heights, tmp_path):
     assert "measured times without a date" in told
     page = (folder / "winter.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 2
-    assert "Foot anchor: measured and computed force per support" in page
+    assert "Net anchor (foot): measured and computed force per support" in page
     assert told in page

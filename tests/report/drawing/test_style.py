@@ -19,7 +19,7 @@ def texts(svg):
 def test_section_names_every_force(slope, tilt):
     drawing = build_drawing(ROW.member_forces[0], slope=slope, tilt=tilt)
     shown = texts(draw_section(drawing, "x"))
-    for name in ("Foot anchor", "Uphill anchor", "Downhill anchor", "Post"):
+    for name in ("Net anchor (foot)", "Uphill anchor", "Downhill anchor", "Post"):
         assert name in shown
     assert f"{write_force(ROW.member_forces[0].value_kN)} kN" in shown
     assert f"ψ = {slope:.1f}°" in shown

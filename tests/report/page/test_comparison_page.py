@@ -78,7 +78,7 @@ def test_verdicts_that_depend_on_the_profile_are_named(studies):
         for study in studies
     }
     assert len(verdicts) > 1, "the drawn resistance tells no profiles apart"
-    assert "R7b Foot anchor" in " ".join(read_page(studies).text)
+    assert "R7b Net anchor (foot)" in " ".join(read_page(studies).text)
     same = read_page([studies[0], studies[0]])
     assert load_texts("en")["compare.same"] in " ".join(same.text)
     assert same.tables["values"] == []

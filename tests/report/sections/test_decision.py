@@ -139,7 +139,7 @@ def test_a_borehole_that_rises_is_a_point_to_settle_with_its_rows():
     rising = replace(first, pulls=[replace(one, dip_deg=-0.4) for one in first.pulls])
     told = list(list_open_points(replace(study, rows=[rising, second]), ENGLISH))
     (point,) = [one for one in told if "grouted" in one]
-    assert f"Foot anchor ({first.id})" in point
+    assert f"Net anchor (foot) ({first.id})" in point
 
 
 def test_study_without_rows_is_shown():

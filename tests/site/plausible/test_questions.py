@@ -49,7 +49,7 @@ def test_nothing_is_asked_of_the_example(example):
         ("Ropes_B2", "3500", ["R1", "R2", "R3", "R6", "R7"], "50 to 1500 kN"),
         ("Anchors_C2", "3800", ["R3", "R4", "R5"], "40 to 2500 kN"),
         ("Nets_C3", "0.28", ["R2"], "0.8 to 6.5 m"),
-        ("Nets_N2", "40", ["R1"], "net height 2.5 m in Nets!I2"),
+        ("Nets_N2", "40", ["R1"], "effective height D_K 2.5 m in Nets!I2"),
         ("Nets_E4", "200", ["R3"], "4 to 100 m"),
         ("Nets_E2", "1.5", ["R1"], "4 to 100 m"),
         ("Ranges_C3", "1.5", ["R1", "R2", "R3", "R4", "R5", "R6", "R7"], "5 to 45 deg"),
