@@ -289,13 +289,13 @@ def list_check_names() -> Mapping[str, _Subject]:
 
 
 def _list_spellings(title: Message) -> Iterator[str]:
-    """Name of a check in every language, and as earlier versions had it."""
+    """Name of a check in every language, and as each earlier version had it."""
     for language in LANGUAGES:
         text = render(title, language)
         yield text
         for word, former in _FORMER.get(language, ()):
             text = text.replace(word, former)
-        yield text
+            yield text
 
 
 def _read_confirmation(
