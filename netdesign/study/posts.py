@@ -108,7 +108,8 @@ def find_post_resistance(
     standard, row = basis.standard, basis.row
     on_action = standard.find(ACTION_FACTOR)
     on_post = standard.find_resistance_factor(given.mode, given.basis)
-    efficiencies = _list_efficiencies(section, standard, width)
+    spacing = row.layout.post_spacing
+    efficiencies = _list_efficiencies(section, standard, width, spacing)
     if isinstance(efficiencies, Message):
         return replace(given, lack=efficiencies)
     if on_action is None or on_post is None:
@@ -158,10 +159,12 @@ class _Efficiency:
 
 
 def _list_efficiencies(
-    section: PostSection, standard: Standard, width: LoadedWidth
+    section: PostSection, standard: Standard, width: LoadedWidth, spacing: float
 ) -> tuple[_Efficiency, _Efficiency] | Message:
     """Least and largest factor of the line load on a post; or what is lacking."""
-    at_edge = 1.0 + width.end_factor if width.position == "edge" else 0.0
+    is_second = width.position == "second" and width.end_length >= spacing
+    is_pressed = width.position == "edge" or is_second
+    at_edge = 1.0 + width.end_factor if is_pressed else 0.0
     if section.efficiency is not None:
         typed = _Efficiency(section.efficiency, at_edge=at_edge)
         return typed, typed

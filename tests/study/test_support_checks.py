@@ -14,6 +14,8 @@ from netdesign.site.reader import read_site
 from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.posts import find_post_resistance
 from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, find_second, judge_row, study_row, write_row
@@ -493,6 +495,23 @@ def test_the_end_post_has_the_larger_of_end_effect_and_efficiency(tmp_path, gap,
     for check, least in ((inside, 0.0), (end, 1.0 + factor)):
         used = check.resistance_derivation.arguments["efficiency"]
         assert used == pytest.approx(max(3.4 if eta is None else eta, least))
+
+
+@pytest.mark.parametrize(
+    ("position", "length", "used"),
+    [("second", 3.6, 3.5), ("second", 3.4, 2.0), ("edge", 0.3, 3.5)],
+)
+def test_an_end_effect_that_reaches_the_second_post_presses_it(
+    tmp_path, position, length, used
+):
+    """Posts stand 3.5 m apart; f_R = 2.5."""
+    site = read_site(write_row(tmp_path, anchor=BAR))
+    (row,), law = site.rows, BOUTILLIER_2004
+    (given,) = (one for one in row.resistances if one.mode == "compression_bending")
+    width = LoadedWidth(position=position, width=3.5, end_factor=2.5, end_length=length)
+    basis = Basis(site=site, row=row, standard=load_standard(SWISS), law=law)
+    found = find_post_resistance(given, given.dimensions, basis, width)
+    assert found.derivation.arguments["efficiency"] == pytest.approx(used)
 
 
 @pytest.mark.parametrize(
