@@ -209,7 +209,7 @@ def test_anchors_along_the_pull_are_drilled_15_degrees_down(tmp_path, slope, axi
 @pytest.mark.parametrize("turn", [0.0, 7.0, 31.0])
 @pytest.mark.parametrize(
     ("kind", "lack"),
-    [("bar", "lever arm"), ("micropile", "lever arm"), (None, "kind of anchor")],
+    [("bar", "unsupported"), ("micropile", "unsupported"), (None, "kind of anchor")],
 )
 def test_bar_without_a_lever_arm_is_not_proven(tmp_path, kind, lack, turn):
     anchor = BAR | {"kind of anchor": kind}
