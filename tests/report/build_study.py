@@ -216,7 +216,7 @@ def build_pulls() -> list[PullRecord]:
             axis_deg=20.0,
             is_axis_given=True,
             angle_deg=13.0123,
-            dip_deg=2.3,
+            dip_deg=12.3,
         )
     ]
 

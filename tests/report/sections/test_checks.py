@@ -83,7 +83,7 @@ def test_three_of_one_resistance_never_share_a_line():
 @each("worst", [v for v in Verdict if v is not Verdict.PASS])
 @each("is_end", [True, False])
 def test_the_worse_of_both_places_is_the_line_s(worst, is_end):
-    why = say("bores.rises", rise=7.83)
+    why = say("bores.flat", dip=-7.83, least=10.0)
     verdicts = {"end" if is_end else "inside": worst}
     (line,) = list_lines(pair(**verdicts, reason=why))
     assert line.verdict is worst
@@ -124,7 +124,7 @@ def test_a_resistance_names_type_basis_and_cell():
 
 @each("language", LANGUAGES)
 def test_a_failure_says_only_what_its_numbers_do_not(language):
-    words, gap = Words(language), say("bores.rises", rise=7.83)
+    words, gap = Words(language), say("bores.flat", dip=-7.83, least=10.0)
     for reason, told in ((None, []), (gap, [words.show(gap)])):
         (line,) = list_lines(pair(Verdict.FAIL, Verdict.FAIL, reason))
         assert line.list_remarks(words) == told
