@@ -116,7 +116,10 @@ def test_a_case_knows_the_scenes_own_values_and_the_others():
     [
         ({"density": (250.0, 950.0)}, "snow density = 950.0"),
         ({"friction_angle": (0.1, 1.6)}, "friction"),
-        ({"thickness": (2.0, 3.5)}, "net height = 3 m is below the snow thickness"),
+        (
+            {"thickness": (2.0, 3.5)},
+            "effective height D_K = 3 m is below the snow thickness",
+        ),
         ({"slack": (0.0, 0.9)}, "slack = 0.9"),
         ({"glide_factor": (1.0, 99.0)}, "glide factor = 99.0"),
         ({"slope_angle": (0.5, math.pi)}, "slope angle"),
