@@ -1,8 +1,9 @@
 """``python -m tests.golden``: what must stay equal, one part after another.
 
 G1 and G3 compare numbers and verdicts, G4 the workbook in LibreOffice: a difference
-is a failure. G2 prints how the example's reports differ from those stored; once they
-are read, ``python -m tests.golden --write`` stores today's. Time (G5) is measured by
+is a failure. G2 prints how the example's reports differ from those stored. Where
+formulas change, ``python -m tests.golden --write`` stores all of it anew once what
+differs was read; the changelog says which verdicts turned. Time (G5) is measured by
 hand, this version beside the wheel of another one, in turns in one run:
 ``netdesign bench --against netdesign-0.1.0-py3-none-any.whl``; nothing may be more than
 5 % slower.
@@ -10,9 +11,9 @@ hand, this version beside the wheel of another one, in turns in one run:
 
 import sys
 
-from tests.golden.drawn import compare_drawn
+from tests.golden.drawn import compare_drawn, store_drawn
 from tests.golden.example import compare_recalculated, compare_texts, store_texts
-from tests.golden.lists import compare_lists
+from tests.golden.lists import compare_lists, store_lists
 
 SHOWN = 400
 PARTS = (compare_drawn, compare_texts, compare_lists, compare_recalculated)
@@ -35,6 +36,8 @@ def write(line):
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
+        store_drawn()
+        store_lists()
         store_texts()
     else:
         sys.exit(not all([compare(part) for part in PARTS]))

@@ -20,13 +20,12 @@ def read_gone():
     return [re.compile(line) for line in lines if line and not line.startswith("#")]
 
 
-def tell_differences(then, now, *, gone=(), spare=lambda *_: False):
+def tell_differences(then, now, *, gone=()):
     """A line for each place of then that is another, or missing, now."""
     return [
         f"{place}: {was!r} -> {now.get(place, MISSING)!r}"
         for place, was in then.items()
         if not is_same(was, now.get(place, MISSING))
-        and not spare(place, was, now.get(place, MISSING))
         and not any(one.fullmatch(place) for one in gone)
     ]
 

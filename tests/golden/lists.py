@@ -52,5 +52,5 @@ def read_list(name):
         return read_site(path)
 
 
-def store_lists(names):
-    store("lists", {name: judge_list(name) for name in names})
+def store_lists():
+    store("lists", {name: judge_list(name) for name in load("lists")})
