@@ -57,15 +57,16 @@ SHEETS = {
             *("kind of anchor", "ground", "corrosion protection"),
             *("protected for years", "drilled length [m]"),
             *("least cover of the bond [m]", "least distance to an edge [m]"),
+            "head resistance across [kN]",
         ],
         [
-            *("A1", 2500, 2400, "tested", "rope anchor", "till", "cover", 80),
-            *(6, 0.5, 2),
+            *("A1", 2500, 1900, "tested", "rope anchor", "till", "cover", 80),
+            *(6, 0.5, 2, 350),
         ],
     ],
     "Ropes": [
         ["id", "minimum breaking force [kN]", "protected for years"],
-        ["G1", 2300, 50],
+        ["G1", 1400, 50],
     ],
     "Links": [
         ["type", "link", "strength of the link [kN]", "chain"],

@@ -76,7 +76,7 @@ POST = {
     "buckling curve": "c",
     "plate length [m]": 0.6,
     "plate width [m]": 0.5,
-    "bearing stress [kPa]": 900,
+    "bearing stress [kPa]": 2000,
     "post width [mm]": 120,
     "section modulus [cm3]": 144,
     "eccentricity at the head [mm]": 0,

@@ -103,12 +103,14 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         utilisation=0.4373,
         verdict=Verdict.PASS,
     )
-    # Base plate: 0.9659 * 109.86 = 106.1 kN across it, 0.6 * 0.5 * 900 = 270 kN; 1.4.
+    # Base plate: 0.9659 * 109.86 = 106.1 kN across it, 0.6 * 0.5 * 2000 = 600 kN under
+    # a load across it; leaning uphill (EN 1997-1, D.4) m = (2 + 5/6) / (1 + 5/6) =
+    # 1.5455, (1 - tan 15)^2.5455 = 0.73205^2.5455 = 0.45205: 271.2 kN; 1.4.
     expect(
         checks["post_base.bearing"],
         demand=1.5 * 0.96593 * post,
-        resistance=270.0 / 1.4,
-        utilisation=0.8253,
+        resistance=271.23 / 1.4,
+        utilisation=0.8216,
         verdict=Verdict.PASS,
     )
     # Sliding: 106.1 tan 15 = 28.43 kN; 0.6 * 1.5 * 106.1 = 95.51 kN; 1.1.

@@ -5,6 +5,7 @@ import random
 
 import pytest
 
+from netdesign.resistance.pull_out import Bond
 from netdesign.site.model import Resistance
 from netdesign.study.stronger_types import find_size
 from netdesign.words.catalogue import LANGUAGES, render
@@ -29,7 +30,7 @@ BUCKLING = say(
 )
 
 
-def build(mode, derivation=None, type_id="HEB 120"):
+def build(mode, derivation=None, type_id="HEB 120", free=0.0):
     return Resistance(
         member="foot_anchor",
         mode=mode,
@@ -37,6 +38,7 @@ def build(mode, derivation=None, type_id="HEB 120"):
         value=1e5,
         type_id=type_id,
         derivation=derivation,
+        bond=None if mode != "pull_out" else Bond(length=3.0, free=free, steel=None),
     )
 
 
@@ -53,17 +55,23 @@ def test_a_bar_is_the_next_of_the_catalogue_of_its_steel():
     assert find_size(build("tendon", BAR), 5000.0) is None
 
 
-def test_a_bond_has_the_half_metre_that_bears_the_force():
+@each("free", [0.0, 0.43, 1.7])
+def test_a_bond_has_the_half_metre_that_bears_the_force(free):
+    """Its part in the first metre from the mouth does not count, nor beyond 10 m."""
     rng = random.Random(12)
     per_metre = math.pi * 0.09 * 120.0
+    lost = max(1.0 - free, 0.0)
     for _ in range(40):
-        needed = rng.uniform(40.0, 14.9 * per_metre)
-        found = find_size(build("pull_out", BOND), needed)
+        needed = rng.uniform(40.0, 9.9 * per_metre)
+        found = find_size(build("pull_out", BOND, free=free), needed)
         length = found[0].arguments["length"]
-        assert length == pytest.approx(math.ceil(2 * needed / per_metre - 1e-9) / 2)
-        assert found[1] == pytest.approx(length * per_metre)
-    assert find_size(build("pull_out", BOND), 15.1 * per_metre) is None
-    assert find_size(build("pull_out"), 10.0) is None  # no ground is known
+        counted = needed / per_metre
+        least = math.ceil(2.0 * (counted + lost) - 1e-9) / 2.0
+        assert length == pytest.approx(least)
+        assert found[1] == pytest.approx(min(length - lost, 10.0) * per_metre)
+    beyond = 10.1 * per_metre
+    assert find_size(build("pull_out", BOND, free=free), beyond) is None
+    assert find_size(build("pull_out", free=free), 10.0) is None  # no ground is known
 
 
 def test_a_section_stays_in_its_series():

@@ -14,7 +14,7 @@ from netdesign.solving.runner import Runner
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.judge import judge_site
 from netdesign.words.message import say
-from netdesign.words.names import name_check
+from netdesign.words.names import as_given, name_check
 from tests.each import each
 from tests.grid import build_cases, solve_site, wrap_results
 from tests.read_check import compare_support
@@ -64,7 +64,7 @@ def fail(result):
     return CaseResult(
         case=result.case,
         outcome=Outcome.DIVERGED,
-        reason="snow flow: spoilt",
+        reason=as_given("snow flow: spoilt"),
         member_forces={},
     )
 
