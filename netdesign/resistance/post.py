@@ -225,31 +225,6 @@ def compute_post_moment(
     return efficiency * pressure * section.width * section.length**2 / 8.0
 
 
-def add_end_moments(snow: float, head: float, foot: float) -> float:
-    """Largest moment of a hinged post under snow, with moments at its ends; (R11a).
-
-    Parameters
-    ----------
-    snow : float
-        Moment of the snow in the middle, of a parabola [N m].
-    head, foot : float
-        At the ends, bending it the same way [N m].
-
-    Returns
-    -------
-    float
-        [N m].
-
-    Verified by
-    -----------
-    tests/verification/test_members_by_hand.py
-    """
-    apart = abs(head - foot)
-    if apart >= 4.0 * snow:  # it falls from one end to the other
-        return max(head, foot)
-    return snow + 0.5 * (head + foot) + apart**2 / (16.0 * snow)
-
-
 def compute_bent_post_resistance(
     section: PostSection, *, moment: float, partial_factor: float
 ) -> float | None:

@@ -14,7 +14,6 @@ from netdesign.checks.forces import resist_by_friction
 from netdesign.resistance.post import (
     BasePlate,
     PostSection,
-    add_end_moments,
     compute_bearing_resistance,
     compute_bent_post_resistance,
     compute_buckling_resistance,
@@ -349,14 +348,6 @@ def test_efficiency_by_the_glide_factor():
     for row, told in zip(ROWS, (0.511, 0.691, 1.331), strict=True):
         eta = 1.0 + 2.0 * (ROWS[row][8] - 1.2)
         assert use_post(row, eta, 0.0, 0.0) == pytest.approx(told, abs=6e-4)
-
-
-def test_end_moments_meet_where_the_largest_leaves_the_middle():
-    """At |M_1 - M_2| = 4 M_s both forms are one; M grows with each of the three."""
-    assert add_end_moments(2.0, 11.0, 3.0) == 11.0
-    assert add_end_moments(2.0, 11.0 - 1e-9, 3.0) == pytest.approx(11.0)
-    assert add_end_moments(0.0, 5.0, 5.0) == 5.0
-    assert add_end_moments(4.0, 6.0, 0.0) == 4.0 + 3.0 + 36.0 / 64.0
 
 
 @pytest.mark.parametrize(
