@@ -104,7 +104,9 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
 
     def steepen(sheets):
         sheets["Nets"][1][1] = 65
-        sheets["Nets"][1][2] = 1.6
+        sheets["Nets"][1][2] = 1.3
+        sheets["Nets"][1][5] = 1.5  # [m], of a net that a guideline fills with snow
+        sheets["Anchors"][1][-1] = 800  # head, of anchors that are pulled down steeply
 
     write_site(tmp_path / "site.xlsx", steepen)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
