@@ -156,7 +156,8 @@ DAMAGED_FINDINGS = {
     ("Nets!D1", "has an unknown unit"),
     (
         "Nets!F1",
-        'is no known heading, but close to "effective height D_K [m]", which is missing',
+        'is no known heading, but close to "effective height D_K [m]", '
+        "which is missing",
     ),
     ("Nets!G2", "is ambiguous: 1.234 or 1234"),
     ("Nets!A3", "is used twice: also in Nets!A2"),
