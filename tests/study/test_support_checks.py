@@ -361,7 +361,7 @@ def test_moment_of_the_snow_that_is_too_much_alone_fails(tmp_path):
     ("tilt", "typed"), [(15.0, None), (10.0, None), (15.0, 210.0), (0.0, None)]
 )
 def test_a_plate_bears_the_load_that_leans_as_the_post_does(tmp_path, tilt, typed):
-    """0.6 x 0.5 m, 900 kPa; m = 2.8333 / 1.8333 = 1.5455: (1 - tan 15)^2.5455 = 0.4521.
+    """0.6 x 0.5 m, 2 MPa; m = 2.8333 / 1.8333 = 1.5455: (1 - tan 15)^2.5455 = 0.4521.
 
     A typed resistance is one to that load already.
     """
@@ -370,7 +370,7 @@ def test_a_plate_bears_the_load_that_leans_as_the_post_does(tmp_path, tilt, type
         if typed:
             del post[key]
     found = judge(tmp_path, post=post, **{"post tilt [deg]": tilt})["post_base.bearing"]
-    expected = typed or 270.0 * (1.0 - math.tan(math.radians(tilt))) ** 2.545455
+    expected = typed or 600.0 * (1.0 - math.tan(math.radians(tilt))) ** 2.545455
     assert found.read("R_k") == pytest.approx(expected, rel=1e-6)
     assert typed or f"a load that leans by {tilt:g}°" in str(
         found.resistance_derivation
