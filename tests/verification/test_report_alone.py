@@ -162,7 +162,11 @@ def move_down(inputs):
     ],
 )
 def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):
-    """So many where a font as narrow as Arial is installed; others are wider."""
+    """So many where a font as narrow as Arial is installed; others are wider.
+
+    Page 1 and what belongs to it take three, the schedule three, seven rows of a shape
+    of their own nine, inputs and annexes six. A row has 75 to 82 checks.
+    """
     page = render_html(twelve, language, detail)
     assert count_pages(page, tmp_path) <= most
 
@@ -177,9 +181,10 @@ def example(tmp_path_factory):
 
 @pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_example_has_sixteen_pages(example, tmp_path, language):
-    """Each of its rows has a page of its own."""
-    assert count_pages(render_html(example, language), tmp_path) <= 16
+def test_the_example_has_few_pages(example, tmp_path, language):
+    """Its seven rows take nine to ten: second support, end and tests have lines."""
+    most = {"en": 19, "fr": 22, "de": 22}[language]
+    assert count_pages(render_html(example, language), tmp_path) <= most
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -103,6 +103,7 @@ def _tabulate_tested(tested: _Tested, words: Words) -> Table:
         caption=words("tests.resistance"),
         columns=name_columns(headings, numbers=(heading,)),
         rows=tuple(rows),
+        look="tests",
         symbols="headings",
     )
 
@@ -120,6 +121,7 @@ def _tabulate_singles(tested: _Tested, words: Words) -> Table:
             for check, tests, force in tested
             for one in tests.singles
         ),
+        look="tests",
         symbols="headings",
     )
 
@@ -247,10 +249,11 @@ class RowSections:
             if beside:
                 yield Paragraph(text=symbols(self._list_beside(beside)), look="small")
             yield Figure(svg=draw_chains(row, t))
-            yield from show_tests(row, t)
         further = [one for one in row.checks if not one.is_of_force]
-        if further:
+        if further:  # on paper they stand beside the figure: nothing comes between
             yield from self._show_requirements(further)
+        if lines:
+            yield from show_tests(row, t)
         if not row.checks:
             yield self._none("heading.no_check")
 
