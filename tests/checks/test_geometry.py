@@ -162,11 +162,11 @@ REASONS = [
         {"slope_angle": math.radians(29)},
         "The slope angle 29 degrees lies outside 30 to 50 degrees.",
     ),
-    ("height", {}, "The net height 3 m reaches the 3 m that are needed."),
+    ("height", {}, "The effective height D_K of 3 m reaches the 3 m that are needed."),
     (
         "height",
         {"net_height": 2.5},
-        "The net height 2.5 m does not reach the 3 m that are needed.",
+        "The effective height D_K of 2.5 m does not reach the 3 m that are needed.",
     ),
     ("spacing", {}, "The distance of the rows 20 m is within f_L H_K = 25.72 m."),
     (

@@ -14,6 +14,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.outcome import Fault, Outcome, SiteDataError
 from netdesign.site.model import Project
+from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
@@ -221,7 +222,9 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     """60 drawn from all plain values of a row's part, two profiles and the settings."""
     write_short_example(tmp_path / "site.xlsx", ["R5"])
     site = read_site(tmp_path / "site.xlsx")
-    part = cut_site(site, site.rows[0])
+    known = {"row_id": "R5", "name": "model", "variation": 0.11, "source": "tests"}
+    scatter = UncertainQuantity(**known)
+    part = cut_site(replace(site, uncertain=(scatter,)), site.rows[0])
     decides = [part, STANDARDS, RUN.settings, RUN.creep_law]
     ways = [way for way in list_leaves(decides) if way[:2] != (0, "project")]
     ways = [way for way in ways if way[:2] not in {(0, "file_name"), (0, "sha256")}]
