@@ -13,8 +13,8 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Fault, Outcome, SiteDataError
-from netdesign.site.model import Project
 from netdesign.site.further_sheets import UncertainQuantity
+from netdesign.site.model import Project
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
