@@ -113,7 +113,7 @@ def list_outcomes(path, site, rows):
 def test_a_type_that_is_offered_passes_unless_its_own_resistance_is_unproven(tmp_path):
     """A condition is said where the workbook with it does not pass, only there."""
     dice, sites = random.Random(20261127), []
-    for number in range(5):
+    for number in range(8):
         path = tmp_path / f"{number}.xlsx"
         sites.append((path, write_example(path, dice if number else None)))
     rows = solve_rows(sites[0][1], RUN, Runner(), Nobody()).rows
