@@ -164,6 +164,8 @@ class PostSection:
         Eccentricities of the compression at both ends [m].
     efficiency : float or None
         eta, where somebody gives it [-].
+    efficiency_place : str
+        Cell that gives it.
     assumed : tuple of str
         Columns of the last three that nobody fills.
     """
@@ -177,6 +179,7 @@ class PostSection:
     at_head: float
     at_foot: float
     efficiency: float | None = None
+    efficiency_place: str = ""
     assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -20,6 +20,7 @@ from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_sheets import find_vertical, fits_slope
+from netdesign.site.support_types import find_assumed_eccentricity
 from netdesign.site.type_lines import name_bare
 from netdesign.site.type_resistances import (
     find_bond,
@@ -148,6 +149,8 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
             yield reading, told
     if told := _doubt_height(line, alone):
         yield line["vertical_height"], told
+    meant = {key: one for key, one in typed.items() if key not in alone}
+    yield from _list_eccentric(meant, line)
     for key in _TESTED if _TESTED[0] in line else ():
         if key not in alone and (told := _doubt_pulled(line[key], key, line)):
             yield line[key], told
@@ -234,6 +237,22 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
         return None
     tendon = _name_with_value(line["tendon"])
     return say("plausible.tested", tendon=tendon, limit=limit / 1e3)
+
+
+_ECCENTRICITIES = ("head_eccentricity", "foot_eccentricity")
+
+
+def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
+    """Eccentricities of a post beyond what an empty cell takes, which would help."""
+    needed = ("post_width", "section_modulus", "area")
+    for key in _ECCENTRICITIES:
+        if key not in typed or any(line[one].state != "given" for one in needed):
+            continue
+        reading, most = typed[key], find_assumed_eccentricity(line, key)
+        if reading.si > most * (1.0 + 1e-9):
+            unit = reading.field.unit
+            number = from_si(most, unit)
+            yield reading, say("plausible.eccentric", number=number, unit=unit)
 
 
 def _doubt_height(line: Row, doubted: Container[str]) -> Message | None:

@@ -446,6 +446,7 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         at_head=_find_eccentricity(line, "head_eccentricity"),
         at_foot=_find_eccentricity(line, "foot_eccentricity"),
         efficiency=line["efficiency"].given_si,
+        efficiency_place=line["efficiency"].place,
         assumed=tuple(one for one in _OF_LOAD if _is_assumed(line, one)),
     )
     place = line["post_width"].place
@@ -463,12 +464,14 @@ def _is_assumed(line: Row, key: str) -> bool:
 
 
 def _find_eccentricity(line: Row, key: str) -> float:
-    """Eccentricity of a post's compression at one end [m].
+    """Eccentricity of a post's compression at one end [m]."""
+    typed = line[key].given_si
+    return find_assumed_eccentricity(line, key) if typed is None else typed
 
-    Where nobody gives it: none at a foot that turns freely, else half the depth.
-    """
-    typed, most = line[key].given_si, 0.5 * find_depth(line)
-    return typed if typed is not None else 0.0 if _turns(line, key) else most
+
+def find_assumed_eccentricity(line: Row, key: str) -> float:
+    """That which nobody gives [m]: none at a foot that turns, else half the depth."""
+    return 0.0 if _turns(line, key) else 0.5 * find_depth(line)
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

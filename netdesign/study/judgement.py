@@ -37,7 +37,7 @@ from netdesign.study.member_force import (
     find_force,
     lifts,
 )
-from netdesign.study.posts import find_short_post
+from netdesign.study.posts import ask_efficiency, find_short_post
 from netdesign.study.pulls import (
     check_direction,
     doubt_mortar,
@@ -260,6 +260,8 @@ def _judge_member(
     if force is not None:
         given = find_resistance_for_force(given, known, pull, width, force.action)
     points = list(_list_open(known, given, width, force))
+    if asked := ask_efficiency(given, known, width):
+        points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
     if unsure:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
     check = judge_force(known, given, force, width, points)

@@ -158,6 +158,43 @@ class _Efficiency:
         return max(self.least + self.growth * beyond, self.at_edge)
 
 
+def ask_efficiency(
+    given: Resistance, basis: Basis, width: LoadedWidth
+) -> Message | None:
+    """Question about an eta with which snow presses more than where nobody gives one.
+
+    Left empty it would help: somebody confirms it, or changes it.
+    """
+    section = given.dimensions
+    if not isinstance(section, PostSection) or section.efficiency is None:
+        return None
+    if section.efficiency_place in basis.site.confirmed:
+        return None
+    spacing, ranges = basis.row.layout.post_spacing, basis.site.ranges
+    loads = []
+    for one in (section, replace(section, efficiency=None)):
+        found = _list_efficiencies(one, basis.standard, width, spacing)
+        if isinstance(found, Message):
+            return None
+        try:
+            pressure, _, snow = find_snow_pressure(basis.row, ranges, found[1])
+        except ModelError:  # outside the guideline's closed forms: told elsewhere
+            return None
+        eta = found[1].at(snow.glide_factor)
+        loads.append((eta * pressure, eta, snow.glide_factor))
+    (typed, _, _), (assumed, high, glide) = loads
+    if typed <= assumed * (1.0 + 1e-9):
+        return None
+    return say(
+        "post_bending.beyond",
+        efficiency=section.efficiency,
+        high=high,
+        glide=glide,
+        place=section.efficiency_place,
+        sheet=say("sheet.Declared"),
+    )
+
+
 def _list_efficiencies(
     section: PostSection, standard: Standard, width: LoadedWidth, spacing: float
 ) -> tuple[_Efficiency, _Efficiency] | Message:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.checks.check import OpenKind
 from netdesign.checks.comparison import find_action_factor
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.declared_sheet import DECLARABLE
@@ -15,7 +16,7 @@ from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.posts import find_post_resistance
+from netdesign.study.posts import ask_efficiency, find_post_resistance
 from netdesign.study.row_to_check import Basis
 from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, find_second, judge_row, study_row, write_row
@@ -470,6 +471,38 @@ def test_an_efficiency_that_nobody_gives_is_not_proven_where_it_decides(
 
 
 @pytest.mark.parametrize(
+    ("eta", "glide", "asked"),
+    [(3.4, 2.4, None), (3.41, 2.4, "3.4"), (1.0, 1.2, None), (1.1, 1.2, "1")],
+)
+def test_an_efficiency_beyond_what_an_empty_cell_takes_is_asked_about(
+    tmp_path, eta, glide, asked
+):
+    """1 + 2 (N - 1.2) is 3.4 at N = 2.4: beyond it, an empty cell would help."""
+    row = {"glide factor N": glide, "head": (1.0, -4.0)}
+    check = judge_post(tmp_path, eta, **row)["post.compression_bending"]
+    (cell,) = [f"Posts!{chr(65 + list(POST).index(ETA))}2"]
+    text = f"{cell}: an efficiency factor of {eta:.3g} is more than the {asked} that"
+    assert check.verdict is (Verdict.NOT_PROVEN if asked else Verdict.PASS)
+    assert check.has_open(OpenKind.VALUE_ASKED) is bool(asked)
+    assert not asked or text in str(check.reason)
+
+
+def test_an_efficiency_that_somebody_confirms_is_not_asked_about(tmp_path):
+    post = POST | {ETA: 2}
+    site = read_site(write_row(tmp_path, anchor=BAR, post=post))
+    (row,), standard = site.rows, load_standard(SWISS)
+    (given,) = (one for one in row.resistances if one.mode == "compression_bending")
+    width = LoadedWidth(
+        position="intermediate", width=3.5, end_factor=0.0, end_length=0.0
+    )
+    basis = Basis(site=site, row=row, standard=standard, law=BOUTILLIER_2004)
+    place = given.dimensions.efficiency_place
+    assert place in str(ask_efficiency(given, basis, width))
+    said = replace(basis, site=replace(site, confirmed=frozenset({place})))
+    assert ask_efficiency(given, said, width) is None
+
+
+@pytest.mark.parametrize(
     ("pull", "verdict"), [(-12.0, Verdict.NOT_PROVEN), (-98.0, Verdict.FAIL)]
 )
 def test_snow_that_may_be_too_much_alone_proves_nothing(tmp_path, pull, verdict):
@@ -651,7 +684,7 @@ def test_a_post_passes_by_no_buckling_length_but_its_own(
 ):
     aside = height * math.tan(math.radians(30)) - base if base else None
     true = math.hypot(height, aside) if base else height / math.cos(math.radians(tilt))
-    post = POST | {"buckling length [m]": round(share * true, 4)}
+    post = POST | {ETA: 1.0, "buckling length [m]": round(share * true, 4)}
     row = {"net height [m]": height, "post tilt [deg]": tilt, "head": (1.0, -4.0)}
     row["post base distance [m]"] = base
     checks = judge(tmp_path, post=post, **row)

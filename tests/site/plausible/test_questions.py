@@ -48,6 +48,8 @@ def test_nothing_is_asked_of_the_example(example):
         ("Posts_M2", "1441", ["R1"], "HEB120: 144.1 or 52.92 cm3"),
         ("Ropes_B2", "3500", ["R1", "R2", "R3", "R6", "R7"], "50 to 1500 kN"),
         ("Anchors_C5", "3000", ["R1", "R2", "R3", "R6", "R7"], "40 to 2500 kN"),
+        ("Posts_P2", "20", ["R1"], "the 0 mm of an empty cell"),
+        ("Posts_N2", "62", ["R1"], "the 60 mm of an empty cell"),
         ("Nets_C3", "0.28", ["R2"], "0.8 to 6.5 m"),
         ("Nets_N2", "40", ["R1"], "effective height D_K 2.5 m in Nets!I2"),
         ("Nets_E4", "200", ["R3"], "4 to 100 m"),
