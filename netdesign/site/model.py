@@ -445,7 +445,7 @@ class Site:
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()
     declared: tuple[Declaration, ...] = ()
-    confirmed: frozenset[str] = frozenset()  # cells of numbers, on sheet Declared
+    confirmed: tuple[str, ...] = ()  # cells of numbers, on sheet Declared
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
     text_format: TextFormat = UNDECLARED  # with which the file was read

@@ -182,7 +182,7 @@ def _build_site(
         monitoring=monitoring,
         winter=winter,
         declared=declared,
-        confirmed=frozenset(confirmed),
+        confirmed=tuple(sorted(confirmed)),
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
         catalogue=list_catalogue(lines.types),

@@ -48,6 +48,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
         sha256="",
         monitoring=monitoring,
         declared=tuple(one for one in site.declared if one.row_id in ("", row.id)),
+        confirmed=site.confirmed,
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,

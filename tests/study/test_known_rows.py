@@ -218,6 +218,16 @@ def alter_plain(value):
     return "x" if value is None else math.nextafter(value, 0.0) or 5e-324
 
 
+def test_a_confirmed_number_is_in_the_part_and_in_the_name_of_a_row(tmp_path):
+    """Where nobody confirms it, a check that rests on it is not proven."""
+    write_short_example(tmp_path / "site.xlsx", ["R5"])
+    plain = replace(read_site(tmp_path / "site.xlsx"), confirmed=())
+    said = replace(plain, confirmed=("Posts!H2",))
+    assert cut_site(said, said.rows[0]).confirmed == said.confirmed
+    names = [name_rows(one, STANDARDS, RUN)["R5"] for one in (plain, said)]
+    assert names[0] != names[1]
+
+
 def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     """60 drawn from all plain values of a row's part, two profiles and the settings."""
     write_short_example(tmp_path / "site.xlsx", ["R5"])

@@ -498,7 +498,7 @@ def test_an_efficiency_that_somebody_confirms_is_not_asked_about(tmp_path):
     basis = Basis(site=site, row=row, standard=standard, law=BOUTILLIER_2004)
     place = given.dimensions.efficiency_place
     assert place in str(ask_efficiency(given, basis, width))
-    said = replace(basis, site=replace(site, confirmed=frozenset({place})))
+    said = replace(basis, site=replace(site, confirmed=(place,)))
     assert ask_efficiency(given, said, width) is None
 
 

@@ -209,4 +209,4 @@ def test_ends_of_the_rows_come_with_the_types(slope, tmp_path, call):
     found = {written.cell(line, 1).value for line in range(2, 10)} - {None}
     assert found == {"B", "all"}
     told = [one for one in ended.err.splitlines() if "sheet Ends" in one]
-    assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R7 " + LEFT_OUT]
+    assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R6, R7 " + LEFT_OUT]
