@@ -81,7 +81,7 @@ POST = {
     "section modulus [cm3]": 144,
     "eccentricity at the head [mm]": 0,
     "eccentricity at the foot [mm]": 0,
-    "efficiency factor η": 2,
+    "efficiency factor η": 1,
     "friction of the base": 0.6,
 }
 

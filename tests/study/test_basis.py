@@ -248,4 +248,4 @@ def test_checks_with_one_reason_are_told_in_one_sentence(judge):
     named = sum(1 + titles.count(";") for titles, _, _ in parts)
     count = len(name_force_checks()) + len(name_directions())
     assert named == count + 1  # and the load along the row
-    assert height_told.startswith("Net, height: The net height 2.2 m")
+    assert height_told.startswith("Net, height: The effective height D_K of 2.2 m")
