@@ -7,13 +7,18 @@ from netdesign.site.template import workbook as template
 from tests.site_lines import write_lines
 
 
-def write_short_example(path, rows, *, leans=False):
+def write_short_example(path, rows, *, leans=False, cells=None):
     """Write these net rows.
 
-    A net that does not lean over a range keeps to its least inclination.
+    A net that does not lean over a range keeps to its least inclination. ``cells`` are
+    those of the sheet Nets that differ, by row and column.
     """
     lines = template.load_example()
-    lines["Nets"] = [_cut(line) for line in lines["Nets"] if line["id"] in rows]
+    lines["Nets"] = [
+        _cut(line) | (cells or {}).get(line["id"], {})
+        for line in lines["Nets"]
+        if line["id"] in rows
+    ]
     confirmed = list(_confirm_gaps(lines["Nets"]))
     lines["Ends"] = [line for line in lines["Ends"] if line["row"] in rows]
     lines["Declared"] = [line for line in lines["Declared"] if line["row"] in rows]

@@ -6,7 +6,6 @@ forces, the guideline's, cells of the workbook, values of the profile.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -161,12 +160,18 @@ class MemberForce:
         return _high(self.on.by_panel) > _high(self.on.coupled)
 
     @property
-    def is_by_ropes(self) -> bool:
-        """No multiple of the solved force: beside the end, or by the truss."""
+    def is_by_truss(self) -> bool:
+        """The truss of post, guys and end guy has the largest force."""
         loads = (self.on.coupled, self.on.by_panel, self.on.guideline)
-        is_shared = _high(self.on.shared) >= max(map(_high, loads))
-        is_beside = self.on.support.is_second and self.on.push is not None
-        return is_beside or (self.on.shared is not None and is_shared)
+        shared = self.on.shared
+        return shared is not None and _high(shared) >= max(map(_high, loads))
+
+    @property
+    def is_post_beside(self) -> bool:
+        """A post beside the end: what presses it is worked out together, (P11)."""
+        on, posts = self.on, (Member.POST, Member.POST_BASE)
+        is_post = self.largest.quantity in (*posts, *map(name_in_panel, posts))
+        return is_post and on.support.is_second and on.push is not None
 
     @property
     def on_support(self) -> float:
@@ -209,15 +214,6 @@ class MemberForce:
         """
         growth, push = self.on_support / other.on_support, _high(other.on.push)
         return max(growth, _high(self.on.push) / push) if push else growth
-
-    def find_high(self, force: float) -> float:
-        """Upper end of the member's force inside the row, from one solved [kN]."""
-        is_pushed = self.is_by_panel or self.on.support.is_second
-        push = _high(self.on.push) if is_pushed else 0.0
-        along = self._tilt * push / self.on_support
-        if self.on.load.across is not None:
-            return math.hypot(force, _high(self.on.load.across)) + along
-        return self.share * force + self.added_high + along
 
 
 def _high(quantity: Quantity | None) -> float:

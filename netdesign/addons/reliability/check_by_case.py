@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 
@@ -11,7 +12,7 @@ from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.structure.members import RopeForce, name_in_panel
+from netdesign.structure.members import Member, RopeForce
 from netdesign.study.case_records import LargestForce
 from netdesign.study.effects import find_effects
 from netdesign.study.judgement import MemberCheck
@@ -25,19 +26,30 @@ TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Push:
-    """A rope's pull along the row that adds to a force, by the guy of its end.
+    """A rope's pull along the row that adds to forces, at the row's end or beside it.
 
     Attributes
     ----------
-    force, rope : str
-        What it adds to, and whose pull it is.
-    ratio : float
-        Of what it adds to the rope's pull [-].
+    rope : str
+        Whose pull it is.
+    ratios : mapping of str to float
+        What it adds to each of these forces, over the rope's pull [-].
+    along : float or None
+        k of a foot, whose force has its part along the row, (S11): the pull adds to
+        that part alone [-]. None of a member that stands along the pull.
     """
 
-    force: str
     rope: str
-    ratio: float
+    ratios: Mapping[str, float]
+    along: float | None = None
+
+    def add(self, name: str, force: float, pull: float) -> float:
+        """Force with what a pull of the rope adds to it, (V1), (P10), (P11) [N]."""
+        added = self.ratios.get(name, 0.0) * pull
+        if self.along is None:
+            return force + added
+        across = force / math.hypot(1.0, self.along)
+        return math.hypot(across, self.along * across + added)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,7 +79,7 @@ class CheckByCase:
         Load of the support over some ranges of the row, in any unit: the end effect
         grows with the glide factor, the force along a base with the tilt of its post.
     push : Push or None
-        What a rope adds to one of the forces.
+        What a rope adds to the forces.
     """
 
     row: NetRow
@@ -105,9 +117,9 @@ class CheckByCase:
     def _read(self, result: CaseResult, name: str) -> float:
         """Upper end of a force in a case, with what a rope adds to it [N]."""
         force, push = result.member_forces[name].high, self.push
-        if push is None or push.force != name:
+        if push is None:
             return force
-        return force + push.ratio * result.member_forces[push.rope].high
+        return push.add(name, force, result.member_forces[push.rope].high)
 
     def utilisation(self, result: CaseResult) -> float | None:
         """Upper end of the utilisation in a case [-]; None if it has no result."""
@@ -143,11 +155,13 @@ def _follows_cases(one: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
     A resistance that follows the snow does not, nor what is added to no force at all,
-    nor an anchor of two guys, nor what ropes pull beside the end or by the truss: what
-    these add may grow while its own force falls.
+    nor an anchor of two guys, nor a post beside the end, nor the truss: what these add
+    may grow while its own force falls.
     """
     force = one.force
-    if force is not None and (force.on.load.across is not None or force.is_by_ropes):
+    if force is not None and (force.on.load.across is not None or force.is_by_truss):
+        return False
+    if force is not None and force.is_post_beside:
         return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
@@ -186,15 +200,24 @@ def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckB
 
 
 def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
-    """Part of the panel's force that the end guy brings; None of any other member."""
-    if force.on.push is None or not force.on.push.high:
+    """Part of the force that a rope brings; None of a member that none pulls.
+
+    The end guy brings it to the force by the panel alone; beside the end, the rope's
+    unbalanced pull D comes to that by the section, too.
+    """
+    on, results = force.on, task.solved.results
+    if on.push is None or not on.push.high:
         return None
-    name, rope = name_in_panel(one.given.member), RopeForce.UPPER_ALONG
-    results = task.solved.results
-    panel = next(record for record in force.solved if record.quantity == name)
-    inside = force.on_support * force.share * _widen(panel, results)
+    is_foot, in_panel = one.given.member == Member.FOOT_ANCHOR, force.solved[-1:]
+    rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
-    return Push(force=name, rope=rope, ratio=force.on.push.high / pull / inside)
+    inside = force.on_support * force.share
+    ratios = {
+        record.quantity: on.push.high / pull / (inside * _widen(record, results))
+        for record in (force.solved if on.support.is_second else in_panel)
+    }
+    along = on.load.along.value if on.load.along else None
+    return Push(rope=rope, ratios=ratios, along=along)
 
 
 def _find_load(

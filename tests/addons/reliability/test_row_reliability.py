@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.reliability.check_by_case import find_check_by_case
 from netdesign.addons.reliability.form import follow_design_point
 from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import rate_reliability
@@ -15,11 +16,15 @@ from netdesign.outcome import Verdict
 from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.snowpack.model_code import compare_densities
+from netdesign.structure.members import ROPE_OF, RopeForce
+from netdesign.study import judgement
 from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import read_document, write_document
+from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_worst
 from netdesign.study.judge import judge_site
+from netdesign.study.member_force import find_force
 from netdesign.study.record_envelope import read_point
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import name_rows
@@ -29,6 +34,7 @@ from tests.small_site import RUN
 from tests.turn import turn
 
 STANDARD = load_standard("nf-p-95-304-style")
+_FOOT_ROPE = RopeForce.LOWER_ALONG
 WITH = replace(RUN, has_reliability=True)
 
 
@@ -40,9 +46,13 @@ def tell(name, variation, **more):
 
 @pytest.fixture(scope="module")
 def searched(tmp_path_factory):
-    """Site of one row that glides and one that does not, and its cases."""
+    """Site of one row that glides and one that does not, and its cases.
+
+    Both are proven; the second support governs one, the end the other.
+    """
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    write_short_example(path, ["R2", "R4"], leans=True)
+    cells = {"R4": {"foot_anchor": "A40-tested"}}
+    write_short_example(path, ["R2", "R4"], leans=True, cells=cells)
     site = read_site(path)
     return site, search_site(site, RUN)
 
@@ -115,6 +125,15 @@ def test_it_is_of_the_governing_check_and_has_a_number(study):
         assert implied == pytest.approx(given / worst.utilisation, rel=0.01)
 
 
+def raise_rope(site, row, case):
+    """Growth of a border rope at the row's end, with a case's glide factor."""
+    ranges, spacing = site.ranges, row.layout.post_spacing
+    for name in ("thickness", "glide_factor") if case else ():
+        ranges = ranges.with_value(name, case.values[name])
+    end = find_effects(row, STANDARD, ranges).find_support("edge")
+    return 1.0 + 2.0 * end.end_factor * end.end_length / spacing
+
+
 def test_the_design_point_is_solved_by_the_full_model(searched, study):
     site, _ = searched
     solver = CaseSolver(RUN.settings, RUN.creep_law)
@@ -122,11 +141,78 @@ def test_the_design_point_is_solved_by_the_full_model(searched, study):
         record, worst = row.reliability, find_worst(row.checks)
         cases = (read_point(record.design_point), read_point(worst.case))
         wanted = [(given, case, solver.law) for case in cases]
-        at, now = (
-            one.member_forces[worst.member].value for one in solver.solve_all(wanted)
-        )
-        assert record.force_ratio == pytest.approx(at / now, rel=0.03)
+        at, now = (one.member_forces for one in solver.solve_all(wanted))
+        name = ROPE_OF.get(worst.member, worst.member)
+        growth = at[name].value / now[name].value
+        if worst.position == "second":  # E^2 = N^2 + (k N + D)^2
+            across = worst.read("E_s") * worst.read("b_e") / worst.read("b")
+            rope = at[_FOOT_ROPE].value / now[_FOOT_ROPE].value
+            along = worst.read("k") * growth * across + rope * worst.read("D")
+            growth = math.hypot(growth * across, along) / worst.read("E_c")
+        if worst.member in ROPE_OF:  # 1 + 2 f_R s_R / b of a border rope, (P9)
+            growth *= raise_rope(site, given, cases[0]) / raise_rope(site, given, None)
+        assert record.force_ratio == pytest.approx(growth, rel=0.03)
         assert record.force_ratio == pytest.approx(record.force_ratio_by_model, rel=0.1)
+
+
+def follow(judge, monkeypatch):
+    """Task, forces and checks of each row, with the rows' governing checks."""
+    from netdesign.addons.reliability import row_reliability
+
+    kept, real = [], row_reliability.find_check_by_case
+
+    def keep(task, known, one, judged):
+        kept.append((task, known, one, list(judged)))
+        return real(*kept[-1])
+
+    monkeypatch.setattr(row_reliability, "find_check_by_case", keep)
+    judge()
+    return kept
+
+
+def cut_to(known, solved, case):
+    """Forces of a row that are those of one case, with what may hide."""
+    largest = {}
+    for name, record in known.largest.items():
+        most = max(
+            one.member_forces[name].high for one in solved if name in one.member_forces
+        )
+        share = case.member_forces[name].high / most if most else 0.0
+        kN = share * record.high_kN
+        largest[name] = replace(record, low_kN=kN, value_kN=kN, high_kN=kN)
+    return replace(known, largest=largest)
+
+
+def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypatch):
+    """E = sqrt(N^2 + (k N + D)^2) of a foot, its guys with D c / sin beta; each case.
+
+    Those that are not followed are of a post, of an anchor of two guys, or by a truss.
+    """
+    followed = set()
+    for task, known, *_ in follow(judge, monkeypatch):
+        solved, width = task.solved.results, known.effects.find_support("second")
+        for one in judgement._judge_at(known, width, task.row.resistances_at("second")):
+            on = one.force.on
+            if on.push is None:
+                continue
+            by_case = find_check_by_case(task, known, one, [one])
+            if by_case is None:
+                post = one.given.member in ("post", "post_base")
+                unsolved = not one.force.largest.high_kN  # and not pulled in any case
+                assert post or unsolved or on.load.across or one.given.dimensions
+                continue
+            followed.add((task.row.id, one.given.member))
+            factor, design = one.check.read("γ_E"), one.check.read("R_d")
+            for case in solved[::7]:
+                of_case = find_force(cut_to(known, solved, case), one.given, one.width)
+                direct = max(of_case.on.coupled.high, of_case.on.by_panel.high)
+                used = factor * direct / design
+                assert by_case.utilisation(case) == pytest.approx(used, rel=1e-9)
+                # without the rope's unbalanced pull it would be less
+                bare = replace(by_case, push=None).utilisation(case)
+                assert bare < 0.999 * used
+    assert {("R2", "foot_anchor"), ("R4", "foot_anchor")} <= followed
+    assert ("R2", "uphill_guy") in followed
 
 
 def test_around_the_design_point_the_model_is_that_of_full_solves(judge, monkeypatch):
@@ -163,7 +249,7 @@ def test_what_nobody_typed_is_told_as_assumed(judge, study):
     assert all(
         one.is_assumed for row in study.rows for one in row.reliability.variables
     )
-    told = judge(tell("snow_height", 0.27, period=80.0), tell("model", 0.11))
+    told = judge(tell("snow_height", 0.27, period=80.0), tell("model", 0.25))
     for row in told.rows:
         typed = {one.name for one in row.reliability.variables if not one.is_assumed}
         assert typed == {"snow_height", "model"}
