@@ -9,13 +9,18 @@ from itertools import pairwise
 
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.numbers import read_moment
+from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.readings import Row, choose_given, refuse
 from netdesign.site.tables import read_rows
+from netdesign.structure.members import Member
 from netdesign.words.message import say
 
 _EPOCH = datetime(1970, 1, 1)
+
+
+_MEMBERS = {normalise(one): str(one) for one in Member}  # by their words
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,7 +110,7 @@ def read_monitoring(
         if line["tension"].state == line["temperature"].state == "blank":
             rule = say("measured.no_measurement")
             refuse(name, rule, say("measured.accepted"), findings)
-        key = (name.word, member.word.replace(" ", "_"))
+        key = (name.word, _MEMBERS[normalise(member.word)])
         series.setdefault(key, []).append((time, line))
     return tuple(_build(key, lines, findings) for key, lines in series.items())
 
