@@ -74,6 +74,8 @@ def find_resistance_for_force(
         case AnchorType(soil=Soil() as soil) as anchor if given.mode == "wedge":
             return find_ground_resistance(given, anchor, soil, basis, pull)
         case AnchorType() as anchor:
+            is_held = holds_across(given, basis.standard, pull, force)
+            anchor = anchor if is_held else replace(anchor, across=None)
             return _find_bent_resistance(given, anchor, pull)
         case PostSection() as section:
             return find_post_resistance(given, section, basis, width)
@@ -137,8 +139,7 @@ def _find_head_resistance(
         factor = find_action_factor(standard).value or 1.0
         told |= {"force": factor * across * (force.high or 0.0)}
         return replace(given, lack=say("direction.no_head", **told))
-    bends = isinstance(anchor, AnchorType) and anchor.kind in BENDING
-    key = "direction.by_block" if bends else "direction.by_head"
+    key = "direction.by_block" if may_bend(given) else "direction.by_head"
     told |= {"across": kilonewton_from_newton(holds)}
     return replace(
         given,
@@ -146,6 +147,32 @@ def _find_head_resistance(
         basis="declared",
         derivation=say(key, **told),
     )
+
+
+def holds_across(
+    given: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
+) -> bool:
+    """What is at the head takes the design force across the axis, (R9c).
+
+    A block that does not is none to a bar, which then bends in the ground. ``force`` is
+    the characteristic one [kN].
+    """
+    asked = replace(given, mode="direction", basis="declared")
+    head = _find_head_resistance(asked, standard, pull, force)
+    on_action, on_head = (
+        find_action_factor(standard),
+        find_partial_factor(asked, standard),
+    )
+    if head.value is None or on_head is None or on_action.value is None:
+        return False
+    design = on_action.value * (force.high or math.inf)
+    return design <= kilonewton_from_newton(head.value) / on_head.value_si
+
+
+def may_bend(given: Resistance) -> bool:
+    """Bar or micropile: it bends where the block at its head does not hold."""
+    anchor = given.dimensions
+    return isinstance(anchor, AnchorType) and anchor.kind in BENDING
 
 
 def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:

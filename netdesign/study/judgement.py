@@ -26,6 +26,7 @@ from netdesign.study.dependent import (
     connect,
     corrode,
     find_resistance_for_force,
+    may_bend,
     resist,
     shorten_bond,
 )
@@ -41,11 +42,11 @@ from netdesign.study.posts import ask_efficiency, find_short_post
 from netdesign.study.pulls import (
     check_direction,
     doubt_mortar,
+    doubt_sharing,
     find_pull,
-    lack_sharing,
 )
 from netdesign.study.row_to_check import Basis, find_doubt, name_unsaid
-from netdesign.study.sideways import check_sideways
+from netdesign.study.sideways import ask_end_guy, check_sideways
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -159,11 +160,13 @@ def _judge_directions(
     width: LoadedWidth,
     gap: Message | None,
 ) -> list[MemberCheck]:
-    """Checks of the angles of rope anchors of one support."""
+    """Checks of the angles of rope anchors of one support, and of blocks that hold."""
+    turns = (given for given in resistances if given.mode == "direction")
+    judged = (_judge_direction(known, given, width, gap) for given in turns)
     return [
-        _judge_direction(known, given, width, gap)
-        for given in resistances
-        if given.mode == "direction"
+        one
+        for one in judged
+        if one.check.verdict is Verdict.PASS or not may_bend(one.given)
     ]
 
 
@@ -290,6 +293,8 @@ def _list_open(
     doubt = _find_doubt(known, force) if force else None
     if doubt is not None:
         yield Open(kind=OpenKind.OUTSIDE_LAW, message=doubt)
+    if width.position == "edge" and (asked := ask_end_guy(known)):
+        yield Open(kind=OpenKind.VALUE_ASKED, message=asked)
 
 
 def judge_force(
@@ -438,12 +443,6 @@ def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
     """Doubt that a pull-out resistance holds where nobody says in which ground."""
     names = row.list_unsaid_grounds(given)
     return say("check.no_ground", names=names) if names else None
-
-
-def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
-    """Doubt about an anchor of which nobody says whether it holds two guys."""
-    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    return lack_sharing(row.guys) if given.member in of_guys else None
 
 
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:

@@ -251,3 +251,9 @@ def check_direction(
     finding = say("direction.rope_within", angle=pull.angle_deg, most=limit.value)
     found = compare("direction", Verdict.PASS, finding, member=pull.anchor)
     return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)
+
+
+def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
+    """Doubt about an anchor of which nobody says whether it holds two guys."""
+    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    return lack_sharing(row.guys) if given.member in of_guys else None

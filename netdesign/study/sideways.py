@@ -35,7 +35,7 @@ from netdesign.structure.splay import (
     share_with_end_guy,
     weigh_splay,
 )
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.support_records import EndGuyRecord, HeldSidewaysRecord
 from netdesign.units import (
     degree_from_radian,
@@ -358,6 +358,22 @@ def place_row(row: NetRow, inclination: float) -> SupportPoints:
     """Points of a support of the row at an inclination of its net [m]."""
     height = row.net_height
     return place_support(row.layout, (height * math.tan(inclination), height))
+
+
+def ask_end_guy(task: Basis) -> Message | None:
+    """Question about an end guy whose anchor stands farther down than the post's head.
+
+    An empty cell has it abreast of the head: left empty, it would help.
+    """
+    row, span = task.row, task.site.ranges["inclination"]
+    place = row.row_end.guy_from_base if row.row_end else None
+    if place is None:
+        return None
+    points = [place_row(row, one) for one in (span.low, span.high)]
+    least = min(one.head[0] - one.post_base[0] for one in points)
+    if place <= least + 1e-9:
+        return None
+    return say("row_end.beyond_head", place=place, most=least)
 
 
 def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:
