@@ -85,13 +85,15 @@ def redo_anchor(row, member, name, load, position="edge"):
     )
     chain = find_chain(row, name, angle)
     yield f"{member}.connection", rate(row, load, chain, "connection")
-    if is_bar:
-        bent = bend_anchor(row, cells, angle)
+    across = cells.get("head_across", math.nan) / max(math.sin(angle), 1e-9)
+    head = rate(row, load, across, "direction")
+    is_held = "head_across" in cells and head.used[1] <= 1.0
+    if is_bar:  # a block that does not hold is none: the bar bends in the ground
+        bent = bend_anchor(row, cells, angle, is_held=is_held)
         yield f"{member}.bending", rate(row, load, bent, "bending")
     turns = math.radians(row.values["anchor.angle.rope"])
-    if "head_across" in cells if is_bar else angle > turns:
-        across = cells.get("head_across", math.nan) / math.sin(angle)
-        yield f"{member}.direction", rate(row, load, across, "direction")
+    if is_held if is_bar else angle > turns:
+        yield f"{member}.direction", head
     if "soil_weight" in cells:
         lifted = lift_ground(row, member, cells)
         yield f"{member}.wedge", rate(row, load, lifted, "wedge")
@@ -130,7 +132,7 @@ def find_pull_out(row, cells):
     )
 
 
-def bend_anchor(row, cells, angle):
+def bend_anchor(row, cells, angle, *, is_held):
     """A bar, or the tube at its head, pulled beside its axis (A7).
 
     The ground adds the lever that a solid bar of its diameter has, or that of a
@@ -143,7 +145,7 @@ def bend_anchor(row, cells, angle):
     else:
         outer, strength = cells["tube_diameter"] / 1e3, TUBE_STRENGTH
         inner = outer - 2.0 * wall / 1e3
-    if "head_across" in cells:  # fixed in a block, which holds what is across
+    if is_held:  # fixed in a block, which holds what is across
         soft = 0.0
     elif "ground_modulus" in cells:
         bending = resistance.STEEL * math.pi * (outer**4 - inner**4) / 64.0
