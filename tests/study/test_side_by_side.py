@@ -102,10 +102,13 @@ def test_workers_make_the_same_studies_and_keep_what_they_solved(
         assert check_site(SITE, STANDARDS, RUN, runner, watch) == studies
         assert runner.counts == counts
         assert len(done) == counts.solved + counts.reused
-        assert len(checks) == sum(
+        written = sum(
             check.is_of_force for one in studies for row in one.rows
             for check in row.checks
         )  # fmt: skip
+        assert (
+            len(checks) >= written > 0
+        )  # those of the second support may stand inside
         again = Runner(store=store)
         assert check_site(SITE, STANDARDS, RUN, again) == studies
         assert again.counts.solved == 0

@@ -68,7 +68,10 @@ _PROJECT = {
     "standard": "nf-p-95-304-style",
 }
 _TYPES = ("Ranges", "Anchors", "Ropes", "Links", "Posts")
-_DERIVED = ("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour")
+_DERIVED = (
+    *("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour"),
+    *("post_count", "row_length"),
+)
 
 
 def build_example() -> Grid:

@@ -56,6 +56,9 @@ def test_an_anchor_of_the_bay_stands_half_way_to_the_next_post():
 
 
 @pytest.mark.long
+@pytest.mark.xfail(
+    strict=True, reason="setting out knows no second support: which force stands there?"
+)
 def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     site, study = tmp_path / "site.xlsx", tmp_path / "part-study.json"
     assert call("terrain", "--example", "--out", site, "--quiet").code == 0
@@ -69,7 +72,7 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
         "--quiet",
     )
     checked = call("check", site, "--out", tmp_path, *options)
-    assert checked.code == 4, checked.err  # it passes, but is not the whole site
+    assert checked.code == 1, checked.err  # A1 fails with the types of the example
     rows, out = tmp_path / "rows.geojson", tmp_path / "checked.geojson"
     ended = call("terrain", "--verdicts", study, "--rows", rows, "--out", out)
     assert ended.code == 0, ended.err
@@ -101,7 +104,9 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     largest = {}
     for name in ("pull_out", "pull_out.end"):
         steps = checks[f"uphill_anchor.{name}"]["steps"]
-        (largest[name],) = (one["high"] for one in steps if one["symbol"] == "E_d")
+        (largest[name],) = (
+            one.get("high") or one["value"] for one in steps if one["symbol"] == "E_d"
+        )
     # the two of the first bay and beyond it, those of the last one likewise
     at_end = {"1", str(count - 1), str(count)}
     for one in uphill:
