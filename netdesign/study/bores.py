@@ -21,6 +21,7 @@ from netdesign.resistance.wedge import (
     compute_wedge_resistance,
 )
 from netdesign.site.model import NetRow, Resistance
+from netdesign.structure.anchors import turn_by_splay
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
@@ -30,7 +31,7 @@ from netdesign.structure.row_position import (
     measure_distance,
 )
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import ANCHORS, find_pull, lack_sharing
+from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull, lack_sharing
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
@@ -160,7 +161,8 @@ def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
         if kind is None:
             continue
         told = {"anchor": name_member(pull.anchor)}
-        cover, least = kind.find_cover(pull.axis), kind.least_cover or 0.0
+        cover = min(map(kind.find_cover, _list_axes(row, pull)))
+        least = kind.least_cover or 0.0
         if cover < least:
             yield say("bores.too_shallow", **told, cover=cover, least=least)
         edge, least = row.edge_distance or 0.0, kind.least_edge or 0.0
@@ -252,7 +254,7 @@ def find_ground_resistance(
         return given
     if not pull.is_axis_known:
         return replace(given, lack=say("bending.no_axis"))
-    depths = anchor.list_depths(pull.axis)
+    depths = [x for axis in _list_axes(row, pull) for x in anchor.list_depths(axis)]
     if not depths:
         names = row.list_unsaid_bore(pull.anchor, pull.position)
         return replace(given, lack=say("check.unsaid", names=names))
@@ -278,6 +280,17 @@ def find_ground_resistance(
     told |= {"depth": depth, "width": width, "plane": plane}
     key = "wedge.lifts_cone" if pull.anchor in END_ANCHORS else "wedge.lifts"
     return replace(given, value=found[depth].value, derivation=say(key, **told))
+
+
+def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
+    """Axes that an anchor may have [rad]: of a guy's, that of one for each guy, too.
+
+    Where nobody says whether two guys share it, one for each may be less deep.
+    """
+    may_be_own = row.guys.count > 1 and row.guys.are_shared is None
+    if pull.is_axis_given or not may_be_own or pull.anchor not in GUY_ANCHORS:
+        return (pull.axis,)
+    return pull.axis, turn_by_splay(pull.axis, row.guys.splay or 0.0)
 
 
 def _lift_ground(

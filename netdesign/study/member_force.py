@@ -32,7 +32,7 @@ from netdesign.structure.members import (
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
 from netdesign.study.effects import RowEffects
-from netdesign.study.pulls import may_share
+from netdesign.study.pulls import GUY_ANCHORS, may_share
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import (
     EndGuyRecord,
@@ -470,5 +470,4 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
 
 def is_shared(row: NetRow, member: str) -> bool:
     """An anchor holds a guy of each of two neighbouring posts, or may do so."""
-    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    return may_share(row.guys) and member in of_guys
+    return may_share(row.guys) and member in GUY_ANCHORS

@@ -37,7 +37,7 @@ from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
 ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-_OF_GUYS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+GUY_ANCHORS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 # Below the horizontal, of a bore whose axis nobody gives, so that mortar fills it: a
 # supplier's manual asks for it (Geobrugg GBE-3000A).
 USUAL_DIP = math.radians(15.0)
@@ -188,7 +188,7 @@ def build_pull(
     flattest = find_axis_at_dip(USUAL_DIP, row.slope_angle, anchor)
     axis = max(pulls.mean, flattest) if given is None else given
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
-    if may_share(row.guys) and anchor in _OF_GUYS:
+    if may_share(row.guys) and anchor in GUY_ANCHORS:
         along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return PullRecord(
@@ -255,5 +255,4 @@ def check_direction(
 
 def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
     """Doubt about an anchor of which nobody says whether it holds two guys."""
-    of_guys = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    return lack_sharing(row.guys) if given.member in of_guys else None
+    return lack_sharing(row.guys) if given.member in GUY_ANCHORS else None

@@ -131,28 +131,19 @@ def assert_never_better(path, seed, count):
             assert not better, (seed, cells, better[:4])
 
 
-# Known fault, to be mended: the ground before a guy's anchor of which nobody says
-# whether two guys share it is judged along the section alone (tests of A2, B8).
-UNSHARED = pytest.mark.xfail(strict=True, reason="wedge of guys that may be shared")
-
-
-def mark_seed(seed):
-    marks = () if seed % 3 == 2 else (pytest.mark.long,)
-    return (*marks, UNSHARED) if seed == 10 else marks
-
-
 @pytest.mark.parametrize(
     "seed",
-    [pytest.param(seed, marks=mark_seed(seed)) for seed in range(SITES_IN_SUITE)],
+    [
+        pytest.param(seed, marks=() if seed % 3 == 2 else pytest.mark.long)
+        for seed in range(SITES_IN_SUITE)
+    ],
 )
 def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    "seed", [pytest.param(one, marks=UNSHARED if one == 1005 else ()) for one in FOUND]
-)
+@pytest.mark.parametrize("seed", FOUND)
 def test_what_was_found_once_stays_mended(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, 20)
 
