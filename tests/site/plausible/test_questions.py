@@ -58,7 +58,7 @@ def test_nothing_is_asked_of_the_example(example):
         ("Ends_L2", "3", ["R1"], "5 to 65 deg"),
         ("Links_C2", "6200", ["R3", "R4"], "20 to 2000 kN"),
         ("Links_D11", "3000", [f"R{n}" for n in range(2, 8)], "5 to 1000 kN"),
-        ("Ropes_G10", "145000", ["R2", "R3", "R4"], "1.62e+04 to 1.04e+05 kN"),
+        ("Ropes_G9", "145000", ["R2", "R3", "R4"], "1.62e+04 to 1.04e+05 kN"),
     ],
 )
 def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
