@@ -1,5 +1,6 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
+from netdesign.checks.approval import Approval, StatedValue
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.checks.comparison import check_member, find_resistance
 from netdesign.checks.geometry import RowGeometry, check_geometry
@@ -12,6 +13,7 @@ from netdesign.checks.loader import (
 from netdesign.checks.result import Band, Declaration, GivenResistance, Proof
 
 __all__ = [
+    "Approval",
     "Band",
     "Check",
     "Declaration",
@@ -22,6 +24,7 @@ __all__ = [
     "RowGeometry",
     "Standard",
     "StandardValue",
+    "StatedValue",
     "check_geometry",
     "check_member",
     "find_resistance",

@@ -7,7 +7,7 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from netdesign.checks import Declaration, GivenResistance
+from netdesign.checks import Approval, Declaration, GivenResistance
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
@@ -201,6 +201,7 @@ class NetRow:
     unsaid: tuple[Message, ...] = field(default=(), hash=False)
     # numbers that can hardly be meant, on which it rests: it is not proven
     questions: tuple[Message, ...] = field(default=(), hash=False)
+    approval: Approval | None = None  # of its net type
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

@@ -184,6 +184,7 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         panel_lack=None,
         unsaid=(),
         questions=(),
+        approval=None,
     )
     return _RowScenes(row=bare, law=law)
 
