@@ -23,7 +23,7 @@ from netdesign.report.sections.checks import (
     list_changes,
     name_case,
 )
-from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.decision import list_open_points, show_line
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
@@ -35,6 +35,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.governing import SEVERITY, find_governing, rank_check
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.to_do import WHO, list_to_do
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
@@ -171,12 +172,25 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
         yield words("show.label", label=floor, text=describe_floor(study, words))
     for one in list_additions(study):
         yield from one.list_lines(study, words)
-    points = list(list_open_points(study, words))
+    yield from _list_to_do(study, words)
     if is_short:
-        yield words("show.more_points", count=len(points))
         return
+    points = list(list_open_points(study, words))
     for number, point in enumerate(points, 1):
         yield words("show.open_point", number=number, point=point)
+
+
+def _list_to_do(study: Study, words: Words) -> Iterator[str]:
+    """What is to be done, by who has it: his name before his first line."""
+    lines = list_to_do(study)
+    names = {who: words(f"to_do.{who}") for who in WHO}
+    width = max((len(names[one.who]) for one in lines), default=0)
+    for who in WHO:
+        name = names[who]
+        for one in lines:
+            if one.who == who:
+                yield f"{name:{width}}  {show_line(one, study, words)}"
+                name = ""
 
 
 def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:

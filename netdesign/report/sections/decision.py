@@ -63,6 +63,7 @@ from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
 from netdesign.study.governing import SEVERITY, find_governing
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.to_do import ToDo
 from netdesign.words.message import Message
 
 _STIFFNESS = "column.quantities.net_stiffness"
@@ -195,6 +196,12 @@ def _sum_up(checks: list[Check], words: Words) -> Cell:
         return text_cell(symbol)
     most = words.show_number("utilisation", max(known))
     return text_cell(f"{symbol} {most}")
+
+
+def show_line(line: ToDo, study: Study, words: Words) -> str:
+    """What is to be done, after the net rows that need it."""
+    rows = show_text(name_rows(list(line.rows), study, words))
+    return words("to_do.line", rows=rows, text=words.show(line.text))
 
 
 def list_open_points(study: Study, words: Words) -> Iterator[str]:

@@ -1,0 +1,207 @@
+"""What is to be done before a study is signed: few lines, each with who has the answer.
+
+A line stands once for all the rows that it concerns, with the number that the worst of
+them needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from netdesign.checks.check import Change, Check, Open, OpenKind
+from netdesign.outcome import Verdict
+from netdesign.study.governing import SEVERITY
+from netdesign.study.records import RowStudy, Study
+from netdesign.words.message import Message, say
+from netdesign.words.names import as_given, name_check, name_member, name_mode
+
+Who = Literal["office", "supplier", "ground", "site"]
+WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
+MOST_LINES = 10
+
+# Who answers for what a member can fail by.
+_OF_MODE: Mapping[str, Who] = {
+    **dict.fromkeys(("pull_out", "wedge", "bearing", "sliding", "cover"), "ground"),
+    **dict.fromkeys(("tendon", "bending", "direction", "rope", "mesh"), "supplier"),
+    **dict.fromkeys(("compression", "compression_bending", "connection"), "supplier"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToDo:
+    """One thing to be done.
+
+    Attributes
+    ----------
+    who : str
+        Who has the answer: ``office``, ``ground`` (the geotechnical engineer),
+        ``supplier`` or ``site``.
+    text : Message
+        What is needed, with its number.
+    rows : tuple of str
+        Ids of the net rows that need it, in the order of the study.
+    """
+
+    who: Who
+    text: Message
+    rows: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Point:
+    """One open point of one check of one row, with the key of its line."""
+
+    who: Who
+    key: tuple[str, ...]
+    row: str
+    check: Check
+    point: Open | None
+
+
+def list_to_do(study: Study) -> tuple[ToDo, ...]:
+    """Lines of a study, the gravest first, at most `MOST_LINES`.
+
+    Parameters
+    ----------
+    study : Study
+        Of any verdict; one that passes may have none.
+    """
+    points = [one for row in study.rows for one in _list_points(row)]
+    lines: dict[tuple[str, ...], list[_Point]] = {}
+    for one in points:
+        lines.setdefault((one.who, *one.key), []).append(one)
+    ranked = sorted(lines.values(), key=_rank)
+    every = [_sum_up(group) for group in ranked]
+    every += [
+        ToDo(who="office", text=reason, rows=tuple(ids))
+        for reason, ids in _list_unmet(study).items()
+    ]
+    return _shorten(every)
+
+
+def _shorten(lines: Sequence[ToDo]) -> tuple[ToDo, ...]:
+    """Lines of which the last one counts those that have no room."""
+    if len(lines) <= MOST_LINES:
+        return tuple(lines)
+    kept, rest = lines[: MOST_LINES - 1], lines[MOST_LINES - 1 :]
+    ids = tuple(dict.fromkeys(row for one in rest for row in one.rows))
+    more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
+    return (*kept, more)
+
+
+def _rank(group: Sequence[_Point]) -> tuple[int, float]:
+    """Order of lines: by the worst verdict, then by the largest utilisation."""
+    worst = min(SEVERITY.index(one.check.verdict) for one in group)
+    return worst, -max(one.check.used or 0.0 for one in group)
+
+
+def _list_points(row: RowStudy) -> Iterator[_Point]:
+    """Open points of the checks of a row that do not pass.
+
+    One of each that fails, or whose interval spans the limit.
+    """
+    for check in row.checks:
+        is_spanning = check.verdict is Verdict.NOT_PROVEN and not check.open
+        if check.verdict is Verdict.FAIL or is_spanning:
+            key = ("fails", check.member, check.resistance_type)
+            yield _Point(who="office", key=key, row=row.id, check=check, point=None)
+        elif check.verdict is not Verdict.PASS:
+            yield from _list_open(row.id, check)
+
+
+def _list_open(row: str, check: Check) -> Iterator[_Point]:
+    who = _OF_MODE.get(check.mode, "office")
+    proofs = [one for one in check.open if one.proof is not None]
+    for point in proofs or check.open:
+        key: tuple[str, ...]
+        if point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
+            key = ("needs", check.resistance_type or check.member, check.mode)
+            named = who if check.resistance_type else "office"
+            yield _Point(who=named, key=key, row=row, check=check, point=point)
+        elif point.proof is not None:
+            key = ("proof", str(point.proof.document))
+            yield _Point(who=who, key=key, row=row, check=check, point=point)
+        else:
+            asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
+            named = "office" if asked else who
+            key = ("open", str(point.message))
+            yield _Point(who=named, key=key, row=row, check=check, point=point)
+
+
+def _sum_up(group: Sequence[_Point]) -> ToDo:
+    """Line of some points of one key: its number is that of the worst check."""
+    worst = max(group, key=lambda one: (one.check.used or 0.0, _find_demand(one)))
+    return ToDo(
+        who=worst.who,
+        text=_describe(worst, group),
+        rows=tuple(dict.fromkeys(one.row for one in group)),
+    )
+
+
+def _find_demand(one: _Point) -> float:
+    return one.check.read_band("E_d")[1] or 0.0
+
+
+def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
+    check, kind = worst.check, worst.key[0]
+    title = name_check(check.member, check.mode)
+    if kind == "fails" and check.verdict is Verdict.FAIL:
+        return _describe_failed(check, title)
+    if kind == "needs":
+        return _describe_needed(check)
+    if kind == "proof":
+        checks, proof = _name_checks(one.check for one in group), worst.key[1]
+        return say("to_do.proof", checks=checks, proof=proof)
+    if worst.point is None:
+        return say("to_do.spans", check=title)
+    checks = _name_checks(one.check for one in group)
+    return say("to_do.open", checks=checks, reason=worst.point.message)
+
+
+def _describe_failed(check: Check, title: Message) -> Message:
+    """Force beside resistance, and the type that does, where one is known."""
+    demand, resistance = check.read_band("E_d")[1], check.resistance_kN
+    if demand is None or resistance is None:
+        return say("to_do.open", checks=(title,), reason=check.reason)
+    told = say("to_do.fails", check=title, demand=demand, resistance=resistance)
+    other = next((one for one in check.changes if one.sense == "has"), None)
+    return say("to_do.with_type", what=told, type=other.quantity) if other else told
+
+
+def _describe_needed(check: Check) -> Message:
+    """Least characteristic resistance of a type, or of a member without one."""
+    needed = _find_needed(check.changes)
+    what = name_mode(check.mode)
+    of = check.resistance_type
+    named = as_given(of) if of else name_member(check.member)
+    if needed is None:
+        return say("to_do.state", what=what, of=named)
+    return say("to_do.needs", what=what, of=named, least=needed)
+
+
+def _find_needed(changes: Iterable[Change]) -> float | None:
+    """Least characteristic resistance with which a check passes [kN]."""
+    wanted = (one for one in changes if one.unit == "kN" and one.sense == "at least")
+    return next((one.bound for one in wanted), None)
+
+
+_FEW = 2  # checks that a line names
+
+
+def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
+    """Titles of the first checks of a line, each once, and how many more there are."""
+    titles = list(dict.fromkeys(name_check(one.member, one.mode) for one in checks))
+    if len(titles) <= _FEW + 1:
+        return tuple(titles)
+    return (*titles[:_FEW], say("to_do.more_checks", count=len(titles) - _FEW))
+
+
+def _list_unmet(study: Study) -> dict[Message, list[str]]:
+    """Laws that the drawn cases do not obey, with their rows."""
+    found: dict[Message, list[str]] = {}
+    for row in study.rows:
+        for reason in row.unmet:
+            found.setdefault(reason, []).append(row.id)
+    return found
