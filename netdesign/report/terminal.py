@@ -37,6 +37,7 @@ from netdesign.study.governing import SEVERITY, find_governing, rank_check
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.to_do import WHO, list_to_do
 from netdesign.words.catalogue import Language
+from netdesign.words.names import name
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -183,14 +184,14 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
 def _list_to_do(study: Study, words: Words) -> Iterator[str]:
     """What is to be done, by who has it: his name before his first line."""
     lines = list_to_do(study)
-    names = {who: words(f"to_do.{who}") for who in WHO}
+    names = {who: words.show(name("who", who)) for who in WHO}
     width = max((len(names[one.who]) for one in lines), default=0)
     for who in WHO:
-        name = names[who]
+        named = names[who]
         for one in lines:
             if one.who == who:
-                yield f"{name:{width}}  {show_line(one, study, words)}"
-                name = ""
+                yield f"{named:{width}}  {show_line(one, study, words)}"
+                named = ""
 
 
 def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
