@@ -7,15 +7,17 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from netdesign.checks import Approval, Declaration, GivenResistance
+from netdesign.checks import Approval, Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.outcome import require_positive, require_within
-from netdesign.panel.inputs import Ends, Panel
-from netdesign.resistance.post import BasePlate, PostSection
-from netdesign.resistance.pull_out import Bond
-from netdesign.resistance.steel import Link, Wear
+from netdesign.panel.inputs import Panel
+from netdesign.resistance.steel import Link
 from netdesign.resistance.wedge import AnchorType
+from netdesign.site.assumed import Assumed
+from netdesign.site.bearing import Resistance as Resistance
+from netdesign.site.bearing import RowEnd as RowEnd
+from netdesign.site.bearing import name_column
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -29,7 +31,7 @@ from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
-from netdesign.structure.splay import EndGuy, Guys
+from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, Text, say
 
 if TYPE_CHECKING:
@@ -41,91 +43,6 @@ _GLIDE = frozenset(("slip_length", "glide_factor"))
 _OF_ROW = _GLIDE | {
     *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Resistance(GivenResistance):
-    """Characteristic resistance of one member in one mode.
-
-    ``value`` is None where the workbook gives none, and where it follows the demand,
-    from ``dimensions``: of a base that slides, its coefficient of friction [-].
-    """
-
-    member: Member | EndMember | NetPart
-    derivation: Message | None = None  # how it follows from dimensions
-    dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
-    buckling_length: float | None = None  # of a post, with which it was computed [m]
-    drilled_length: float | None = None  # of an anchor, where given [m]
-    flattest_test: float | None = None  # dip of the flattest bore that was tested [rad]
-    ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
-    wear: Wear | None = None  # of steel that corrodes
-    # told where what is assumed decides: between value and best, or without a best
-    doubt: Message | None = None
-    bond: Bond | None = None  # that a pull-out resistance was worked out from
-    proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
-
-
-def _name_column(key: str) -> Message:
-    """Name of a column, with its sheet unless it is that of the net rows."""
-    sheet = key.partition(".")[0]
-    named = say(f"column.{key}")
-    if sheet == "Nets":
-        return named
-    return say("check.on_sheet", name=named, sheet=say(f"sheet.{sheet}"))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowEnd:
-    """Members that hold a row of panels along itself, at its end.
-
-    Attributes
-    ----------
-    guy_angle : float or None
-        Between the end guy and the row [rad]; None where none is given.
-    guy_from_base : float or None
-        Of the end guy's anchor, as `EndGuy` has it [m].
-    stiffnesses : tuple of tuple of float, shape (4, 2)
-        Least and largest EA of uphill and downhill guys, end guy and post there [N].
-    ropes_slide : bool
-        The border ropes slide at the supports; not where nobody says so.
-    lateral_distance, lateral_axis : float or None
-        Of the lateral anchor from the foot anchor [m], and its inclination against the
-        slope [rad]; None where none is given.
-    resistances : tuple of Resistance
-        Of all ``END_MODES``, given or not, and what follows the demand.
-    anchors : tuple of (EndMember, AnchorType)
-        Those that have a type.
-    """
-
-    guy_angle: float | None
-    guy_from_base: float | None = None
-    stiffnesses: tuple[Ends, ...] = ()
-    ropes_slide: bool = False
-    lateral_distance: float | None = None
-    lateral_axis: float | None = None
-    resistances: tuple[Resistance, ...]
-    anchors: tuple[tuple[EndMember, AnchorType], ...] = ()
-
-    @property
-    def guy(self) -> EndGuy | None:
-        """End guy in space; None where its angle is not given."""
-        if self.guy_angle is None:
-            return None
-        return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
-
-    def list_unsaid_places(self) -> tuple[Message, ...]:
-        """Names of what is not given of the places of its anchors."""
-        said = {
-            "lateral_distance": self.lateral_distance,
-            "lateral_axis": self.lateral_axis,
-            "end_guy_angle": self.guy_angle,
-        }
-        lacking = (key for key, value in said.items() if value is None)
-        return tuple(_name_column(f"Ends.{key}") for key in lacking)
-
-    def find_anchor_type(self, anchor: str) -> AnchorType | None:
-        """What one of its anchors is; None where its type is not given."""
-        return next((kind for one, kind in self.anchors if one == anchor), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -199,6 +116,7 @@ class NetRow:
     panel_lack: Message | None = None
     # columns left empty that every force depends on: nothing is proven
     unsaid: tuple[Message, ...] = field(default=(), hash=False)
+    assumed: tuple[Assumed, ...] = field(default=(), hash=False)  # of empty columns
     # numbers that can hardly be meant, on which it rests: it is not proven
     questions: tuple[Message, ...] = field(default=(), hash=False)
     approval: Approval | None = None  # of its net type
@@ -213,6 +131,10 @@ class NetRow:
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    def find_assumed(self, key: str) -> Assumed | None:
+        """What is assumed of an empty column; None where it is given."""
+        return next((one for one in self.assumed if one.key == key), None)
 
     def find_axis(self, anchor: str) -> float | None:
         """Given inclination of an anchor's axis [rad]."""
@@ -255,13 +177,13 @@ class NetRow:
                 "Anchors.least_cover": 1.0 if kind.soil else kind.least_cover,
                 "Anchors.least_edge": kind.least_edge,
             }
-        return tuple(_name_column(key) for key, value in said.items() if not value)
+        return tuple(name_column(key) for key, value in said.items() if not value)
 
     def list_unsaid_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Name of an anchor's drilled length, where nobody gives it."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None
-        return () if is_said else (_name_column("Anchors.drilled_length"),)
+        return () if is_said else (name_column("Anchors.drilled_length"),)
 
     def list_unsaid_wear(self, given: Resistance) -> tuple[Message, ...]:
         """Names of what is not given of the corrosion of a member's steel."""
@@ -277,7 +199,7 @@ class NetRow:
             said |= {"Anchors.soil": wear.soil, "Anchors.bar_diameter": is_known}
         elif wear.protection or sheet == "Ropes":
             said[f"{sheet}.protected_years"] = wear.protected_years
-        return tuple(_name_column(key) for key, value in said.items() if not value)
+        return tuple(name_column(key) for key, value in said.items() if not value)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""

@@ -26,6 +26,7 @@ FAMILIES: tuple[str, ...] = (
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
     *("scope.", "todo.", "who.", "quantities.", "loads.", "why_more.", "diff_part."),
     "beside.",
+    *("assumed_word.", "assumed_source.", "assumed_effect."),
     *(
         "floor.profile_",
         "route.",

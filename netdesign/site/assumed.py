@@ -1,0 +1,144 @@
+"""What is assumed of a site where its workbook says nothing.
+
+Ranges of what is built and of what nature has, and single values, from
+``standards/assumed.toml``: one file for all limit profiles.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Literal
+
+from netdesign.edge.given_files import find_resource
+from netdesign.site.columns.fields import from_si, to_si
+from netdesign.words.message import Message, say
+
+# How an assumed range counts: among the cases that are solved, at its ends with the
+# same cases, or as the one value that it is.
+Kind = Literal["searched", "statics", "fixed"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assumed:
+    """Range or value of what a net row leaves empty.
+
+    Attributes
+    ----------
+    key : str
+        Name in ``assumed.toml``: that of the column without its sheet.
+    column : str
+        Sheet and key of the column: ``Nets.slack``.
+    kind : str
+        ``searched``, ``statics`` or ``fixed``.
+    low, high : float
+        Ends of the range in SI units; equal where one value is assumed, 0 where it is
+        a word.
+    unit : str
+        Of the column; "" of a number that has none, and of a word.
+    times : str
+        What the numbers of the file are multiplied with, and these are already.
+    word : str
+        Name of the text of what is assumed, where no number says it.
+    source, effect : str
+        Names of the texts of where the range comes from, and what it does.
+    """
+
+    key: str
+    column: str
+    kind: Kind
+    low: float = 0.0
+    high: float = 0.0
+    unit: str = ""
+    times: str = ""
+    word: str = ""
+    source: str
+    effect: str
+
+    @property
+    def is_range(self) -> bool:
+        """More than one value is assumed."""
+        return self.low < self.high
+
+    @property
+    def name(self) -> Message:
+        """Name of the column in words."""
+        return say(f"column.{self.column}")
+
+    @property
+    def shown(self) -> tuple[float, float]:
+        """Ends of the range in its unit, for people."""
+        return from_si(self.low, self.unit), from_si(self.high, self.unit)
+
+    @property
+    def text(self) -> Message:
+        """What is assumed, as a report has it: range, value or word."""
+        low, high = self.shown
+        if self.word:
+            return say(f"assumed_word.{self.word}", value=low)
+        if self.low == self.high:
+            return say("assumed.value", value=low, unit=self._unit)
+        return say("assumed.range", low=low, high=high, unit=self._unit)
+
+    @property
+    def why(self) -> Message:
+        """Where the range comes from."""
+        return say(f"assumed_source.{self.source}")
+
+    @property
+    def what_it_does(self) -> Message:
+        """Effect on the forces."""
+        return say(f"assumed_effect.{self.effect}")
+
+    @property
+    def _unit(self) -> str:
+        return _SIGNS.get(self.unit, f" {self.unit}")
+
+
+_SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
+
+
+@lru_cache(maxsize=1)
+def load_assumed() -> Mapping[str, Assumed]:
+    """What may be assumed, by key, in the order of the file.
+
+    Where it is a multiple, its numbers are those of the factor 1.
+    """
+    file = find_resource("standards") / "assumed.toml"
+    tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    return MappingProxyType({key: _build(key, one) for key, one in tables.items()})
+
+
+def assume(key: str, factor: float = 1.0) -> Assumed:
+    """Range or value of an empty column.
+
+    Parameters
+    ----------
+    key : str
+        Name in ``assumed.toml``.
+    factor : float
+        What its numbers are multiplied with, in SI units: D_K of a distance [m].
+    """
+    table = load_assumed()[key]
+    if factor == 1.0:
+        return table
+    return replace(table, low=factor * table.low, high=factor * table.high)
+
+
+def assume_ends(key: str, low: float, high: float) -> Assumed:
+    """Range of an empty column with ends of the row's own, in SI units."""
+    return replace(load_assumed()[key], low=low, high=high)
+
+
+def _build(key: str, table: dict[str, object]) -> Assumed:
+    values = dict(table)
+    values["column"] = values.pop("id")
+    # a multiple has the unit of what it is multiplied with
+    unit = "" if "times" in values else str(values.get("unit", ""))
+    for end in ("low", "high"):
+        if end in values:
+            values[end] = to_si(float(values[end]), unit)  # type: ignore[arg-type]
+    return Assumed(**{**values, "key": key})  # type: ignore[arg-type]

@@ -1,0 +1,100 @@
+"""What bears the forces of a net row: resistances, and members at its end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from netdesign.checks import GivenResistance
+from netdesign.panel.inputs import Ends
+from netdesign.resistance.post import BasePlate, PostSection
+from netdesign.resistance.pull_out import Bond
+from netdesign.resistance.steel import Link, Wear
+from netdesign.resistance.wedge import AnchorType
+from netdesign.structure.members import EndMember, Member, NetPart
+from netdesign.structure.splay import EndGuy
+from netdesign.words.message import Message, say
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resistance(GivenResistance):
+    """Characteristic resistance of one member in one mode.
+
+    ``value`` is None where the workbook gives none, and where it follows the demand,
+    from ``dimensions``: of a base that slides, its coefficient of friction [-].
+    """
+
+    member: Member | EndMember | NetPart
+    derivation: Message | None = None  # how it follows from dimensions
+    dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
+    buckling_length: float | None = None  # of a post, with which it was computed [m]
+    drilled_length: float | None = None  # of an anchor, where given [m]
+    flattest_test: float | None = None  # dip of the flattest bore that was tested [rad]
+    ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
+    wear: Wear | None = None  # of steel that corrodes
+    # told where what is assumed decides: between value and best, or without a best
+    doubt: Message | None = None
+    bond: Bond | None = None  # that a pull-out resistance was worked out from
+    proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
+
+
+def name_column(key: str) -> Message:
+    """Name of a column, with its sheet unless it is that of the net rows."""
+    sheet = key.partition(".")[0]
+    named = say(f"column.{key}")
+    if sheet == "Nets":
+        return named
+    return say("check.on_sheet", name=named, sheet=say(f"sheet.{sheet}"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEnd:
+    """Members that hold a row of panels along itself, at its end.
+
+    Attributes
+    ----------
+    guy_angle : float or None
+        Between the end guy and the row [rad]; None where none is given.
+    guy_from_base : float or None
+        Of the end guy's anchor, as `EndGuy` has it [m].
+    stiffnesses : tuple of tuple of float, shape (4, 2)
+        Least and largest EA of uphill and downhill guys, end guy and post there [N].
+    ropes_slide : bool
+        The border ropes slide at the supports; not where nobody says so.
+    lateral_distance, lateral_axis : float or None
+        Of the lateral anchor from the foot anchor [m], and its inclination against the
+        slope [rad]; None where none is given.
+    resistances : tuple of Resistance
+        Of all ``END_MODES``, given or not, and what follows the demand.
+    anchors : tuple of (EndMember, AnchorType)
+        Those that have a type.
+    """
+
+    guy_angle: float | None
+    guy_from_base: float | None = None
+    stiffnesses: tuple[Ends, ...] = ()
+    ropes_slide: bool = False
+    lateral_distance: float | None = None
+    lateral_axis: float | None = None
+    resistances: tuple[Resistance, ...]
+    anchors: tuple[tuple[EndMember, AnchorType], ...] = ()
+
+    @property
+    def guy(self) -> EndGuy | None:
+        """End guy in space; None where its angle is not given."""
+        if self.guy_angle is None:
+            return None
+        return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
+
+    def list_unsaid_places(self) -> tuple[Message, ...]:
+        """Names of what is not given of the places of its anchors."""
+        said = {
+            "lateral_distance": self.lateral_distance,
+            "lateral_axis": self.lateral_axis,
+            "end_guy_angle": self.guy_angle,
+        }
+        lacking = (key for key, value in said.items() if value is None)
+        return tuple(name_column(f"Ends.{key}") for key in lacking)
+
+    def find_anchor_type(self, anchor: str) -> AnchorType | None:
+        """What one of its anchors is; None where its type is not given."""
+        return next((kind for one, kind in self.anchors if one == anchor), None)
