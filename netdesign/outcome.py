@@ -61,6 +61,10 @@ class Verdict(StrEnum):
     DECLARED = "declared"  # somebody says that it is proven elsewhere: never a pass
 
 
+# Worst first.
+SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+
+
 def merge_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
     """Verdict of a whole from the verdicts of its parts.
 

@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 from netdesign.calculation.steps import Step
 from netdesign.checks.result import Proof
 from netdesign.edge.json_text import Items
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.words.message import Message, Text, say
 from netdesign.words.names import name
 
@@ -263,6 +263,11 @@ class Check:
     def verdict(self) -> Verdict:
         """By the whole interval and all that is open."""
         return merge_open(self._met, self.open)
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Place in an order: worst verdict first, then the largest utilisation."""
+        return SEVERITY.index(self.verdict), 1.0 if self.used is None else -self.used
 
     def has_open(self, *kinds: OpenKind) -> bool:
         """Some open point is of one of these kinds."""

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
@@ -33,7 +33,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.governing import SEVERITY, find_governing, rank_check
+from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.to_do import WHO, list_to_do
 from netdesign.words.catalogue import Language
@@ -226,7 +226,7 @@ def _explain(study: Study, words: Words) -> Iterator[str]:
         [
             (row.id, check)
             for row in study.rows
-            for check in sorted(row.checks, key=rank_check)
+            for check in sorted(row.checks, key=lambda one: one.rank)
         ],
         words,
     )

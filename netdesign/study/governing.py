@@ -11,18 +11,10 @@ from netdesign.study.case_records import CaseRecord
 from netdesign.study.records import RowStudy
 from netdesign.study.remedies import CLOSE
 
-# Worst first.
-SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
-
 
 def find_governing(checks: Sequence[Check]) -> Check | None:
     """Check that decides the verdict: the worst verdict, then the largest ratio."""
-    return min(checks, key=rank_check, default=None)
-
-
-def rank_check(check: Check) -> tuple[int, float]:
-    """Sort key: worst verdict first, then the largest utilisation."""
-    return SEVERITY.index(check.verdict), -_ratio(check)
+    return min(checks, key=lambda check: check.rank, default=None)
 
 
 def _ratio(check: Check) -> float:

@@ -31,6 +31,7 @@ from netdesign.study.case_records import (
     LargestForce,
 )
 from netdesign.study.parts import PartRecord
+from netdesign.study.scopes import Scope, ScopeRecord, sum_up_row, sum_up_study
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -153,7 +154,7 @@ class RowStudy:
     """Everything about one net row."""
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
-    WRITTEN: ClassVar = ("verdict",)
+    WRITTEN: ClassVar = ("verdict", "scopes")
 
     id: str
     checks: Items[Check]
@@ -185,6 +186,11 @@ class RowStudy:
         """Of all its checks; a law that is not met leaves it unproven."""
         unmet = [Verdict.NOT_PROVEN for _ in self.unmet]
         return merge_verdicts([*(check.verdict for check in self.checks), *unmet])
+
+    @cached_property
+    def scopes(self) -> dict[Scope, ScopeRecord]:
+        """Verdicts of anchors, structure and siting, each of its own checks alone."""
+        return sum_up_row(self.checks, has_unmet=bool(self.unmet))
 
     @property
     def unmet(self) -> list[Message]:
@@ -273,7 +279,7 @@ class Study:
         "allow_inf_nan": False,
     }
 
-    WRITTEN: ClassVar = ("verdict",)
+    WRITTEN: ClassVar = ("verdict", "scopes")
 
     schema: Literal["netdesign.study/4"]
     what_if: Items[ReplacedCell] = field(default_factory=list)  # of no site as built
@@ -291,6 +297,12 @@ class Study:
         """Of all its net rows; those that were left out are not proven."""
         missing = [Verdict.NOT_PROVEN] if self.left_out else []
         return merge_verdicts([*(row.verdict for row in self.rows), *missing])
+
+    @cached_property
+    def scopes(self) -> dict[Scope, ScopeRecord]:
+        """Verdicts of anchors, structure and siting of all net rows."""
+        of_rows = {row.id: row.scopes for row in self.rows}
+        return sum_up_study(of_rows, is_part=bool(self.left_out))
 
     @cached_property
     def written(self) -> JsonPart:

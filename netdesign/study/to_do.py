@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from netdesign.checks.check import Change, Check, Open, OpenKind
-from netdesign.outcome import Verdict
-from netdesign.study.governing import SEVERITY
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name_check, name_member, name_mode

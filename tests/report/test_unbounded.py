@@ -21,7 +21,6 @@ from netdesign.study.governing import (
     find_governing,
     find_highest,
     find_worst,
-    rank_check,
 )
 from netdesign.words.catalogue import LANGUAGES
 from tests.checks.given_pulls import POST, study_row
@@ -86,7 +85,7 @@ def test_governing_check_of_a_failing_row_is_used_as_much_as_any_that_fails():
             most = max(-1.0 if one.used is None else one.used for one in failing)
             assert (-1.0 if governing.used is None else governing.used) == most
         if any(one.is_unbounded for one in checks):
-            assert sorted(checks, key=rank_check)[0].is_unbounded
+            assert sorted(checks, key=lambda one: one.rank)[0].is_unbounded
             assert find_highest(checks).is_unbounded
             assert find_worst(checks).is_unbounded
 

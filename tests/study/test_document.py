@@ -213,10 +213,13 @@ def test_numbers_are_written_in_full(document):
 
 
 def test_keys_stand_in_the_order_of_the_fields(document):
-    assert list(document) == [*(one.name for one in fields(Study)), "verdict"]
+    assert list(document) == [
+        *(one.name for one in fields(Study)),
+        *Study.WRITTEN,
+    ]
     of_row = [field.name for field in fields(RowStudy)]
     assert of_row.pop() == "reliability"  # not there unless somebody asks for it
-    assert list(document["rows"][0]) == [*of_row, "verdict"]
+    assert list(document["rows"][0]) == [*of_row, *RowStudy.WRITTEN]
     assert document["schema"] == "netdesign.study/4"
     assert document["verdict"] == "not_proven"
 

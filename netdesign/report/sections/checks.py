@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks.check import Change, Check
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.blocks import (
     Badge,
     Block,
@@ -26,10 +26,8 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.study.governing import (
-    SEVERITY,
     find_governing,
     is_far_from_limit,
-    rank_check,
 )
 from netdesign.study.records import RowStudy
 from netdesign.words.message import Message, say
@@ -275,7 +273,7 @@ def part_lines(
 
 
 def _rank_line(line: CheckLine) -> tuple[int, float]:
-    return min(rank_check(one) for one in line.checks)
+    return min(one.rank for one in line.checks)
 
 
 def _name_resistance(check: Check) -> tuple[object, ...]:

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 
 from netdesign.checks.check import Check
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.blocks import (
     HIDDEN,
     Badge,
@@ -61,7 +61,7 @@ from netdesign.report.words import (
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
-from netdesign.study.governing import SEVERITY, find_governing
+from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.to_do import ToDo
 from netdesign.words.message import Message

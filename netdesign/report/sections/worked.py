@@ -35,7 +35,6 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
-from netdesign.study.governing import rank_check
 from netdesign.study.records import Study
 from netdesign.words.names import name_mode
 
@@ -135,7 +134,7 @@ def _choose(study: Study, *, is_of_force: bool) -> list[_OfRow]:
             if check.is_of_force is is_of_force:
                 kinds.setdefault(_name_kind(check), []).append((row.id, check))
     return [
-        min(every, key=lambda one: (one[1].used is None, *rank_check(one[1])))
+        min(every, key=lambda one: (one[1].used is None, *one[1].rank))
         for every in kinds.values()
     ]
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Proof
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
@@ -14,7 +14,6 @@ from netdesign.report.sections.decision import (
     name_verification,
 )
 from netdesign.report.words import ENGLISH, VERDICTS, Words
-from netdesign.study.governing import SEVERITY
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import as_given, build_study

@@ -1,0 +1,174 @@
+"""Three questions of a net row, each with a verdict of its own.
+
+Anchors in the office's ground; the structure, which a maker sells; the place where it
+stands. Every check belongs to one of them; what bears on all belongs to each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import ClassVar
+
+from netdesign.checks.check import Check
+from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
+from netdesign.structure.members import EndMember, Member, NetPart
+from netdesign.words.message import Message
+
+
+class Scope(StrEnum):
+    """What is asked of a net row."""
+
+    ANCHORS = "anchors"
+    STRUCTURE = "structure"
+    SITING = "siting"
+
+
+Scopes = frozenset[Scope]
+SCOPES = tuple(Scope)
+_ANCHORS, _STRUCTURE, _SITING = (frozenset((one,)) for one in SCOPES)
+_FORCES, _ALL = _ANCHORS | _STRUCTURE, frozenset(SCOPES)
+
+# Scope of a check: by its id, else by its mode, else by its member.
+_BY_ID: Mapping[str, Scopes] = {
+    "geometry.anchors": _ANCHORS,
+    "geometry.cover": _ANCHORS,
+    "geometry.ends": _FORCES,
+    "profile.named": _ALL,
+}
+_BY_MODE: Mapping[str, Scopes] = {"connection": _STRUCTURE}
+_BY_MEMBER: Mapping[str, Scopes] = {
+    Member.NET: _SITING,
+    **dict.fromkeys(
+        (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR), _ANCHORS
+    ),
+    **dict.fromkeys((EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR), _ANCHORS),
+    **dict.fromkeys((Member.UPHILL_GUY, Member.DOWNHILL_GUY), _STRUCTURE),
+    **dict.fromkeys((Member.POST, Member.POST_BASE, Member.POST_FOOT), _STRUCTURE),
+    **dict.fromkeys((EndMember.END_GUY, *NetPart), _STRUCTURE),
+}
+# Sheets and columns of numbers of which no force depends.
+_ASKED_OF: Mapping[str, Scopes] = {
+    "column.Anchors.": _ANCHORS,
+    "column.Tests.": _ANCHORS,
+    "column.Links.": _STRUCTURE,
+    "column.Nets.mesh_strength": _STRUCTURE,
+    "column.Posts.bearing": _STRUCTURE,
+    "column.Posts.compression": _STRUCTURE,
+    "column.Posts.efficiency": _STRUCTURE,
+    "column.Posts.plate_": _STRUCTURE,
+}
+_PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be meant
+
+
+def find_scopes(check: Check) -> Scopes:
+    """Scopes that a check belongs to: one, or all that it bears on.
+
+    Raises
+    ------
+    KeyError
+        If nobody said where its member belongs: a fault of the program.
+    """
+    if check.id == _PLAUSIBLE:
+        asked = (_find_asked(point.message) for point in check.open)
+        return frozenset().union(*asked)
+    found = _BY_ID.get(check.id) or _BY_MODE.get(check.mode)
+    return found or _BY_MEMBER[check.member]
+
+
+def _find_asked(question: Message) -> Scopes:
+    """Scopes that the number of a question bears on; all that is not listed."""
+    field = question.arguments.get("field")
+    key = field.key if isinstance(field, Message) else ""
+    found = (of for begin, of in _ASKED_OF.items() if key.startswith(begin))
+    return next(found, _ALL)
+
+
+def list_of_scope(checks: Iterable[Check], scope: Scope) -> list[Check]:
+    """Checks of one scope, in their order."""
+    return [one for one in checks if scope in find_scopes(one)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScopeRecord:
+    """Verdict of one scope, of a row or of all rows.
+
+    Attributes
+    ----------
+    verdict : Verdict
+        Of its own checks alone.
+    utilisation : float or None
+        Of the governing check [-]; None where it has none.
+    governing : str
+        Id of the check that decides; "" without any.
+    assumed : int
+        Values that nobody gave and that it was searched over.
+    row : str or None
+        Net row of the governing check; None in the record of a row.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("row",)
+
+    verdict: Verdict
+    utilisation: float | None
+    governing: str
+    assumed: int = 0
+    row: str | None = None
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Place in an order: worst verdict first, then the largest utilisation."""
+        return SEVERITY.index(self.verdict), -(self.utilisation or -1.0)
+
+
+def sum_up_study(
+    rows: Mapping[str, Mapping[Scope, ScopeRecord]], *, is_part: bool = False
+) -> dict[Scope, ScopeRecord]:
+    """Verdict of each scope of all rows, by their ids, with the row that decides.
+
+    Of a part of a site nothing is proven.
+    """
+    found = {}
+    for scope in SCOPES:
+        of_rows = {row: scopes[scope] for row, scopes in rows.items()}
+        more = [Verdict.NOT_PROVEN] if is_part else []
+        worst = min(of_rows, key=lambda row: of_rows[row].rank, default="")
+        found[scope] = ScopeRecord(
+            verdict=merge_verdicts([*(one.verdict for one in of_rows.values()), *more]),
+            utilisation=of_rows[worst].utilisation if worst else None,
+            governing=of_rows[worst].governing if worst else "",
+            assumed=max((one.assumed for one in of_rows.values()), default=0),
+            row=worst,
+        )
+    return found
+
+
+def sum_up_row(
+    checks: Sequence[Check], *, has_unmet: bool = False, assumed: int = 0
+) -> dict[Scope, ScopeRecord]:
+    """Verdict of each scope of a row.
+
+    ``has_unmet`` says that its drawn case does not obey a law, so that no force is
+    proven; ``assumed`` counts the values that its forces were searched over.
+    """
+    return {
+        scope: _sum_up(
+            list_of_scope(checks, scope),
+            [Verdict.NOT_PROVEN] if has_unmet and scope in _FORCES else [],
+            assumed if scope in _FORCES else 0,
+        )
+        for scope in SCOPES
+    }
+
+
+def _sum_up(
+    checks: Sequence[Check], others: Sequence[Verdict], assumed: int
+) -> ScopeRecord:
+    governing = min(checks, key=lambda one: one.rank, default=None)
+    return ScopeRecord(
+        verdict=merge_verdicts([*(one.verdict for one in checks), *others]),
+        utilisation=governing.utilisation if governing else None,
+        governing=governing.id if governing else "",
+        assumed=assumed,
+    )

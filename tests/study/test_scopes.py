@@ -1,0 +1,72 @@
+"""Anchors, structure, siting: each check in its scope, each verdict of its own."""
+
+import random
+from dataclasses import replace
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
+from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.study.scopes import SCOPES, Scope, find_scopes, list_of_scope, sum_up_row
+from tests.report.build_study import build_study
+from tests.turn import turn
+
+STUDY = build_study()
+CHECKS = STUDY.rows[0].checks
+VERDICTS = st.lists(
+    st.sampled_from([*Verdict]), min_size=len(CHECKS), max_size=len(CHECKS)
+)
+
+
+def name_one(member, mode):
+    subject = "geometry" if member == "net" else member
+    return replace(CHECKS[0], id=f"{subject}.{mode}", member=member, mode=mode)
+
+
+def test_every_check_that_there_is_belongs_to_a_scope():
+    found = {
+        (member, mode): find_scopes(name_one(member, mode))
+        for member, mode in DECLARABLE
+    }
+    assert all(found.values())
+    assert found["uphill_anchor", "wedge"] == {Scope.ANCHORS}
+    assert found["end_guy_anchor", "connection"] == {Scope.STRUCTURE}
+    assert found["post", "lateral"] == {Scope.STRUCTURE}
+    assert found["net", "cover"] == {Scope.ANCHORS}
+    assert found["net", "gap"] == {Scope.SITING}
+    # whose ends are not known has neither anchors nor structure
+    assert found["net", "ends"] == {Scope.ANCHORS, Scope.STRUCTURE}
+
+
+@given(VERDICTS, VERDICTS, st.sampled_from(SCOPES))
+def test_a_scope_depends_on_its_own_checks_alone(some, others, scope):
+    """Whatever the checks of other scopes are, or whether there are any."""
+    mine = set(map(id, list_of_scope(CHECKS, scope)))
+    pairs = list(zip(CHECKS, some, others, strict=True))
+    first = [turn(one, a) for one, a, _ in pairs]
+    second = [turn(one, a if id(one) in mine else b) for one, a, b in pairs]
+    alone = [turn(one, a) for one, a, _ in pairs if id(one) in mine]
+    found = [sum_up_row(checks)[scope] for checks in (first, second, alone)]
+    assert found[0] == found[1] == found[2]
+
+
+@given(VERDICTS)
+def test_the_row_has_the_worst_verdict_of_its_scopes(verdicts):
+    checks = [turn(*pair) for pair in zip(CHECKS, verdicts, strict=True)]
+    row = replace(STUDY.rows[0], checks=checks, independent=[])
+    of_scopes = [one.verdict for one in row.scopes.values()]
+    if all(list_of_scope(checks, one) for one in SCOPES):
+        assert row.verdict is min(of_scopes, key=SEVERITY.index)
+    assert merge_verdicts(of_scopes) in (row.verdict, Verdict.NOT_PROVEN)
+
+
+def test_a_scope_names_the_check_that_decides():
+    checks = list(CHECKS)
+    random.Random(62).shuffle(checks)
+    for scope, record in sum_up_row(checks).items():
+        worst = min(
+            list_of_scope(checks, scope), key=lambda one: one.rank, default=None
+        )
+        assert record.governing == (worst.id if worst else "")
+        assert record.utilisation == (worst.utilisation if worst else None)
