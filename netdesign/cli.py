@@ -72,7 +72,7 @@ def _load_command(name: str, place: str) -> click.Command:
 
 _OWN_MODULES = (
     *("check", "completion", "doctor", "envelope", "glide", "report"),
-    *("solve", "standards"),
+    *("solve", "standards", "table"),
 )
 _COMMANDS = CommandTable(
     {
@@ -103,6 +103,7 @@ def cli() -> None:
     netdesign check --example          a first look
     netdesign init site.xlsx           an input workbook to fill in
     netdesign map site.xlsx            what the headings of your own workbook mean
+    netdesign table site.xlsx          the guideline's forces on every anchor, at once
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     netdesign diff old.json new.json   what changed between two studies
     """

@@ -140,7 +140,10 @@ THIRD_PARTY = {
     "pandas": ("study.records",),
     "rapidfuzz": ("site.questions",),
     "click": ("cli", "commands.*", "addons.*command"),
-    "rich": ("edge.progress", "report.terminal", "addons.evidence.*"),
+    "rich": (
+        *("edge.progress", "report.terminal", "report.anchor_table"),
+        "addons.evidence.*",
+    ),
 }
 
 # Slow to import: only inside functions, so that help is there at once.

@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from tests.tiny_site import write_site
+
 HEAVY = (
     *("numpy", "scipy", "skfem", "pandas", "matplotlib", "openpyxl", "xlsxwriter"),
     *("jinja2", "pydantic", "rich", "rasterio", "pyogrio", "ezdxf"),
@@ -61,6 +63,7 @@ def imported(*arguments, cwd, whole=False, code=0):
         ["solve", "--help"],
         ["report", "--help"],
         ["standards", "--help"],
+        ["table", "--help"],
         ["terrain", "--help"],
         ["diff", "--help"],
         ["doctor", "--help"],
@@ -87,6 +90,14 @@ def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
     assert not modules & unused
     own = [name for name in modules if name.startswith("netdesign")]
     assert len(own) <= MOST_OWN_MODULES
+
+
+def test_a_table_needs_no_solver(tmp_path):
+    """A second of processor time for eight rows: no more than reading and a table."""
+    write_site(tmp_path / "site.xlsx")
+    modules = imported("table", "site.xlsx", cwd=tmp_path)
+    assert "rich" in modules
+    assert not modules & {"scipy", "skfem", "pandas", "jinja2", "xlsxwriter"}
 
 
 def test_a_faulty_site_is_refused_without_a_solver(tmp_path):

@@ -62,7 +62,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.study.check_run import CheckRun
 
-    profiles = _find_profiles(asked["standards"], site)
+    profiles = find_profiles(asked["standards"], site)
     if asked["floor"]:
         profiles = [one.overrule_floor(asked["floor"]) for one in profiles]
     _describe_other_profile(asked["standards"], site)
@@ -114,7 +114,7 @@ def _describe_other_profile(names: Sequence[str], site: Site) -> None:
         tell(say("cli.note", text=other), err=True)
 
 
-def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
+def find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
     """Profiles of the command line, else that of the site, else the default."""
     named = site.project.standard
     if names:

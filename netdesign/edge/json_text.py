@@ -162,15 +162,27 @@ def read_json(shape: type, text: str, drop: Drop = lambda _: False) -> Any:
     ValueError
         If it holds too much, is nested too deep, or has a key twice in one object.
     """
+    values = require_few_values(text)
+    # a validator copies the whole document for each key that it misses
+    needed = {one.name for one in fields(shape) if one.default is one.default_factory}
+    text = _inspect(text, drop, needed if values > _SMALL else set())
+    return restore_json(shape, text)
+
+
+def require_few_values(text: str) -> int:
+    """Number of values of a JSON text, about.
+
+    Raises
+    ------
+    ContentError
+        If it holds more than a study of the largest site.
+    """
     values = text.count(",")
     if values > MAX_VALUES or text.count("{") > MAX_OBJECTS:
         raise ContentError(
             say("file.holds_more", values=MAX_VALUES, objects=MAX_OBJECTS)
         )
-    # a validator copies the whole document for each key that it misses
-    needed = {one.name for one in fields(shape) if one.default is one.default_factory}
-    text = _inspect(text, drop, needed if values > _SMALL else set())
-    return restore_json(shape, text)
+    return values
 
 
 def restore_json(shape: type, text: str) -> Any:

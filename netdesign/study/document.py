@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
     join_members,
     read_json,
+    require_few_values,
     restore_json,
     write_part,
 )
@@ -47,9 +49,11 @@ def compute_digest(study: Study) -> str:
 
 def hash_text(text: str) -> str:
     """SHA-256 of a document as it is stored, without its own digest."""
-    document = json.loads(text, parse_int=float)
-    document["digest"] = ""
-    values = json.dumps(document, check_circular=False)
+    return _hash_parsed(json.loads(text, parse_int=float))
+
+
+def _hash_parsed(document: dict[str, Any]) -> str:
+    values = json.dumps({**document, "digest": ""}, check_circular=False)
     return hashlib.sha256(values.encode()).hexdigest()
 
 
@@ -201,3 +205,72 @@ def load_study(path: Path) -> Study:
     except StudyError as error:
         named = say("text.at_place", place=str(path), text=error.message)
         raise StudyError(named) from None
+
+
+# What reading another file than a study may end with.
+_ODD = (
+    *(OSError, ValueError, LookupError, TypeError, AttributeError),
+    RecursionError,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredChecks:
+    """Checks of some members from a stored study, with the site that they are of.
+
+    Attributes
+    ----------
+    site_file, site_sha256 : str
+        Of the site.
+    rows : mapping of str to list of Check
+        By the id of the net row.
+    """
+
+    site_file: str
+    site_sha256: str
+    rows: Mapping[str, list[Check]]
+
+
+def load_checks(path: Path, members: Collection[str]) -> StoredChecks:
+    """Checks of some members from a stored file, in a third of the time of all of it.
+
+    Raises
+    ------
+    StudyError
+        As `load_study` does.
+    """
+    try:
+        text = decode_utf8(read_bounded(path, MAX_JSON_BYTES))
+        require_few_values(text)
+        document = json.loads(text, parse_int=float)
+        if document["schema"] == SCHEMA and document["digest"] == _hash_parsed(
+            document
+        ):
+            return _restore_checks(document, members)
+    except (
+        OSError,
+        ValueError,
+        LookupError,
+        TypeError,
+        AttributeError,
+        RecursionError,
+    ):
+        pass
+    load_study(path)  # it says what is wrong
+    raise StudyError(say("study.unreadable", path=str(path), cause=SCHEMA))
+
+
+def _restore_checks(document: Any, members: Collection[str]) -> StoredChecks:
+    made = document["provenance"]
+    rows = {}
+    for row in document["rows"]:
+        found = [one for one in row["checks"] if one["member"] in members]
+        for one in found:
+            _drop(one, Check.WRITTEN)
+        texts = (json.dumps(one, check_circular=False) for one in found)
+        rows[str(row["id"])] = [restore_json(Check, text) for text in texts]
+    return StoredChecks(
+        site_file=str(made["site_file"]),
+        site_sha256=str(made["site_sha256"]),
+        rows=rows,
+    )

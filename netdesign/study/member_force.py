@@ -277,6 +277,26 @@ def find_force(
     )
 
 
+def find_guideline_force(
+    forces: RowForces, member: str, width: LoadedWidth
+) -> float | None:
+    """Force on a member of a support by the guideline's load alone [kN].
+
+    It knows no pull of the ropes along the row. None where it is not available.
+    """
+    least = forces.find_least(member)
+    if least is None:
+        return None
+    leaves = _list_support_leaves(forces.row, width, member)
+    leaves += [
+        _solved(symbol, least.force_kN, "kN", f"floor.{member}")
+        for symbol in ("E_s", "E_g0")
+    ]
+    leaves += _list_load_leaves(forces, member, width)[0]
+    found = calculate_force({one.symbol: one for one in leaves}).guideline
+    return found.value if found else None
+
+
 def _find_end_force(
     forces: RowForces, member: str, width: LoadedWidth
 ) -> MemberForce | None:

@@ -18,6 +18,7 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.ranges import Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.outcome import Verdict
@@ -94,10 +95,7 @@ def _record(
     # Between two panels as they may be built, the guy of one side can give way to that
     # of the other: then none is counted on.
     least = 0.0 if row.panel_assumed else max(0.0, solved - in_guys)
-    uphill, downhill, post = (
-        _find_largest(heads, name)
-        for name in ("largest_uphill", "largest_downhill", "post")
-    )
+    uphill, downhill, post = weigh_places([one.points for one in heads])
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -113,10 +111,14 @@ def _record(
     )
 
 
-def _find_largest(heads: Sequence[SupportState], name: str) -> float:
-    """Largest weight over the heads [-]."""
-    weighed = (weigh_splay(one.points) for one in heads)
-    return max(float(getattr(one, name)) for one in weighed if one)
+def weigh_places(places: Iterable[SupportPoints]) -> tuple[float, float, float]:
+    """Largest weights of the load along the row in uphill, downhill guy, post [-]."""
+    found = [one for one in map(weigh_splay, places) if one is not None]
+    uphill, downhill, post = (
+        max(float(getattr(one, name)) for one in found)
+        for name in ("largest_uphill", "largest_downhill", "post")
+    )
+    return uphill, downhill, post
 
 
 def _fail(head: SupportState, share: float, splay: float) -> Message | None:
@@ -177,9 +179,7 @@ def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | N
     guy = row.row_end.guy if row.row_end else None
     if guy is None:
         return None
-    step = (span.high - span.low) / _INCLINATIONS
-    tried = {span.low + one * step for one in range(_INCLINATIONS)} | {span.high}
-    places = [place_row(row, one) for one in sorted(tried)]
+    places = place_over(row, span)
     held = [hold_end_guy(place, guy) for place in places]
     failed = next((one for one in held if isinstance(one, FailedSupport)), None)
     if failed is not None:
@@ -198,6 +198,13 @@ def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | N
         uphill_guy_kN=tensions and kilonewton_from_newton(tensions[0]),
         downhill_guy_kN=tensions and kilonewton_from_newton(tensions[1]),
     )
+
+
+def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
+    """Supports of the row at inclinations of its net from end to end [m]."""
+    step = (span.high - span.low) / _INCLINATIONS
+    tried = {span.low + one * step for one in range(_INCLINATIONS)} | {span.high}
+    return [place_row(row, one) for one in sorted(tried)]
 
 
 def _share_end(

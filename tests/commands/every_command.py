@@ -22,6 +22,7 @@ COMMANDS = {
     "what if": "check site.xlsx --out b --accuracy 0.1 --jobs 1 --quiet --no-excel "
     "--what-if {nets}.L2=9",
     "summary": "report out/study.json --out short --detail summary",
+    "table": "table site.xlsx --study out/study.json",
     "diff": "diff out/study.json b/what-if-study.json",
     "map": "map site.xlsx",
     "refused": "check refused.xlsx --annotate marked.xlsx",

@@ -1,0 +1,137 @@
+"""Forces of the guideline's load on the anchors: a table on a terminal, and JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from netdesign.report.terminal import print_lines
+from netdesign.report.words import MISSING, Words, show_text
+from netdesign.structure.members import EndMember, Member
+from netdesign.study.guideline_anchors import AnchorForce, RowAnchors
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+SCHEMA = "netdesign.table/1"
+# Supports of each line: those that a row's end loads are one, by the worse of them.
+_PLACES = {"table.inside": ("intermediate",), "table.at_end": ("second", "edge")}
+_SHOWN: Mapping[str, str] = {
+    Member.FOOT_ANCHOR: "table.foot_anchor",
+    Member.UPHILL_ANCHOR: "table.uphill_anchor",
+    Member.DOWNHILL_ANCHOR: "table.downhill_anchor",
+    EndMember.LATERAL_ANCHOR: "table.lateral_anchor",
+    EndMember.END_GUY_ANCHOR: "table.end_guy_anchor",
+}
+
+
+def print_anchor_table(
+    rows: Sequence[RowAnchors], console: Console, words: Words
+) -> None:
+    """Print the forces of each row, inside and at its end, and what they rest on.
+
+    Parameters
+    ----------
+    rows : sequence of RowAnchors
+        With coupled forces where a study has them.
+    console : rich.console.Console
+        Where it is printed.
+    words : Words
+        Of the language.
+    """
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
+    table.add_column(words("table.row"), overflow="fold", min_width=3)
+    table.add_column(words("table.place"), overflow="fold")
+    table.add_column(words("table.by"), no_wrap=True)
+    for heading in _SHOWN.values():
+        table.add_column(words(heading), justify="right", min_width=8)
+    for line in list_table_lines(rows, words):
+        table.add_row(*map(Text, line))
+    print_lines((words("table.title"),), console)
+    console.print(table)
+    print_lines(_list_remarks(rows, words), console)
+
+
+def list_table_lines(
+    rows: Iterable[RowAnchors], words: Words
+) -> Iterator[tuple[str, ...]]:
+    """Cells of each line: row, place, by what, force on each anchor."""
+    for row in rows:
+        name = show_text(row.id)
+        for place, positions in _PLACES.items():
+            found = [row.find(anchor, *positions) for anchor in _SHOWN]
+            if not any(found):
+                continue
+            forces = [_show_force(one, words) for one in found]
+            yield name, words(place), words("table.guideline"), *forces
+            name = ""
+            if any(one is not None and one.coupled_kN is not None for one in found):
+                coupled = [_show_coupled(one, words) for one in found]
+                yield "", "", words("table.coupled"), *coupled
+
+
+def _show_force(one: AnchorForce | None, words: Words) -> str:
+    return words.show_number("guideline_kN", one.guideline_kN if one else None)
+
+
+def _show_coupled(one: AnchorForce | None, words: Words) -> str:
+    """Coupled force, and in brackets its ratio to the guideline's."""
+    if one is None or one.coupled_kN is None:
+        return MISSING
+    force = words.show_number("coupled_kN", one.coupled_kN)
+    ratio = words.show_fixed(one.ratio, 2)
+    return force if one.ratio is None else f"{force} ({ratio})"
+
+
+def _list_remarks(rows: Sequence[RowAnchors], words: Words) -> Iterator[str]:
+    """Remarks on rows, each once for all of them, and on the table."""
+    by_remark: dict[str, list[str]] = {}
+    for row in rows:
+        for one in (*([row.reason] if row.reason else []), *row.notes):
+            by_remark.setdefault(words.show(one), []).append(show_text(row.id))
+    for remark, ids in by_remark.items():
+        yield words("show.label", label=", ".join(ids), text=remark)
+    forces = [one for row in rows for one in row.anchors]
+    if any(one.coupled_kN is not None for one in forces):
+        yield words("table.ratio")
+    yield words("table.ropes")
+
+
+def write_anchor_table(rows: Sequence[RowAnchors], words: Words) -> dict[str, Any]:
+    """Document of the table: every support of each row, forces in kN.
+
+    Parameters
+    ----------
+    rows : sequence of RowAnchors
+        As they are printed.
+    words : Words
+        Of the language of notes and reasons.
+    """
+    return {
+        "schema": SCHEMA,
+        "rows": [
+            {
+                "id": row.id,
+                "anchors": [_write_anchor(one) for one in row.anchors],
+                "reason": words.show(row.reason) if row.reason else None,
+                "notes": [words.show(one) for one in row.notes],
+            }
+            for row in rows
+        ],
+    }
+
+
+def _write_anchor(one: AnchorForce) -> dict[str, Any]:
+    return {
+        "anchor": one.anchor,
+        "position": one.position,
+        "guideline_kN": one.guideline_kN,
+        "coupled_kN": one.coupled_kN,
+        "ratio": one.ratio,
+        "load_case": one.by.load_case if one.by else None,
+        "glide_factor": one.by.glide_factor if one.by else None,
+        "inclination_deg": one.by.inclination_deg if one.by else None,
+    }

@@ -1,0 +1,234 @@
+"""Forces of the guideline's load on every anchor of a net row, before any solve.
+
+They follow from an office's own data; what it has no number for ranges. Theory:
+guideline/THEORY.md, (G10); the way to each anchor is that of a check.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import Check, Standard
+from netdesign.envelope.ranges import Interval
+from netdesign.guideline.floor import HeadSpan
+from netdesign.site.model import NetRow, Site
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.structure.members import END_ANCHORS
+from netdesign.structure.splay import weigh_splay
+from netdesign.study.case_records import FloorForceRecord
+from netdesign.study.effects import find_effects, list_assumed
+from netdesign.study.member_force import RowForces, find_guideline_force
+from netdesign.study.pulls import ANCHORS
+from netdesign.study.record_guideline import find_row_floor, record_floor
+from netdesign.study.sideways import (
+    find_lack,
+    place_over,
+    weigh_places,
+)
+from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.words.message import Message, say
+
+# Modes in which a check has the whole force of an anchor.
+_OF_FORCE = ("pull_out", "tendon")
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnchorForce:
+    """Characteristic forces on one anchor of one support.
+
+    Attributes
+    ----------
+    anchor, position : str
+        Of the support: "intermediate", "second" or "edge".
+    guideline_kN : float or None
+        By the guideline's load [kN]; None where its model knows none.
+    coupled_kN : float or None
+        Largest of section, panel and truss of a stored study [kN].
+    by : FloorForceRecord or None
+        Load that brings the guideline's force inside the row.
+    """
+
+    anchor: str
+    position: str
+    guideline_kN: float | None
+    coupled_kN: float | None = None
+    by: FloorForceRecord | None = None
+
+    @property
+    def ratio(self) -> float | None:
+        """Coupled force over that of the guideline [-]."""
+        if self.coupled_kN is None or not self.guideline_kN:
+            return None
+        return self.coupled_kN / self.guideline_kN
+
+
+@dataclass(frozen=True, kw_only=True)
+class RowAnchors:
+    """Forces on the anchors of one net row.
+
+    Attributes
+    ----------
+    id : str
+        Of the row.
+    anchors : list of AnchorForce
+        Of each position those of the support, then those of the row's end.
+    reason : Message or None
+        Why the guideline's forces are not available.
+    notes : list of Message
+        What is taken for granted, or not in the forces.
+    """
+
+    id: str
+    anchors: list[AnchorForce]
+    reason: Message | None = None
+    notes: list[Message]
+
+    def find(self, anchor: str, *positions: str) -> AnchorForce | None:
+        """Anchor with the largest forces at some positions; None without any."""
+        found = [
+            one
+            for one in self.anchors
+            if one.anchor == anchor and one.position in positions
+        ]
+        if not found:
+            return None
+        guideline, coupled = (
+            max((x for x in forces if x is not None), default=None)
+            for forces in (
+                [one.guideline_kN for one in found],
+                [one.coupled_kN for one in found],
+            )
+        )
+        return replace(found[0], guideline_kN=guideline, coupled_kN=coupled)
+
+
+def list_guideline_forces(site: Site, standard: Standard) -> list[RowAnchors]:
+    """Forces on the anchors of every net row by the guideline's load.
+
+    Parameters
+    ----------
+    site : Site
+        As it was read.
+    standard : Standard
+        Limit profile, with end effect, load along the row and dimensioning form.
+
+    Verified by
+    -----------
+    tests/study/test_guideline_anchors.py
+    """
+    if standard.floor == "none":  # that says what a demand is, not what the load is
+        standard = standard.overrule_floor("guideline")
+    return [find_row_anchors(site, row, standard) for row in site.rows]
+
+
+def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
+    """Forces on the anchors of a net row by the guideline's load, as listed above."""
+    known = _know_row(site, row, standard)
+    held = known.held if isinstance(known.held, Message) else None
+    notes = [*list_assumed(row), *([held] if held else [])]
+    forces = [
+        AnchorForce(
+            anchor=anchor,
+            position=width.position,
+            guideline_kN=find_guideline_force(known, anchor, width),
+            by=known.find_least(anchor),
+        )
+        for width in known.effects.supports
+        for anchor in ANCHORS
+    ]
+    ends = [one for one in known.effects.supports if one.position == "edge"]
+    forces += [
+        AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
+        for anchor in (END_ANCHORS if ends else ())
+    ]
+    return RowAnchors(id=row.id, anchors=forces, reason=known.floor_gap, notes=notes)
+
+
+def _know_row(site: Site, row: NetRow, standard: Standard) -> RowForces:
+    """Knowledge of a row by the guideline's load alone."""
+    effects = find_effects(row, standard, site.ranges)
+    floor = find_row_floor(row, site.ranges, standard)
+    head = floor.head if floor else None
+    held: HeldSidewaysRecord | Message = say("check.no_case_solved")
+    if head is not None:
+        span = site.ranges["inclination"]
+        held = _hold_sideways(row, span, head, effects.lateral_share)
+    return RowForces(
+        site=site,
+        row=row,
+        standard=standard,
+        law=BOUTILLIER_2004,  # no force here depends on it
+        effects=effects,
+        largest={},
+        floor=record_floor(floor, row),
+        held=held,
+        tilt=0.0,
+    )
+
+
+def _hold_sideways(
+    row: NetRow, span: Interval, head: HeadSpan, share: float
+) -> HeldSidewaysRecord | Message:
+    """Load along the row under the guideline's load, or why nothing holds it."""
+    lack, splay = find_lack(row), row.guys.splay
+    if lack is not None or splay is None:
+        return lack or say("sideways.no_splay")
+    places = place_over(row, span)
+    if not all(map(weigh_splay, places)):
+        return say("support.not_held_sideways")
+    uphill, downhill, post = weigh_places(places)
+    pull = kilonewton_from_newton(head.pull)
+    return HeldSidewaysRecord(
+        share=share,
+        splay_deg=degree_from_radian(splay),
+        pull_low_kN=pull,
+        pull_kN=pull,
+        pull_high_kN=pull,
+        least_tension_kN=0.0,  # no anchor follows it
+        uphill_part=uphill,
+        downhill_part=downhill,
+        post_part=post,
+        floor_pull_kN=pull,
+    )
+
+
+def add_coupled(
+    rows: Sequence[RowAnchors], solved: Mapping[str, Sequence[Check]]
+) -> list[RowAnchors]:
+    """Rows with the coupled forces of a study of the same site beside the guideline's.
+
+    Parameters
+    ----------
+    rows : sequence of RowAnchors
+        By the guideline's load.
+    solved : mapping of str to sequence of Check
+        Checks of the study by the id of the row; one without any stays as it is.
+    """
+    return [_add_of_row(row, solved.get(row.id, ())) for row in rows]
+
+
+def _add_of_row(row: RowAnchors, checks: Sequence[Check]) -> RowAnchors:
+    forces = [
+        replace(one, coupled_kN=find_coupled(checks, one.anchor, one.position))
+        for one in row.anchors
+    ]
+    return replace(row, anchors=forces)
+
+
+def find_coupled(checks: Sequence[Check], anchor: str, position: str) -> float | None:
+    """Largest solved force on an anchor, by the checks of its row [kN]."""
+    own = (one for one in checks if (one.member, one.position) == (anchor, position))
+    found = next((one for one in own if one.mode in _OF_FORCE), None)
+    return max(_list_solved(found), default=None) if found else None
+
+
+def _list_solved(check: Check) -> Iterator[float]:
+    """Forces of section, panel and truss on a support; of a rope's end its only one."""
+    symbols = ("E_c", "E_p", "E_t")
+    for force in map(check.read, symbols):
+        if force is not None:
+            yield force
+    if "E_g" not in check.known and (force := check.read("E_k")) is not None:
+        yield force
