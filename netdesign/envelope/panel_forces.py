@@ -25,6 +25,7 @@ from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (
     AnchorForces,
     compute_anchor_forces,
+    compute_forces_of_layouts,
     compute_forces_of_pulls,
 )
 from netdesign.structure.head import FailedSupport
@@ -94,10 +95,8 @@ def _find_errors(
     values: Sequence[dict[str, float]],
 ) -> list[dict[str, float]] | FailedSupport:
     """Error of each member under each of the pulls, from their moved ones [N]."""
-    still = np.array([(foot.x, foot.y, head.x, head.y) for foot, head in pulls])
-    errors = np.array([(foot.error,) * 2 + (head.error,) * 2 for foot, head in pulls])
     with np.errstate(invalid="ignore", over="ignore"):  # of an error that is no number
-        moved = still + _MOVES[:, :, None] * errors
+        moved = _move(pulls)
         is_sound = np.isfinite(moved * width).all(axis=-1)
     if is_sound.all():
         x, y, along, across = np.moveaxis(moved, -1, 0)
@@ -122,6 +121,14 @@ def _find_errors(
     ]
 
 
+def _move(pulls: Sequence[Pulls]) -> Floats:
+    """Pulls with each component moved by its error, shape (4, 2, n, 4) [N/m]."""
+    still = np.array([(foot.x, foot.y, head.x, head.y) for foot, head in pulls])
+    errors = np.array([(foot.error,) * 2 + (head.error,) * 2 for foot, head in pulls])
+    moved: Floats = still + _MOVES[:, :, None] * errors
+    return moved
+
+
 def _resolve(
     points: SupportPoints, width: float, pulls: Sequence[float] | Floats
 ) -> AnchorForces | FailedSupport:
@@ -132,6 +139,93 @@ def _resolve(
         foot_pull_per_m=(x, y),
         head_pull_per_m=(along, across),
         post_spacing=width,
+    )
+
+
+def resolve_layouts(
+    places: Sequence[SupportPoints],
+    width: float,
+    section: Pulls,
+    panel: PanelForces | None,
+) -> list[dict[str, Band]] | FailedSupport:
+    """Forces on other supports of a case, by section and by the worst of its panels.
+
+    As `resolve_pulls` and `resolve_panels` have them on the support that the case was
+    resolved on, whose pulls are these.
+
+    Parameters
+    ----------
+    places : sequence of SupportPoints
+        Their geometry [m].
+    width : float
+        Width of net that one carries [m].
+    section : tuple of EndPull, shape (2,)
+        Pulls of the net on foot and head [N/m].
+    panel : PanelForces or None
+        The panels between posts; None of a row without.
+
+    Returns
+    -------
+    list of dict of str to Band, or FailedSupport
+        One a support; the failure of one that cannot hold some pulls.
+
+    Verified by
+    -----------
+    tests/envelope/test_layouts.py
+    """
+    panels = panel.variants if panel else ()
+    pulls = [section, *((one.foot, one.head) for one in panels)]
+    moved = np.concatenate([_hold_still(pulls), _move(pulls).reshape(8, -1, 4)])
+    x, y, along, across = np.moveaxis(moved, -1, 0)
+    of_members, is_held = compute_forces_of_layouts(
+        places,
+        foot_pull_per_m=(x, y),
+        head_pull_per_m=(along, across),
+        post_spacing=width,
+    )
+    if not is_held.all():
+        place, *state = map(int, np.argwhere(~is_held)[0])
+        failed = _resolve(places[place], width, moved[tuple(state)])
+        if isinstance(failed, FailedSupport):
+            return failed
+        raise ValueError("pulls that one way holds, and not the other")
+    mids = np.array([0.0, *(math.hypot(*one.solution.mid_foot) for one in panels)])
+    at_mid = width * np.array([foot.error for foot, _ in pulls])
+    found: list[dict[str, Band]] = [{} for _ in places]
+    for member, forces in of_members.items():
+        value = forces[:, 0]
+        changes = np.abs(forces[:, 1:] - value[:, None])
+        error = changes.reshape(len(places), 4, 2, -1).max(axis=2).sum(axis=1)
+        if member == Member.FOOT_ANCHOR:
+            error = np.where(mids > value, at_mid, error)
+            value = np.maximum(value, mids)
+        ends = np.array([np.maximum(value - error, 0.0), value, value + error])
+        for name, of in (
+            (member, ends[:, :, :1]),
+            (name_in_panel(member), ends[:, :, 1:]),
+        ):
+            if of.size:
+                for bands, (low, size, high) in zip(
+                    found, of.max(axis=2).T, strict=True
+                ):
+                    bands[name] = Band(
+                        low=float(low), value=float(size), high=float(high)
+                    )
+    return found
+
+
+def _hold_still(pulls: Sequence[Pulls]) -> Floats:
+    """Pulls as they are, shape (1, n, 4) [N/m]."""
+    return np.array([[(foot.x, foot.y, head.x, head.y) for foot, head in pulls]])
+
+
+def cover(bands: Iterable[Band]) -> Band:
+    """Band of the largest one of some forces."""
+    known = list(bands)
+    return Band(
+        low=max(one.low for one in known),
+        value=max(one.value for one in known),
+        high=max(one.high for one in known),
     )
 
 
@@ -180,8 +274,7 @@ class PanelForces:
     def worst(self) -> dict[str, Band]:
         """Largest forces of all panels that the row may have [N]."""
         return {
-            name: _cover(one.bands[name] for one in self.variants)
-            for name in self.bands
+            name: cover(one.bands[name] for one in self.variants) for name in self.bands
         }
 
 
@@ -244,16 +337,6 @@ def _gather(solved: PanelSolution, pulls: Pulls, found: Resolved) -> PanelForces
         bands=bands | _read_ropes(solved, foot, head),
         foot=foot,
         head=head,
-    )
-
-
-def _cover(bands: Iterable[Band]) -> Band:
-    """Band of the largest one of some forces."""
-    known = list(bands)
-    return Band(
-        low=max(one.low for one in known),
-        value=max(one.value for one in known),
-        high=max(one.high for one in known),
     )
 
 

@@ -1,18 +1,14 @@
 """From the results of a row to the quantities that a search follows, and back.
 
-Where a guy goes slack its force and that of the post have a kink, which a model of
-the forces would pay for with many cases. The forces that post and one guy would need,
-signs allowed, have none: a guy carries the signed tension where that is positive, and
-the post the larger of its two signed compressions. So these are what is searched, and
-what the members can carry at most follows. A post pulls only where the net pulls its
-head away from the slope: that direction is bounded first, which tells nearly always
-that none does. Theory: structure/THEORY.md, eqs (S2) and (S4a).
+Those are the signed forces of `signed.py` beside the members. A post pulls only where
+the net pulls its head away from the slope: that direction is bounded first, which tells
+nearly always that none does. Theory: structure/THEORY.md, eq. (S4a).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -20,20 +16,26 @@ import numpy as np
 
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.numerics.arrays import Floats
+from netdesign.envelope.signed import (
+    Ends,
+    choose_watched,
+    name_sources,
+    read_signed,
+    read_signed_errors,
+    spread_ends,
+    take_ends,
+)
+from netdesign.numerics.arrays import Floats, Number, measure_length
 from netdesign.search import surrogate
 from netdesign.search.maxima import Maxima, SearchSettings, Values, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
 from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
-from netdesign.structure.head import resolve_loose, resolve_signed
+from netdesign.structure.head import Vector, resolve_loose
 from netdesign.structure.layout import (
-    Point,
     SupportLayout,
-    SupportPoints,
     place_support,
 )
 from netdesign.structure.members import (
-    CARRYING_MEMBERS,
     Member,
     RopeForce,
     name_in_panel,
@@ -51,7 +53,7 @@ _LIFTED = (
 
 
 def bound_lifted(
-    layout: SupportLayout | None,
+    layouts: Sequence[SupportLayout],
     points: Sequence[surrogate.Point],
     results: Sequence[CaseResult],
     settings: SearchSettings,
@@ -60,8 +62,8 @@ def bound_lifted(
 
     Parameters
     ----------
-    layout : SupportLayout or None
-        Support of the net; without one there is no post.
+    layouts : sequence of SupportLayout
+        That the net's support may have; without one there is no post.
     points, results : sequence of Point, of CaseResult
         Of a search: shares of the ranges, and what was solved there.
     settings : SearchSettings
@@ -83,9 +85,9 @@ def bound_lifted(
         if one.anchors is not None
     ]
     places = np.array([point for point, _ in solved])
-    if layout is None or not solved or not supports_model(places):
+    if not layouts or not solved or not supports_model(places):
         return {}
-    values = np.array([_measure(layout, one) for _, one in solved])
+    values = np.array([_measure(layouts, one) for _, one in solved])
     tolerance = np.full(values.shape[1], settings.gap * np.abs(values[:, 1:]).max())
     tolerance[0] = settings.gap  # of a sine
     bound = partial(
@@ -110,169 +112,37 @@ def bound_lifted(
     return found | {name_in_panel(one): force for one, force in found.items()}
 
 
-def _measure(layout: SupportLayout, result: CaseResult) -> Floats:
+def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
     """Sine of the pull on the head out of the slope, and forces that follow it [N].
 
-    The largest of section and panels: the lift, (S4a), and the guys without the post,
-    (S4b); where net and guy share an anchor, what both bring there.
+    The largest of section and panels, on any layout: the lift, (S4a), and the guys
+    without the post, (S4b); where net and guy share an anchor, what both bring there.
     """
     if result.anchors is None or result.solution is None:
         raise ValueError("a case without a support")
-    points = place_support(layout, result.solution.head_point)
     panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
+    states = (result.anchors, *(one.anchors for one in panels))
+    head, (first, *others) = result.solution.head_point, layouts
     found = []
-    for anchors in (result.anchors, *(one.anchors for one in panels)):
-        x, y = anchors.head_pull
-        uphill, downhill = resolve_loose((x, y), points)
-        lift = y * points.post_length / points.head[1]
-        forces = [y / (math.hypot(x, y) or 1.0), lift, downhill, uphill]
-        shared = [anchors.foot_anchor.size + uphill] if layout.is_foot_shared else []
-        found.append(forces + shared)
+    for anchors in states:
+        pull, foot = anchors.head_pull, anchors.foot_anchor.size
+        lifted = _lift(pull, foot, take_ends(place_support(first, head)))
+        found.append([pull[1] / (math.hypot(*pull) or 1.0), *lifted])
+    if others:
+        x, y = np.array([one.head_pull for one in states]).T
+        feet = np.array([one.foot_anchor.size for one in states])
+        of_others = _lift((x, y), feet, spread_ends(others, head))
+        found.append([-math.inf, *(float(one.max()) for one in of_others)])
     largest: Floats = np.array(found).max(axis=0)
-    return largest
+    return largest if first.is_foot_shared else largest[:-1]
 
 
-_NET = "signed foot"
-_SHARED = "signed foot and uphill guy"
-_POST = ("signed post with uphill guy", "signed post with downhill guy")
-_BASE = ("signed post base with uphill guy", "signed post base with downhill guy")
-_UPHILL, _DOWNHILL = "signed uphill guy", "signed downhill guy"
-_IN_PANEL = {name_in_panel(member): member for member in CARRYING_MEMBERS}
-
-
-def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] | None:
-    """Signed forces of a converged case by name [N]; None where a guy holds nothing.
-
-    A guy along the post holds nothing sideways: there the members themselves have to
-    be searched. Those by the panel between posts stand behind those of the section.
-    """
-    solution, anchors = result.solution, result.anchors
-    if solution is None or anchors is None:
-        return None
-    width = layout.post_spacing
-    pull = (solution.head.x * width, solution.head.y * width)
-    points = place_support(layout, solution.head_point)
-    found = _find_signed(pull, anchors.foot_anchor.size, points)
-    if found is None or not isinstance(result.panel, PanelForces):
-        return found
-    beside = (_find_signed_in_panel(one, points) for one in result.panel.variants)
-    return found | _name_largest(beside)
-
-
-def read_signed_errors(
-    result: CaseResult, layout: SupportLayout
-) -> dict[str, float] | None:
-    """Numerical errors of the forces that ``read_signed`` gives [N]."""
-    solution = result.solution
-    if solution is None or result.anchors is None:
-        return None
-    points = place_support(layout, solution.head_point)
-    width = layout.post_spacing
-    found = _find_errors(
-        solution.foot.error * width, solution.head.error * width, points
-    )
-    if found is None or not isinstance(result.panel, PanelForces):
-        return found
-    pulls = [(one.foot.error, one.head.error) for one in result.panel.variants]
-    foot, head = (width * max(errors) for errors in zip(*pulls, strict=True))
-    beside = _find_errors(foot, head, points) or {}
-    return found | {name_in_panel(name): error for name, error in beside.items()}
-
-
-def _find_signed_in_panel(
-    panel: PanelForces, points: SupportPoints
-) -> dict[str, float]:
-    """Signed forces by one panel between posts [N]."""
-    foot = max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
-    return _find_signed(panel.solution.head, foot, points) or {}
-
-
-def _name_largest(found: Iterable[dict[str, float]]) -> dict[str, float]:
-    """Largest values of some panels, by their names beside those of the section."""
-    largest: dict[str, float] = {}
-    for values in found:
-        for name, value in values.items():
-            known = largest.get(name_in_panel(name), -math.inf)
-            largest[name_in_panel(name)] = max(known, value)
-    return largest
-
-
-def _find_errors(
-    foot: float, head: float, points: SupportPoints
-) -> dict[str, float] | None:
-    """Errors of signed forces from those of the forces behind them [N].
-
-    They are linear in these: what an error of each component causes is added, as in
-    the bands of the members.
-    """
-    sizes: dict[str, float] = {}
-    for pull, at_foot in (((head, 0.0), 0.0), ((0.0, head), 0.0), ((0.0, 0.0), foot)):
-        caused = _find_signed(pull, at_foot, points)
-        if caused is None:
-            return None
-        sizes = {name: sizes.get(name, 0.0) + abs(caused[name]) for name in caused}
-    return sizes
-
-
-def _find_signed(
-    pull: Point, foot: float, points: SupportPoints
-) -> dict[str, float] | None:
-    """Signed forces under a pull on the head and a force on the foot anchor [N]."""
-    pairs = [
-        resolve_signed(pull, points.head, points.post_base, anchor)
-        for anchor in (points.uphill_anchor, points.downhill_anchor)
-    ]
-    if pairs[0] is None or pairs[1] is None:
-        return None
-    (post_up, uphill), (post_down, downhill) = pairs[0], pairs[1]
-    across = points.head[1] / _length(points.head, points.post_base)
-    return {
-        _NET: foot,
-        _SHARED: foot + uphill,
-        _UPHILL: uphill,
-        _DOWNHILL: downhill,
-        _POST[0]: post_up,
-        _POST[1]: post_down,
-        _BASE[0]: across * post_up,
-        _BASE[1]: across * post_down,
-    }
-
-
-def name_sources(member: str, *, is_shared: bool) -> tuple[str, ...]:
-    """Signed forces of which a member carries the largest, or 0; () if of none."""
-    if member in _IN_PANEL:
-        behind = name_sources(_IN_PANEL[member], is_shared=is_shared)
-        return tuple(map(name_in_panel, behind))
-    sources: dict[str, tuple[str, ...]] = {
-        Member.FOOT_ANCHOR: (_NET,),
-        Member.UPHILL_GUY: (_UPHILL,),
-        Member.UPHILL_ANCHOR: (_UPHILL,),
-        Member.DOWNHILL_GUY: (_DOWNHILL,),
-        Member.DOWNHILL_ANCHOR: (_DOWNHILL,),
-        Member.POST: _POST,
-        Member.POST_BASE: _BASE,
-    }
-    if is_shared and member in (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR):
-        return (_NET, _SHARED)
-    return sources.get(member, ())
-
-
-def choose_watched(
-    members: Sequence[str], signed: Sequence[str], *, is_shared: bool
-) -> tuple[str, ...]:
-    """Quantities that a search has to bound, so that every member is bounded."""
-    if not signed:
-        return tuple(members)
-    watched: dict[str, None] = {}
-    for member in members:
-        sources = name_sources(member, is_shared=is_shared)
-        watched |= dict.fromkeys(sources or (member,))
-    return tuple(watched)
-
-
-def _length(one: tuple[float, float], other: tuple[float, float]) -> float:
-    x, y = one[0] - other[0], one[1] - other[1]
-    return float((x * x + y * y) ** 0.5)
+def _lift(pull: Vector[Number], foot: Number, ends: Ends[Number]) -> list[Number]:
+    """Pull of the post, guys without it, uphill anchor of net and guy [N]."""
+    uphill, downhill = resolve_loose(pull, ends.head, ends.uphill, ends.downhill)
+    x, y = ends.base[0] - ends.head[0], ends.base[1] - ends.head[1]
+    lift = pull[1] * measure_length(x, y) / ends.head[1]
+    return [lift, downhill, uphill, foot + uphill]
 
 
 # A gap closer than this share of the numerical error is not worth a case.
@@ -287,7 +157,7 @@ _PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
 _ALONG = (RopeForce.LOWER_ALONG, RopeForce.UPPER_ALONG)
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
-ReadSigned = Callable[[CaseResult, SupportLayout], dict[str, float] | None]
+ReadSigned = Callable[[CaseResult, Sequence[SupportLayout]], dict[str, float] | None]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -296,8 +166,8 @@ class ResultReader:
 
     Attributes
     ----------
-    layout : SupportLayout or None
-        Support of the net; None follows the net's own tensions.
+    layouts : sequence of SupportLayout
+        That the net's support may have; none follows the net's own tensions.
     has_panel : bool
         The row has a panel between its posts.
     has_end : bool
@@ -313,7 +183,7 @@ class ResultReader:
         Smallest numerical error and largest force of each member [N].
     """
 
-    layout: SupportLayout | None
+    layouts: Sequence[SupportLayout]
     has_panel: bool = False
     has_end: bool = False
     members: tuple[str, ...] = ()
@@ -439,7 +309,7 @@ class ResultReader:
         return replace(maxima, upper_bound=tuple(upper))
 
     def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
-        return None if self.layout is None else read_signed(result, self.layout)
+        return read_signed(result, self.layouts) if self.layouts else None
 
     def _read_errors(self, result: CaseResult) -> Values | None:
         """Numerical errors of what ``_read_one`` gives [N]."""
@@ -459,9 +329,9 @@ class ResultReader:
     ) -> Values | None:
         """Members, then signed forces; what is missing counts as 0."""
         forces = tuple(known.get(member, 0.0) for member in self.members)
-        if not self.signed or self.layout is None:
+        if not self.signed or not self.layouts:
             return forces
-        signed = read(result, self.layout)
+        signed = read(result, self.layouts)
         if signed is None:
             return None
         return (*forces, *(signed.get(name, 0.0) for name in self.signed))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -26,6 +26,8 @@ from netdesign.words.names import name_member
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.5
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
+# A case can hide a larger force on one layout where the largest of all is near that.
+_LARGE = 0.9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +42,8 @@ class RowTask:
         Of the parameters that vary.
     layout : SupportLayout or None
         Support of the net; None follows the net's own tensions per metre.
+    other_layouts : tuple of SupportLayout
+        Of the support, where something of it is assumed: the worst of all counts.
     settings : SolverSettings
         Of every case.
     search : SearchSettings
@@ -65,6 +69,12 @@ class RowTask:
     build: Callable[[Case], Scene] | None = None
     panels: tuple[Panel, ...] = ()
     has_end: bool = False
+    other_layouts: tuple[SupportLayout, ...] = ()
+
+    @property
+    def layouts(self) -> tuple[SupportLayout, ...]:
+        """All layouts that the support may have, the first one first."""
+        return () if self.layout is None else (self.layout, *self.other_layouts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -145,6 +155,48 @@ class RowEnvelope:
         found = find_extremes(self.results)
         return {member: self._bound(one) for member, one in found.items()}
 
+    def at_layout(self, place: int) -> RowEnvelope:
+        """The envelope on one of the task's layouts alone.
+
+        No case is solved for it. Its bounds follow from those of the largest over all
+        layouts: envelope/THEORY.md, (E3).
+        """
+        if not self.task.other_layouts:
+            return self
+        results = tuple(one.at_layout(place) for one in self.results)
+        layout = self.task.layouts[place]
+        return replace(
+            self,
+            task=replace(self.task, layout=layout, other_layouts=()),
+            results=results,
+            maxima=self._bound_on_layout(results),
+            confirmations=tuple(
+                replace(
+                    one,
+                    screened=one.screened.at_layout(place),
+                    confirmed=one.confirmed.at_layout(place),
+                )
+                for one in self.confirmations
+            ),
+        )
+
+    def _bound_on_layout(self, results: Sequence[CaseResult]) -> Maxima:
+        """Maxima of the members on one layout, whose cases are given."""
+        maximum, upper = list(self.maxima.maximum), list(self.maxima.upper_bound)
+        for place, member in enumerate(self.members if upper else ()):
+            pairs = [
+                (one.member_forces[member].value, all_.member_forces[member].value)
+                for one, all_ in zip(results, self.results, strict=True)
+                if member in one.member_forces
+            ]
+            own = max((one for one, _ in pairs), default=0.0)
+            shares = [
+                one / all_ for one, all_ in pairs if all_ > 0.0 and all_ >= _LARGE * own
+            ]
+            upper[place] = max(own, max(shares, default=1.0) * upper[place])
+            maximum[place] = own
+        return replace(self.maxima, maximum=tuple(maximum), upper_bound=tuple(upper))
+
     def _bound(self, extreme: Extreme) -> Extreme:
         member, hidden = extreme.member, 0.0
         if member not in POST_PULLS:
@@ -195,4 +247,5 @@ def build_point_task(
         task.layout,
         settings or task.settings,
         task.panels,
+        task.other_layouts,
     )

@@ -12,6 +12,8 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import (
     PanelForces,
+    cover,
+    resolve_layouts,
     resolve_panels,
     resolve_pulls,
     spread_out,
@@ -23,7 +25,7 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import CaseEnd, Settings, SolvedState, describe_case
 from netdesign.solving.workers import Job
-from netdesign.structure.anchors import AnchorForces
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.members import NetPart
@@ -36,7 +38,8 @@ class CaseTask:
 
     ``job`` is None where the model refuses the case; ``refusal`` says why. Without
     a ``layout`` the net's own tensions are followed, per metre of width; with
-    ``panels`` the largest forces of these, too.
+    ``panels`` the largest forces of these, too; with ``other_layouts`` the largest on
+    any of all layouts.
     """
 
     case: Case
@@ -44,6 +47,7 @@ class CaseTask:
     refusal: Message | None
     layout: SupportLayout | None
     panels: tuple[Panel, ...] = ()
+    other_layouts: tuple[SupportLayout, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -60,16 +64,19 @@ class CaseResult:
         Why it failed; "" if converged.
     member_forces : dict of str to Band
         Characteristic force of each member with its numerical band [N per anchor, or
-        N/m without a layout]; those by the panel between posts beside them.
+        N/m without a layout]; those by the panel between posts beside them. The largest
+        of all layouts of the support.
     anchors : AnchorForces or None
-        Force vectors on the ground.
+        Force vectors on the ground, of the first layout.
     solution : SolvedState or None
         State of snow and net.
     fault : Fault or None
         What failed in the program, where it was the program.
     panel : PanelForces, FailedPanel or None
-        The panel between posts, or why it has no forces in this case; None of a row
-        without one.
+        The panel between posts, on the first layout, or why it has no forces in this
+        case; None of a row without one.
+    of_layouts : tuple of (SupportLayout, dict of str to Band)
+        The members' forces on each of several layouts [N]; empty of a single one.
     """
 
     case: Case
@@ -80,6 +87,7 @@ class CaseResult:
     solution: SolvedState | None = None
     fault: Fault | None = None
     panel: PanelForces | FailedPanel | None = None
+    of_layouts: tuple[tuple[SupportLayout, dict[str, Band]], ...] = ()
 
     @property
     def is_converged(self) -> bool:
@@ -92,6 +100,29 @@ class CaseResult:
         if self.is_converged and isinstance(self.panel, FailedPanel):
             return self.panel.reason
         return self.reason
+
+    def at_layout(self, place: int) -> CaseResult:
+        """The case on one of its layouts alone.
+
+        What its panels bring to the ground is left as on the first layout, but for
+        their forces by member.
+        """
+        if not self.of_layouts:
+            return self
+        layout, forces = self.of_layouts[place]
+        of_one = replace(self, member_forces=forces, of_layouts=())
+        if place == 0 or self.solution is None:
+            return of_one
+        foot, head = self.solution.foot, self.solution.head
+        anchors = compute_anchor_forces(
+            place_support(layout, self.solution.head_point),
+            foot_pull_per_m=(foot.x, foot.y),
+            head_pull_per_m=(head.x, head.y),
+            post_spacing=layout.post_spacing,
+        )
+        if isinstance(anchors, FailedSupport):
+            raise ValueError("a case that another way holds")
+        return replace(of_one, anchors=anchors)
 
 
 def run_cases(
@@ -166,17 +197,45 @@ def _resolve_support(
         return _failed(task, found.outcome, found.reason)
     ((anchors, bands),) = found
     panel = _resolve_panel(task, points, solution)
-    return CaseResult(
+    forces = {
+        **bands,
+        NetPart.MESH: _bound_tension(solution),
+        **(panel.worst if isinstance(panel, PanelForces) else {}),
+    }
+    result = CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
-        member_forces={
-            **bands,
-            NetPart.MESH: _bound_tension(solution),
-            **(panel.worst if isinstance(panel, PanelForces) else {}),
-        },
+        member_forces=forces,
         anchors=anchors,
         solution=solution,
         panel=panel,
+    )
+    return _resolve_others(task, layout, result) if task.other_layouts else result
+
+
+def _resolve_others(
+    task: CaseTask, layout: SupportLayout, result: CaseResult
+) -> CaseResult:
+    """Case with its forces on the other layouts; what fails on one fails."""
+    solution, panel = result.solution, result.panel
+    if solution is None:
+        raise ValueError("a case without a solution")
+    found = resolve_layouts(
+        [place_support(one, solution.head_point) for one in task.other_layouts],
+        layout.post_spacing,
+        (solution.foot, solution.head),
+        panel if isinstance(panel, PanelForces) else None,
+    )
+    if isinstance(found, FailedSupport):
+        return _failed(task, found.outcome, found.reason)
+    first = result.member_forces
+    forces = (first, *({**first, **one} for one in found))
+    largest = {name: cover(one[name] for one in forces) for name in first}
+    layouts = (layout, *task.other_layouts)
+    return replace(
+        result,
+        member_forces=largest,
+        of_layouts=tuple(zip(layouts, forces, strict=True)),
     )
 
 
@@ -196,6 +255,7 @@ def build_task(
     layout: SupportLayout | None,
     settings: Settings,
     panels: tuple[Panel, ...] = (),
+    other_layouts: tuple[SupportLayout, ...] = (),
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
     job: Job | None = None
@@ -204,7 +264,14 @@ def build_task(
         job = Job(scene=build_scene(case), settings=settings)
     except ModelError as error:
         refusal = error.message
-    return CaseTask(case=case, job=job, refusal=refusal, layout=layout, panels=panels)
+    return CaseTask(
+        case=case,
+        job=job,
+        refusal=refusal,
+        layout=layout,
+        panels=panels,
+        other_layouts=other_layouts,
+    )
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: Message | None) -> CaseResult:

@@ -40,7 +40,7 @@ class RowSearch:
         self._result: RowEnvelope | None = None
         self._search = MaximaSearch(len(task.ranges.axes), task.search)
         self._reader = ResultReader(
-            layout=task.layout, has_panel=bool(task.panels), has_end=task.has_end
+            layouts=task.layouts, has_panel=bool(task.panels), has_end=task.has_end
         )
         self._skip = FrictionSkip(task.ranges.axes)
         self._results: list[CaseResult] = []
@@ -140,7 +140,7 @@ class RowSearch:
             skipped=self._skip.skipped,
             skips_tested=self._skip.tested,
             lifted=bound_lifted(
-                self.task.layout, maxima.points, self._results, self.task.search
+                self.task.layouts, maxima.points, self._results, self.task.search
             ),
         )
 

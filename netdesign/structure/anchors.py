@@ -6,8 +6,10 @@ Directions of the pulls on an anchor, and their angles to its axis, stand first.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from netdesign.numerics.arrays import (
     Floats,
@@ -337,19 +339,61 @@ def compute_forces_of_pulls(
     -----------
     tests/envelope/test_support_bands.py
     """
+    of_members, is_held = compute_forces_of_layouts(
+        [points],
+        foot_pull_per_m=foot_pull_per_m,
+        head_pull_per_m=head_pull_per_m,
+        post_spacing=post_spacing,
+    )
+    return {one: force[0] for one, force in of_members.items()}, is_held[0]
+
+
+def compute_forces_of_layouts(
+    places: Sequence[SupportPoints],
+    *,
+    foot_pull_per_m: Vector[Floats],
+    head_pull_per_m: Vector[Floats],
+    post_spacing: float,
+) -> tuple[dict[str, Floats], Mask]:
+    """The same of several supports, each under all of the pulls.
+
+    Parameters
+    ----------
+    places : sequence of SupportPoints
+        Supports, n of them; net and uphill guy share an anchor in all of them or in
+        none.
+        The rest is as there.
+
+    Returns
+    -------
+    dict of str to ndarray, ndarray of bool
+        As there, of shape (n, ...) for pulls of shape (...).
+
+    Verified by
+    -----------
+    tests/structure/test_many_forces.py
+    """
     foot = _scale(foot_pull_per_m, post_spacing)
     still = 0.0 * foot[0]
-    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
-    ways = [find_direction(points.head, end) for end in ends]
-    post, uphill, downhill = ((x + still, y + still) for x, y in ways)
+    shape = (-1, *(1,) * still.ndim)
+    post, uphill, downhill = (
+        (x.reshape(shape) + still, y.reshape(shape) + still)
+        for x, y in map(np.transpose, zip(*map(_list_ways, places), strict=True))
+    )
     held = hold_head(_scale(head_pull_per_m, post_spacing), post, uphill, downhill)
     of_members = _list_forces(
         held,
-        foot=measure_length(*foot),
+        foot=measure_length(*foot) + 0.0 * post[0],
         out_of_ground=held.post_compression * post[1],
-        is_foot_shared=points.is_foot_shared,
+        is_foot_shared=places[0].is_foot_shared,
     )
     return of_members, as_mask(held.is_held)
+
+
+def _list_ways(points: SupportPoints) -> list[Point]:
+    """Unit vectors from the head to post base, uphill and downhill anchor."""
+    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
+    return [find_direction(points.head, end) for end in ends]
 
 
 def _list_forces(

@@ -219,7 +219,12 @@ def _share_between_guys(
     return choose(is_one_line, size, up), choose(is_one_line, size, down)
 
 
-def resolve_loose(pull: Point, points: SupportPoints) -> tuple[float, float]:
+def resolve_loose(
+    pull: Vector[Number],
+    head: Vector[Number],
+    uphill_anchor: Vector[Number],
+    downhill_anchor: Vector[Number],
+) -> Vector[Number]:
     """Find what both guys would need to hold a pull without their post, signs allowed.
 
     No guy of a lifted head carries more, beside what `resolve_signed` gives. Theory:
@@ -227,28 +232,32 @@ def resolve_loose(pull: Point, points: SupportPoints) -> tuple[float, float]:
 
     Parameters
     ----------
-    pull : tuple of float, shape (2,)
+    pull : tuple of float or ndarray, shape (2,)
         Force of the net on the head, (x, y) [N].
-    points : SupportPoints
-        Of the support [m].
+    head, uphill_anchor, downhill_anchor : tuple of float or ndarray, shape (2,)
+        Points of the support, or of many [m].
 
     Returns
     -------
-    tuple of float
+    tuple of float or ndarray
         Tension of uphill and downhill guy [N].
 
     Verified by
     -----------
     tests/envelope/test_lift.py
     """
-    ends = (points.uphill_anchor, points.downhill_anchor)
-    uphill, downhill = (find_direction(points.head, end) for end in ends)
+    uphill, downhill = (
+        find_direction(head, end) for end in (uphill_anchor, downhill_anchor)
+    )
     return _share_between_guys(pull, uphill, downhill)
 
 
 def resolve_signed(
-    pull: Point, head: Point, post_base: Point, anchor: Point
-) -> tuple[float, float] | None:
+    pull: Vector[Number],
+    head: Vector[Number],
+    post_base: Vector[Number],
+    anchor: Vector[Number],
+) -> Vector[Number] | None:
     """Find what post and one guy would need to hold a pull, signs allowed.
 
     The members' forces are ``max(0, tension)`` of each guy, and of the two pairs the
@@ -257,16 +266,16 @@ def resolve_signed(
 
     Parameters
     ----------
-    pull : tuple of float, shape (2,)
+    pull : tuple of float or ndarray, shape (2,)
         Force of the net on the head, (x, y) [N].
-    head, post_base, anchor : tuple of float, shape (2,)
-        Points of the support [m].
+    head, post_base, anchor : tuple of float or ndarray, shape (2,)
+        Points of the support, or of many [m].
 
     Returns
     -------
-    tuple of float or None
-        Compression of the post, tension of the guy [N]; None where the guy lies
-        along the post.
+    tuple of float or ndarray, or None
+        Compression of the post, tension of the guy [N]; None where a guy lies along
+        the post.
 
     Verified by
     -----------
@@ -274,7 +283,8 @@ def resolve_signed(
     """
     post, guy = find_direction(head, post_base), find_direction(head, anchor)
     pair = _resolve(pull, post, guy)
-    return None if pair.is_along else (pair.signed_compression, pair.tension)
+    is_along = as_mask(pair.is_along).any()
+    return None if is_along else (pair.signed_compression, pair.tension)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

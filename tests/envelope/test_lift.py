@@ -57,7 +57,7 @@ def give_pull(pull):
 
 
 def bound(rise, points=COARSE):
-    return bound_lifted(LAYOUT, points, [give(one, rise) for one in points], SETTINGS)
+    return bound_lifted([LAYOUT], points, [give(one, rise) for one in points], SETTINGS)
 
 
 def find_largest(rise):
@@ -95,7 +95,7 @@ def test_a_pull_up_the_post_is_bounded_closely():
         return give_pull((share * up[0], share * up[1]))
 
     results = [give_up(1e4 * (1.0 + x + y * y)) for x, y in COARSE]
-    upper = bound_lifted(LAYOUT, COARSE, results, SETTINGS)[Member.POST_FOOT]
+    upper = bound_lifted([LAYOUT], COARSE, results, SETTINGS)[Member.POST_FOOT]
     largest = 3e4 * math.hypot(*up) * LAYOUT.post_spacing
     assert largest <= upper <= 1.02 * largest
 
@@ -115,8 +115,8 @@ def test_failed_cases_tell_nothing_and_few_cases_no_bound():
     )
     results = [give(one, 1.0) for one in COARSE]
     with_failed = bound_lifted(
-        LAYOUT, [*COARSE, (1.0, 1.0)], [*results, failed], SETTINGS
+        [LAYOUT], [*COARSE, (1.0, 1.0)], [*results, failed], SETTINGS
     )
     assert with_failed == bound(1.0)
     assert bound(1.0, COARSE[:6]) == {}
-    assert bound_lifted(None, COARSE, results, SETTINGS) == {}
+    assert bound_lifted([], COARSE, results, SETTINGS) == {}

@@ -1,0 +1,128 @@
+"""Layouts of a support, of which the worst counts: in a case, a grid, a search."""
+
+import math
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES
+from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.result_reader import read_signed, read_signed_errors
+from netdesign.envelope.rows import RowTask
+from netdesign.envelope.run import build_task, run_cases
+from netdesign.envelope.search import run_grid, search_rows
+from netdesign.panel.inputs import list_panels
+from netdesign.search.maxima import SearchSettings
+from netdesign.solving.runner import Runner
+from netdesign.structure.layout import SupportLayout
+from tests.solving.small_scene import COARSE, PANEL, build_scene
+
+SPACING = PANEL.post_spacing
+PANELS = list_panels(
+    SPACING,
+    cut=None,
+    sags=(None, None),
+    stiffnesses=((3e6, 40e6), (3e6, 40e6)),
+    has_mid_anchors=None,
+)
+LAYOUTS = tuple(
+    SupportLayout(
+        post_spacing=SPACING,
+        post_tilt=math.radians(tilt),
+        uphill_anchor_distance=uphill,
+        downhill_anchor_distance=downhill,
+    )
+    for tilt, uphill, downhill in product((9.5, 21.0), (2.1, 3.4), (1.9, 3.7))
+)
+TASK = RowTask(
+    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
+    ranges=Ranges.of(
+        density=Interval(low=251.0, high=397.0),
+        friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
+        inclination=Interval(low=math.radians(24.0), high=math.radians(34.0)),
+    ),
+    layout=LAYOUTS[0],
+    other_layouts=LAYOUTS[1:],
+    settings=COARSE,
+    search=SearchSettings(gap=0.01),
+    confirmed_by=None,
+)
+
+
+def draw_case(seed):
+    rng = np.random.default_rng(seed)
+    return Case(
+        density=rng.uniform(240.0, 420.0),
+        friction_angle=math.radians(rng.uniform(14.0, 46.0)),
+        inclination=math.radians(rng.uniform(22.0, 38.0)),
+    )
+
+
+def solve(case, layouts, panels=()):
+    first, *others = layouts
+    task = build_task(case, build_scene, first, COARSE, panels, tuple(others))
+    (result,) = run_cases([task])
+    return result
+
+
+@pytest.mark.parametrize("panels", [(), PANELS])
+@pytest.mark.parametrize("seed", range(3))
+def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
+    case = draw_case(seed)
+    together = solve(case, LAYOUTS, panels)
+    alone = [solve(case, [one], panels) for one in LAYOUTS]
+    for name, band in together.member_forces.items():
+        for end in ("low", "value", "high"):
+            each = [getattr(one.member_forces[name], end) for one in alone]
+            assert getattr(band, end) == pytest.approx(max(each), rel=1e-9, abs=1e-6)
+    for place, one in enumerate(alone):
+        found = together.at_layout(place)
+        assert found.anchors == one.anchors
+        for name, band in one.member_forces.items():
+            size = max(1.0, band.value)
+            for end in ("low", "value", "high"):
+                value = getattr(found.member_forces[name], end)
+                assert value == pytest.approx(getattr(band, end), abs=1e-9 * size)
+
+
+@pytest.mark.parametrize("panels", [(), PANELS])
+@pytest.mark.parametrize("read", [read_signed, read_signed_errors])
+def test_signed_forces_are_the_largest_on_any_layout(read, panels):
+    case = draw_case(11)
+    together = read(solve(case, LAYOUTS, panels), LAYOUTS)
+    alone = [read(solve(case, [one], panels), [one]) for one in LAYOUTS]
+    for name, value in together.items():
+        assert value == pytest.approx(max(one[name] for one in alone), rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def runner():
+    return Runner()
+
+
+@pytest.mark.parametrize("panels", [(), PANELS[:2]])
+def test_no_case_of_a_grid_exceeds_the_bound_on_any_layout(runner, panels):
+    task = replace(TASK, panels=panels)
+    (found,) = search_rows([task], runner)
+    assert found.gap is None
+    counts = {"density": 4, "friction_angle": 4, "inclination": 5}
+    grid = run_grid(task, counts, runner)[0]
+    for name, extreme in found.extremes.items():
+        for result in grid:
+            assert result.member_forces[name].value <= extreme.widened.high
+    for place in range(len(LAYOUTS)):
+        of_one = found.at_layout(place)
+        assert of_one.task.layout == LAYOUTS[place]
+        for name, extreme in of_one.extremes.items():
+            assert extreme.widened.high <= found.extremes[name].widened.high * 1.001
+            for result in grid:
+                force = result.at_layout(place).member_forces[name].value
+                assert force <= extreme.widened.high, (place, name, result.case)
+
+
+def test_one_layout_is_itself():
+    result = solve(draw_case(3), LAYOUTS[:1], (PANEL,))
+    assert result.at_layout(0) is result
+    assert set(result.member_forces) >= set(PANEL_QUANTITIES)
