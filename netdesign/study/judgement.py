@@ -197,18 +197,18 @@ def _place_second(
     inside; where the end has the same type with more load, that check says all.
     """
     inside, at_end = of_supports["intermediate"], of_supports.get("edge", ())
-    ends = {one.name: one for one in at_end}
-    kept, beside = list(inside), []
-    for place, one in enumerate(of_supports.get("second", ())):
-        within = inside[place]
+    kept, ends = ({one.name: one for one in each} for each in (inside, at_end))
+    beside = []
+    for one in of_supports.get("second", ()):
+        within = kept.get(one.name, one)  # none of a block that does not hold inside
         if _is_no_worse(one, within) or _is_covered(known, one, ends.get(one.name)):
             continue
         if 0.0 < _rate_load(one) <= _AS_INSIDE * _rate_load(within):
             as_inside = replace(one.check, id=within.check.id, position="intermediate")
-            kept[place] = replace(one, check=as_inside)
+            kept[one.name] = replace(one, check=as_inside)
         else:
             beside.append(one)
-    return [*kept, *beside, *at_end]
+    return [*kept.values(), *beside, *at_end]
 
 
 def _rate_load(one: MemberCheck) -> float:

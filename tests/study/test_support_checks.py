@@ -320,6 +320,25 @@ def test_a_block_that_does_not_hold_is_none_to_a_bar(tmp_path):
     assert found.verdict is bare.verdict
 
 
+def test_a_block_that_holds_inside_alone_changes_no_check_of_another_anchor(tmp_path):
+    """The second support's check of that block goes, as the bar bends there."""
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 20}
+    gap, beside = 3.0, find_second(3.0)
+    angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
+    of_second = 1.4 * foot_across(math.degrees(angle)) * beside / SECOND
+    anchor |= {"head resistance across [kN]": of_second * (0.3 + 0.7 / beside)}
+    axes = {FOOT_AXIS: FOOT - 20.0, "uphill anchor axis [deg]": 78.0}
+    axes |= {"downhill anchor axis [deg]": 20.0, "gap to next work [m]": gap}
+    checks = judge(tmp_path, anchor=anchor, **axes)
+    turned = {one: each for one, each in checks.items() if each.mode == "direction"}
+    assert all(name.startswith(one.member) for name, one in turned.items())
+    inside = [one.member for one in turned.values() if one.position == "intermediate"]
+    assert inside == ["foot_anchor", "uphill_anchor", "downhill_anchor"]
+    assert checks["foot_anchor.direction"].verdict is Verdict.PASS
+    assert "foot_anchor.direction.second" not in checks
+    assert checks["foot_anchor.bending.end"].verdict is Verdict.FAIL
+
+
 def test_a_row_says_how_long_its_tubes_are_at_least(tmp_path):
     anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5} | TUBE
     (row,) = study_row(tmp_path, SWISS, **(ROW | {"anchor": anchor})).rows

@@ -19,7 +19,7 @@ from netdesign.outcome import StudyError, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
-from netdesign.structure.row_position import Bore
+from netdesign.structure.row_position import Bore, Position
 from netdesign.study.bores import place_anchors, place_end_anchors
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.sideways import place_row
@@ -33,10 +33,17 @@ if TYPE_CHECKING:
     Point = tuple[float, float, float]
 
 SETTING_OUT = (
-    *("row", "post", "part", "type", "east_m", "north_m", "height_m"),
+    *("row", "post", "part", "support", "type", "east_m", "north_m", "height_m"),
     *("azimuth_deg", "dip_deg", "length_m", "design_kN", "proof_kN", "verdict"),
 )
 FORMATS = (".geojson", ".dxf")
+# Whose check gives force and verdict: of an anchor between two posts the one nearer to
+# the row's end.
+_SUPPORTS: Mapping[Position, str] = {
+    "edge": "end",
+    "second": "second",
+    "intermediate": "inside",
+}
 _SHADES = {
     "pass": "44,122,75,255",
     "fail": "178,48,30,255",
@@ -105,7 +112,8 @@ def _map_posts(
 ) -> Iterator[Feature]:
     """Feet of the net and of the posts, with the verdict of each support."""
     for number, post in enumerate(place.posts, 1):
-        checks = _list_checks(row, place, number)
+        position = _find_position(number, len(place.posts) + 1 - number)
+        checks = list_checks_at(row, position)
         verdict = merge_verdicts(one.verdict for one in checks).value
         for kind, part, x in (
             ("net_foot", "Foot of the net", 0.0),
@@ -120,20 +128,55 @@ def _map_posts(
                     "row": row.id,
                     "post": number,
                     "part": part,
+                    "support": _SUPPORTS[position],
                     "verdict": verdict,
                 },
             )
 
 
-def _list_checks(row: RowStudy, place: MeasuredPlace, post: int) -> list[Check]:
-    """Checks of the members at a post: of the end ones those of the row's end."""
-    is_end = post in (1, len(place.posts))
-    at_end = [one for one in row.checks if one.position == "edge"]
-    places = ["intermediate"]
-    if post in (2, len(place.posts) - 1):
-        places.append("second")
-    inside = [one for one in row.checks if one.position in places]
-    return (at_end or inside) if is_end else inside
+def _find_position(*counts: int) -> Position:
+    """Support by its count from either end of the row, 1 for the last one."""
+    nearest = min(counts)
+    if nearest > 2:
+        return "intermediate"
+    return "second" if nearest == 2 else "edge"
+
+
+def list_checks_at(row: RowStudy, position: Position) -> list[Check]:
+    """Checks of the members of a support.
+
+    The study leaves one of the second support out where the one inside says as much, or
+    the one of the end, of the same type, more: the larger of these then.
+
+    Parameters
+    ----------
+    row : RowStudy
+        Of any study.
+    position : str
+        "edge", "second" or "intermediate"; a row without an end has the last alone.
+
+    Verified by
+    -----------
+    tests/addons/terrain/test_verdict_map.py
+    """
+    inside, second, at_end = (
+        {(one.member, one.mode): one for one in row.checks if one.position == place}
+        for place in ("intermediate", "second", "edge")
+    )
+    if position == "edge":
+        return [*(at_end or inside).values()]
+    if position == "intermediate":
+        return [*inside.values()]
+    said = {name: _take_more(one, at_end.get(name)) for name, one in inside.items()}
+    return [*(said | second).values()]
+
+
+def _take_more(inside: Check, at_end: Check | None) -> Check:
+    """Check of the end where that has the same type and more load, else that inside."""
+    if at_end is None or at_end.resistance_type != inside.resistance_type:
+        return inside
+    loads = [one.read_band("E_d")[1] or 0.0 for one in (inside, at_end)]
+    return at_end if loads[1] > loads[0] else inside
 
 
 def _map_anchors(
@@ -155,16 +198,17 @@ def _map_anchors(
             mirrored = ((part, _mirror(bore)) for part, bore in outer)
             at_end = [one for one in mirrored if one[0] not in tuple(Member)]
         for part, bore in (*inside, *at_end):
-            is_last_bay = _is_shared(given, part, bore) and number == last - 1
-            checks = _list_checks(row, place, last if is_last_bay else number)
-            own = [one for one in checks if one.member == part]
-            yield _map_anchor(row, standard, place, language, number, (part, bore), own)
+            is_of_bay = _is_of_bay(given, part, bore)
+            position = _find_position(number, last - number + (not is_of_bay))
+            yield _map_anchor(
+                row, standard, place, language, number, (part, bore), position
+            )
 
 
-def _is_shared(row: NetRow, part: str, bore: Bore) -> bool:
-    """An anchor of the bay behind a post, which holds a guy of the next post, too."""
-    is_of_guy = part in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    return is_of_guy and bool(row.guys.are_shared) and bore.start[2] > 0.0
+def _is_of_bay(row: NetRow, part: str, bore: Bore) -> bool:
+    """An anchor of the bay behind a post: in mid-panel, or of two posts' guys."""
+    is_shared = part == Member.FOOT_ANCHOR or bool(row.guys.are_shared)
+    return is_shared and bore.start[2] > 0.0
 
 
 def _is_beyond(part: str, bore: Bore, number: int, last: int) -> bool:
@@ -187,9 +231,10 @@ def _map_anchor(
     language: Language,
     number: int,
     anchor: tuple[str, Bore],
-    checks: Sequence[Check],
+    position: Position,
 ) -> Feature:
     part, bore = anchor
+    checks = [one for one in list_checks_at(row, position) if one.member == part]
     forces = [one.read_band("E_d")[1] for one in checks if one.mode == "pull_out"]
     design = max((one for one in forces if one is not None), default=None)
     factor = standard.find(ACCEPTANCE_TEST)
@@ -203,6 +248,7 @@ def _map_anchor(
             "row": row.id,
             "post": number,
             "part": render(name_member(part), language),
+            "support": _SUPPORTS[position],
             "type": types[0] if types else "",
             "azimuth_deg": round(azimuth, 1),
             "dip_deg": round(dip, 1),

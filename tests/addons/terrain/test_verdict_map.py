@@ -3,16 +3,23 @@
 import csv
 import json
 import math
+import random
+from dataclasses import replace
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import ezdxf
 import pytest
 
 from netdesign.addons.terrain.places import MeasuredPlace
-from netdesign.addons.terrain.verdict_map import turn_to_map
+from netdesign.addons.terrain.verdict_map import list_checks_at, turn_to_map
+from netdesign.checks import check_member, load_standard
 from netdesign.structure.row_position import Bore
+from tests.checks.entries import a_force, a_resistance
+from tests.each import each
 
 SLOPE = math.radians(37.0)
+PROFILE = "swiss-guideline-2007"
 
 
 def place(aspect):
@@ -56,9 +63,6 @@ def test_an_anchor_of_the_bay_stands_half_way_to_the_next_post():
 
 
 @pytest.mark.long
-@pytest.mark.xfail(
-    strict=True, reason="setting out knows no second support: which force stands there?"
-)
 def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     site, study = tmp_path / "site.xlsx", tmp_path / "part-study.json"
     assert call("terrain", "--example", "--out", site, "--quiet").code == 0
@@ -99,19 +103,7 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     ordered = [one for one in stored["parts"] if one["part"] == "uphill_anchor"]
     assert sum(one["count"] for one in ordered) == count + 1
     assert len([one for one in anchors if one["part"] == "Uphill anchor"]) == count + 1
-    uphill = [one for one in anchors if one["part"] == "Uphill anchor"]
-    checks = {one["id"]: one for one in stored["checks"]}
-    largest = {}
-    for name in ("pull_out", "pull_out.end"):
-        steps = checks[f"uphill_anchor.{name}"]["steps"]
-        (largest[name],) = (
-            one.get("high") or one["value"] for one in steps if one["symbol"] == "E_d"
-        )
-    # the two of the first bay and beyond it, those of the last one likewise
-    at_end = {"1", str(count - 1), str(count)}
-    for one in uphill:
-        demand = largest["pull_out.end" if one["post"] in at_end else "pull_out"]
-        assert float(one["design_kN"]) == pytest.approx(demand, abs=0.06)
+    compare_forces(anchors, stored["checks"], count)
     root = ElementTree.fromstring((tmp_path / "checked.qml").read_text())
     assert len(root.findall(".//rule")) == len(root.findall(".//symbol")) == 4
     again = call("terrain", "--verdicts", study, "--rows", rows, "--out", out)
@@ -123,6 +115,61 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     assert len(space.query("POINT POLYLINE")) == len(features)
     table = tmp_path / "other-setting-out.csv"
     assert table.read_text() == (tmp_path / "checked-setting-out.csv").read_text()
+
+
+def compare_forces(anchors, checks, count):
+    """Each anchor has the force of its support, the same from either end of the row."""
+    beside = {"end": ".end", "second": ".second", "inside": ""}
+    pulls = {
+        one["id"]: step.get("high") or step["value"]
+        for one in checks
+        for step in one["steps"]
+        if one["mode"] == "pull_out" and step["symbol"] == "E_d"
+    }
+    for part, member, is_of_bay in (
+        ("Net anchor (foot)", "foot_anchor", False),
+        ("Uphill anchor", "uphill_anchor", True),
+        ("Downhill anchor", "downhill_anchor", True),
+    ):
+        of_part = [one for one in anchors if one["part"] == part]
+        for one in of_part:
+            mode = f"{member}.pull_out{beside[one['support']]}"
+            assert float(one["design_kN"]) == pytest.approx(pulls[mode], abs=0.06)
+        # of guys one stands in each bay, and one beyond each end
+        ends = ["end"] * (2 if is_of_bay else 1)
+        inside = ["inside"] * (count - 4 - is_of_bay)
+        assert [one["support"] for one in of_part] == [
+            *(*ends, "second", *inside, "second", *ends)
+        ]
+
+
+def check_at(position, force, kind):
+    """A check of an anchor of some type, of a characteristic force [N]."""
+    known, standard = a_resistance(1e6, type_id=kind), load_standard(PROFILE)
+    found = check_member(a_force(force), known, standard)
+    return replace(found, position=position)
+
+
+@each("seed", range(20))
+def test_an_anchor_beside_the_end_has_no_force_less_than_its_own(seed):
+    """Its own check, or where the study leaves it out the one that covers it."""
+    draw = random.Random(seed)
+    forces = {
+        place: draw.uniform(1e3, 9e5) for place in ("intermediate", "second", "edge")
+    }
+    is_alike, has_own = draw.random() < 0.5, draw.random() < 0.5
+    kinds = {"edge": "A" if is_alike else "B"}
+    checks = {
+        place: check_at(place, force, kinds.get(place, "A"))
+        for place, force in forces.items()
+        if place != "second" or has_own
+    }
+    (found,) = list_checks_at(SimpleNamespace(checks=[*checks.values()]), "second")
+    covered = max(forces["intermediate"], forces["edge"])
+    without = covered if is_alike else forces["intermediate"]
+    wanted = forces["second"] if has_own else without
+    on_action = found.read("γ_E")
+    assert found.read_band("E_d")[1] == pytest.approx(on_action * wanted / 1e3)
 
 
 def count_mid(anchors):
