@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+
+from netdesign.checks.check import Check, judge
+from netdesign.checks.comparison import compare
+from netdesign.checks.result import Proof
+from netdesign.outcome import SEVERITY, Verdict
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,3 +52,64 @@ class Approval:
     foot_force: StatedValue | None = None
     uphill_force: StatedValue | None = None
     downhill_force: StatedValue | None = None
+
+    def prove(self) -> Proof:
+        """Document as the proof of what it approves."""
+        return Proof(document=self.document, author="", date="", cell=self.cell)
+
+
+MODE = "approval"
+# What an approval limits, with its name and unit.
+_LIMITS = {
+    "height": ("approval.height", " m"),
+    "glide_factor": ("approval.glide_factor", ""),
+    "altitude_factor": ("approval.altitude_factor", ""),
+    "spacing": ("approval.spacing", " m"),
+}
+_ROUNDING = 1e-9  # relative, of a factor that is worked out
+
+
+def check_approval(
+    approval: Approval, actual: Mapping[str, tuple[float, float]]
+) -> Check:
+    """Check of a row against the limits of the approval of its net type.
+
+    Parameters
+    ----------
+    approval : Approval
+        With a document.
+    actual : mapping of str to tuple of float
+        Least and largest value of the row by the limits' names in `Approval`, SI.
+
+    Returns
+    -------
+    Check
+        It fails where a value surely exceeds its limit. A limit that the approval does
+        not state is not proven, and neither is a value that may exceed its own.
+    """
+    beyond: dict[Verdict, list[Message]] = {}
+    for key, (text, unit) in _LIMITS.items():
+        limit: StatedValue | None = getattr(approval, key)
+        name, (low, high) = say(text), actual[key]
+        if limit is None:
+            told = say("approval.unstated", name=name)
+            beyond.setdefault(Verdict.NOT_PROVEN, []).append(told)
+            continue
+        most = limit.value * (1.0 + _ROUNDING)
+        met = judge(low, high, least=0.0, most=most)
+        told = say(
+            "approval.beyond" if low == high else "approval.may_be_beyond",
+            name=name,
+            low=low,
+            high=high,
+            limit=limit.value,
+            unit=unit,
+        )
+        beyond.setdefault(met, []).append(told)
+    met = next(one for one in SEVERITY if one in beyond)
+    if met is Verdict.PASS:
+        finding = say("approval.inside", document=approval.document)
+    else:
+        key = "approval.outside" if met is Verdict.FAIL else "approval.open"
+        finding = say(key, values=tuple(beyond[met]), document=approval.document)
+    return compare(MODE, met, finding)

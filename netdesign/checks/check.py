@@ -265,9 +265,14 @@ class Check:
         return merge_open(self._met, self.open)
 
     @property
-    def rank(self) -> tuple[int, float]:
-        """Place in an order: worst verdict first, then the largest utilisation."""
-        return SEVERITY.index(self.verdict), 1.0 if self.used is None else -self.used
+    def rank(self) -> tuple[int, bool, float]:
+        """Place in an order: worst verdict first, then the largest utilisation.
+
+        Of one verdict, what is information only comes last.
+        """
+        is_information = bool(self.steps) and self.met is not None
+        used = 1.0 if self.used is None else -self.used
+        return SEVERITY.index(self.verdict), is_information, used
 
     def has_open(self, *kinds: OpenKind) -> bool:
         """Some open point is of one of these kinds."""

@@ -66,6 +66,8 @@ class GivenResistance:
 class Proof:
     """Place of a proof elsewhere: document, author, date ("" for none) and cell.
 
+    A type approval has no author.
+
     A study has it as it is; its cell is that of the declaration, ``Declared!B2``.
     """
 
@@ -76,6 +78,8 @@ class Proof:
 
     def describe(self) -> Message:
         """All of it as one phrase."""
+        if not self.author:
+            return say("approval.proof", document=self.document, cell=self.cell)
         told = {"document": self.document, "author": self.author, "cell": self.cell}
         if not self.date:
             return say("check.proof_undated", **told)

@@ -164,7 +164,8 @@ _OF_GEOMETRY = tuple(
     ("net", mode)
     for mode in ("inclination", "spacing", "gap", "ends", "anchors", "cover")
 )
-_OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"))  # of no support
+_OF_STRUCTURE = ("structure", "resistances")  # all of it, where nothing is given
+_OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"), _OF_STRUCTURE)  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 _OF_DIRECTIONS = (
     *(
@@ -183,6 +184,7 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
     *((member, "connection") for member in CONNECTED),
     *_OF_DIRECTIONS,
     *_OF_GEOMETRY,
+    _OF_STRUCTURE,
 )
 
 

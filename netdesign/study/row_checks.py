@@ -16,6 +16,7 @@ from netdesign.study.judgement import (
 from netdesign.study.member_force import RowForces
 from netdesign.study.remedies import list_remedies
 from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.structure import check_limits, settle_structure
 from netdesign.words.message import say
 
 
@@ -38,9 +39,10 @@ def check_row(task: RowToCheck, known: RowForces) -> RowChecks:
         changes = list_remedies(task, one) if one.force else []
         checks.append(replace(one.check, changes=changes))
         task.on_check()
-    checks += check_others(known, judged)
+    checks += [*check_others(known, judged), *check_limits(known)]
+    checks = [apply_declaration(known, one) for one in checks]
     return RowChecks(
-        checks=[apply_declaration(known, one) for one in checks],
+        checks=settle_structure(known, checks),
         judged={one.check.id: one for one in judged},
     )
 

@@ -30,6 +30,8 @@ SCOPES = tuple(Scope)
 _ANCHORS, _STRUCTURE, _SITING = (frozenset((one,)) for one in SCOPES)
 _FORCES, _ALL = _ANCHORS | _STRUCTURE, frozenset(SCOPES)
 
+# In the place of a member: all that a net is built of above the ground.
+STRUCTURE = Scope.STRUCTURE.value
 # Scope of a check: by its id, else by its mode, else by its member.
 _BY_ID: Mapping[str, Scopes] = {
     "geometry.anchors": _ANCHORS,
@@ -46,7 +48,7 @@ _BY_MEMBER: Mapping[str, Scopes] = {
     **dict.fromkeys((EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR), _ANCHORS),
     **dict.fromkeys((Member.UPHILL_GUY, Member.DOWNHILL_GUY), _STRUCTURE),
     **dict.fromkeys((Member.POST, Member.POST_BASE, Member.POST_FOOT), _STRUCTURE),
-    **dict.fromkeys((EndMember.END_GUY, *NetPart), _STRUCTURE),
+    **dict.fromkeys((EndMember.END_GUY, *NetPart, STRUCTURE), _STRUCTURE),
 }
 # Sheets and columns of numbers of which no force depends.
 _ASKED_OF: Mapping[str, Scopes] = {
@@ -65,16 +67,18 @@ _PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be
 def find_scopes(check: Check) -> Scopes:
     """Scopes that a check belongs to: one, or all that it bears on.
 
-    Raises
-    ------
-    KeyError
-        If nobody said where its member belongs: a fault of the program.
+    What nobody said of its member, as of a stored study that was altered, bears on all.
     """
     if check.id == _PLAUSIBLE:
         asked = (_find_asked(point.message) for point in check.open)
         return frozenset().union(*asked)
     found = _BY_ID.get(check.id) or _BY_MODE.get(check.mode)
-    return found or _BY_MEMBER[check.member]
+    return found or _BY_MEMBER.get(check.member, _ALL)
+
+
+def is_of_structure(check: Check) -> bool:
+    """A check of the structure alone, and no question about a number of it."""
+    return check.id != _PLAUSIBLE and find_scopes(check) == _STRUCTURE
 
 
 def _find_asked(question: Message) -> Scopes:
@@ -133,7 +137,7 @@ def sum_up_study(
     for scope in SCOPES:
         of_rows = {row: scopes[scope] for row, scopes in rows.items()}
         more = [Verdict.NOT_PROVEN] if is_part else []
-        worst = min(of_rows, key=lambda row: of_rows[row].rank, default="")
+        worst = min(of_rows, key=lambda row: (of_rows[row].rank, row), default="")
         found[scope] = ScopeRecord(
             verdict=merge_verdicts([*(one.verdict for one in of_rows.values()), *more]),
             utilisation=of_rows[worst].utilisation if worst else None,

@@ -272,7 +272,7 @@ def part_lines(
     return alone, beside
 
 
-def _rank_line(line: CheckLine) -> tuple[int, float]:
+def _rank_line(line: CheckLine) -> tuple[int, bool, float]:
     return min(one.rank for one in line.checks)
 
 
