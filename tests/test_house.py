@@ -10,8 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 363, 44_923
-CORE_MODULES, CORE_LINES = 261, 33_110
+MODULES, LINES = 364, 45_028
+CORE_MODULES, CORE_LINES = 262, 33_216
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef
