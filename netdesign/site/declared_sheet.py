@@ -7,7 +7,7 @@ names a cell in the same way: it is read as if something else were typed there.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -23,11 +23,9 @@ from netdesign.site.cells.cells import (
 )
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
-from netdesign.site.headings import Table
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
 from netdesign.site.model import InputEcho, NetRow, ReplacedCell
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import read_rows
 from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,
@@ -165,7 +163,7 @@ _OF_GEOMETRY = tuple(
     for mode in ("inclination", "spacing", "gap", "ends", "anchors", "cover")
 )
 _OF_STRUCTURE = ("structure", "resistances")  # all of it, where nothing is given
-_OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"), _OF_STRUCTURE)  # of no support
+OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"), _OF_STRUCTURE)  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 _OF_DIRECTIONS = (
     *(
@@ -192,7 +190,7 @@ _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 
 
 def read_declared(
-    table: Table | None,
+    lines: Sequence[Row],
     workbook: Workbook,
     places: Mapping[str, str],
     findings: list[Finding],
@@ -201,8 +199,8 @@ def read_declared(
 
     Parameters
     ----------
-    table : Table or None
-        Sheet Declared, if there is one.
+    lines : sequence of Row
+        Of sheet Declared.
     workbook : Workbook
         As read; a number that is no longer there is not confirmed.
     places : mapping of str to str
@@ -214,7 +212,6 @@ def read_declared(
     """
     declared: list[Declaration] = []
     confirmed: dict[str, Message] = {}
-    lines = read_rows(table, findings)
     if places:
         named = (one["row"] for one in lines if not _is_of_all(one["row"], places))
         refuse_unknown_ids(named, places, findings, "declared.id_or_all")
@@ -280,7 +277,7 @@ def list_check_names() -> Mapping[str, _Subject]:
     names: dict[str, _Subject] = {}
     at_ends = (("edge", ".end"), ("", ""))
     for (member, mode), (position, end) in product(DECLARABLE, at_ends):
-        if position and (member, mode) in _OF_ROWS:
+        if position and (member, mode) in OF_ROWS:
             continue
         subject = (member, mode, position)
         title = name_check(*subject)

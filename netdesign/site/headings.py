@@ -17,6 +17,7 @@ from netdesign.site.columns.fields import (
     normalise,
     split_heading,
 )
+from netdesign.site.columns.office import list_texts
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (
     explain,
@@ -141,6 +142,8 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
+    while _heads_on(sheet.row(first_data_row)):
+        first_data_row += 1
     table = Table(
         sheet=sheet,
         plan=plan,
@@ -265,6 +268,12 @@ def _is_numbering(cells: tuple[Cell, ...]) -> bool:
     return len(cells) >= _LEAST_NUMBERED and numbers == [
         str(number) for number in range(1, len(cells) + 1)
     ]
+
+
+def _heads_on(cells: tuple[Cell, ...]) -> bool:
+    """A row below headings that says units, or what empty cells mean (`office`)."""
+    first = normalise(str(cells[0].value)) if cells else ""
+    return first in list_texts("unit", "empty")
 
 
 def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:

@@ -110,7 +110,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
             findings.append(table.sheet.finding(rule, one.accepted))
             found[one.key] = None
         else:
-            found[one.key] = _make_default(one, _DEFAULT_INCLINATION)
+            found[one.key] = make_default(one, _DEFAULT_INCLINATION)
     for name in _refuse_doubles(names, findings):
         found[name] = None
     complete = {key: value for key, value in found.items() if value is not None}
@@ -146,7 +146,7 @@ def assume_stiffness(sheet: RangesSheet) -> RangesSheet:
     usual = next(one.usual for one in NETS.fields if one.key == STIFFNESS)
     if usual is None:
         return sheet
-    found = _make_default(
+    found = make_default(
         next(one for one in FURTHER_QUANTITIES if one.column == STIFFNESS),
         (usual.least, usual.most),
     )
@@ -298,7 +298,7 @@ def _read_range(
     if "faulty" in (low.state, high.state):
         return None
     if low.state == high.state == "blank":
-        return _make_default(field, _DEFAULT_INCLINATION)
+        return make_default(field, _DEFAULT_INCLINATION)
     for reading, other in ((low, high), (high, low)):
         if reading.state == "blank":
             rule = say("range.empty_beside", place=other.place)
@@ -335,7 +335,8 @@ def _name_end(field: Field, key: str) -> Field:
     return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
-def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
+def make_default(field: Field, ends: tuple[float, float]) -> _Range:
+    """Range of a quantity that nobody gives, in its first unit."""
     low, high = (
         Reading(
             field=_name_end(field, key),
@@ -345,6 +346,29 @@ def _make_default(field: Field, ends: tuple[float, float]) -> _Range:
         for key, value in zip(("low", "high"), ends, strict=True)
     )
     return _build_range(low, high)
+
+
+def split_reading(field: Field, reading: Reading) -> _Range:
+    """Range of a quantity that one cell holds, or a single value."""
+    ends = reading.span or (reading.number, reading.number)
+    low, high = (
+        replace(reading, field=_name_end(field, key), value=end, span=None)
+        for key, end in zip(("low", "high"), ends, strict=True)
+    )
+    return _build_range(low, high)
+
+
+def collect_ranges(found: Mapping[str, _Range]) -> RangesSheet:
+    """Ranges of the usual three quantities, each given or assumed."""
+    return RangesSheet(
+        ranges=Ranges.of(**{key: one.interval for key, one in found.items()}),
+        inputs=tuple(echo for one in found.values() for echo in one.inputs),
+        lines=tuple(
+            {end.field.key: end}
+            for one in found.values()
+            for end in (one.low, one.high)
+        ),
+    )
 
 
 def _build_range(low: Reading, high: Reading) -> _Range:

@@ -17,6 +17,7 @@ from netdesign.site.cells.numbers import (
     parse_number,
     read_grade,
     read_moment,
+    split_range,
     split_unit,
 )
 from netdesign.site.columns.fields import (
@@ -58,6 +59,9 @@ class Reading:
         How the value follows from other inputs; None where it was typed.
     singles : tuple of SingleTest
         Pull-out tests of sheet Tests that it is the number of.
+    span : tuple of float, or None
+        Low and high end of a range that the cell holds, in the field's first unit;
+        then the value is the more severe of them.
     """
 
     field: Field
@@ -67,6 +71,7 @@ class Reading:
     cell: Cell | None = None
     derivation: Message | None = None
     singles: tuple[SingleTest, ...] = ()
+    span: tuple[float, float] | None = None
 
     @property
     def place(self) -> str:
@@ -136,6 +141,10 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     """
     if unit == IN_CELLS:
         return _read_with_own_unit(cell, field, findings)
+    if field.may_range and isinstance(cell.value, str):
+        ends = split_range(cell.value)
+        if ends:
+            return _read_range(cell, field, unit, ends, findings)
     understood = _understand(cell, field, unit)
     if isinstance(understood, Refusal):
         findings.append(cell.finding(*understood, field.title_in(unit)))
@@ -149,6 +158,34 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
         text=_describe_typed(cell, field, unit),
         cell=cell,
     )
+
+
+_SEVERE_IS_LOW = ("slack",)  # a tauter net pulls harder
+
+
+def _read_range(
+    cell: Cell,
+    field: Field,
+    unit: str,
+    ends: tuple[str, str, str],
+    findings: list[Finding],
+) -> Reading:
+    """Read a cell that holds a range; its value is the more severe end."""
+    told: list[Finding] = []
+    single = replace(field, may_range=False)
+    low, high = (
+        read_cell(replace(cell, value=f"{end} {ends[2]}".rstrip()), single, unit, told)
+        for end in ends[:2]
+    )
+    if not told and low.number > high.number:
+        rule = say("range.below_low", place=cell.place)
+        told.append(cell.finding(rule, say("range.low_to_high"), field.title_in(unit)))
+    findings.extend(replace(one, text=cell.text) for one in told)
+    if told:
+        return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+    severe = low if field.key in _SEVERE_IS_LOW else high
+    span = None if low.number == high.number else (low.number, high.number)
+    return replace(severe, field=field, text=cell.text, cell=cell, span=span)
 
 
 def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
@@ -315,7 +352,11 @@ def _is_moment(text: str) -> bool:
     return True
 
 
-def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
+def _understand_number(cell: Cell, field: Field, unit: str) -> float | str | Refusal:
+    if field.phrase and isinstance(cell.value, str):
+        said = re.fullmatch(field.phrase, cell.value.strip())
+        if said:
+            return said[said.lastgroup or 0]
     grade = read_grade(cell.value) if field.is_grade else None
     number = _take_number(cell, unit) if grade is None else grade
     if isinstance(number, Refusal):

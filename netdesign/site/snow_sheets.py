@@ -34,8 +34,13 @@ _SUM_TOLERANCE = 0.0101  # [m]
 
 def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
     """Lines of sheet Snow by net row, from the ground up; faults go to ``findings``."""
+    return order_layers(read_rows(table, findings), findings)
+
+
+def order_layers(rows: Sequence[Row], findings: list[Finding]) -> LayersByRow:
+    """Lines by net row, from the ground up."""
     by_row: dict[str, list[Row]] = {}
-    for row in read_rows(table, findings):
+    for row in rows:
         if row["row"].word and row["layer"].state == "given":
             by_row.setdefault(row["row"].word, []).append(row)
     for lines in by_row.values():

@@ -227,10 +227,9 @@ def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
     given = [reading for reading in asking if reading.state == "given"]
     if any(reading.state == "faulty" for reading in present) or not given:
         return False
-    lacking = [key for key in keys if key not in row or row[key].state == "blank"]
+    lacking = [key for key in keys if row[key].state == "blank"]
     if lacking:
-        table = given[0].field.table
-        names = tuple(say(f"column.{table}.{key}") for key in lacking)
+        names = tuple(row[key].field.name for key in lacking)
         rule = say("type.needs_more", names=names)
         refuse(given[0], rule, say("type.all_or_none"), findings)
     return not lacking

@@ -52,7 +52,7 @@ def _read_plan(name: str) -> SheetPlan:
         name=name,
         fields=_read_fields(name),
         unclear=_list_unclear(name),
-        names=_list_names(f"sheet.{name}", "sheets", name),
+        names=list_names(f"sheet.{name}", "sheets", name),
         items=items,
         **{key: _freeze(value) for key, value in entry.items()},
     )
@@ -69,11 +69,24 @@ def _read_field(table: str, key: str) -> Field:
     if "column" in entry:
         column = data["Nets"][entry["column"]]
         entry = {**{one: column[one] for one in _OF_COLUMN if one in column}, **entry}
+    return build_field(table, key, entry)
+
+
+def build_field(table: str, key: str, entry: Data) -> Field:
+    """Field of a column by its entry in a file of columns.
+
+    Parameters
+    ----------
+    table, key : str
+        Sheet or list, and name in it.
+    entry : mapping
+        Its keys, as the file says.
+    """
     values = {one: _READ.get(one, _freeze)(value) for one, value in entry.items()}
     return Field(
         key=key,
         table=table,
-        headings=_list_names(f"column.{table}.{key}", table, key),
+        headings=list_names(f"column.{table}.{key}", table, key),
         notes={
             one: load_file(f"words/{one}").get(table, {}).get(key, "")
             for one in LANGUAGES
@@ -106,7 +119,7 @@ def load_text(language: Language) -> Mapping[str, str]:
     return texts
 
 
-def _list_names(name: str, table: str, key: str) -> dict[str, tuple[str, ...]]:
+def list_names(name: str, table: str = "", key: str = "") -> dict[str, tuple[str, ...]]:
     """Headings of a field, or names of a sheet, by language: that of the key first."""
     names: dict[str, tuple[str, ...]] = {}
     for language in READ_LANGUAGES:

@@ -213,6 +213,10 @@ class Field:
         Word by each of its spellings in every language.
     named : Message or None
         Another name than the column's, of a part of it.
+    may_range : bool
+        Whether a cell may hold a range, whose worst value counts.
+    phrase : str
+        Pattern of what a cell may say in the place of a number; empty for nothing.
     """
 
     key: str
@@ -245,6 +249,8 @@ class Field:
     notes: Mapping[Language, str] = field(default_factory=dict)
     spellings: Mapping[str, str] = field(default_factory=dict)
     named: Message | None = None
+    may_range: bool = False
+    phrase: str = ""
 
     @property
     def name(self) -> Message:

@@ -1,0 +1,148 @@
+"""The input workbook that ``init`` writes: its sheets and columns, `office.toml`.
+
+A column has the key of that of `all_tables` which it stands for, and what that is:
+units, bounds, words, what is usual. The reader joins its lines to those of there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+
+from netdesign.site.columns.all_tables import (
+    Data,
+    build_field,
+    list_names,
+    load_file,
+)
+from netdesign.site.columns.fields import Field, SheetPlan, normalise
+from netdesign.words.catalogue import LANGUAGES, Language, render
+from netdesign.words.message import say
+
+# Keys of a column that only the template needs.
+_OF_TEMPLATE = (
+    *("like", "unit", "choice", "group", "need", "has", "assumed", "said", "why"),
+    *("width", "divided", "note"),
+)
+PROJECT_HEADS = ("item", "value", "unit", "empty", "source", "has", "meaning")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Column:
+    """A column as the template shows it.
+
+    Attributes
+    ----------
+    field : Field
+        What its cells hold.
+    need : str
+        ``yes``, ``row`` (a check is not proven without it) or empty.
+    has : str
+        Who has it: ``office``, ``survey``, ``supplier`` or ``ground``.
+    unit, choice : str
+        Unit that is shown; of several measures the name of their list.
+    group : str
+        Heading above the headings.
+    assumed : sequence of float or str
+        What is assumed of an empty cell: one value, or both ends of a range.
+    said : str
+        What is said of an empty cell instead.
+    width : float
+        Of the column; 0 where its heading decides.
+    texts : mapping of str to mapping of str to str
+        ``why``, ``note``, ``divided`` by language.
+    """
+
+    field: Field
+    need: str = ""
+    has: str = ""
+    unit: str = ""
+    choice: str = ""
+    group: str = ""
+    assumed: Sequence[float | str] = ()
+    said: str = ""
+    width: float = 0.0
+    texts: Mapping[str, Mapping[Language, str]]
+
+
+@cache
+def load_columns(table: str) -> tuple[Column, ...]:
+    """Columns of a sheet or block, in the order of the template."""
+    data = load_file("office")
+    of = data["sheets"][table]["of"]
+    return tuple(_read_column(table, key, of) for key in data[table])
+
+
+def _read_column(table: str, key: str, of: str) -> Column:
+    own = load_file("office")[table][key]
+    place, _, name = own.get("like", f"{of}.{key}").rpartition(".")
+    like = dict(load_file("columns").get(place, {}).get(name, {}))
+    entry = {key: own[key] for key in own if key not in _OF_TEMPLATE}
+    if "unit" in own and not like.get("units") and own["unit"] in ("m", "-", "kN"):
+        entry["units"] = {"m": "length", "-": "factor", "kN": "force"}[own["unit"]]
+    for absent in ("instead", "required", "is_offered"):
+        like.pop(absent, None)
+    field = build_field(
+        table, key, {**like, **entry, "required": own.get("need") == "yes"}
+    )
+    texts = {one: own.get(one, {}) for one in ("why", "note", "divided")}
+    return Column(
+        field=field,
+        unit=own.get("unit", field.unit),
+        texts=texts,
+        **{one: own[one] for one in _PLAIN if one in own},
+    )
+
+
+_PLAIN = ("need", "has", "choice", "group", "assumed", "said", "width")
+
+
+@cache
+def load_plan(table: str) -> SheetPlan:
+    """Plan of a sheet, or of a block of sheet Parts."""
+    sheet = load_file("office")["sheets"][table].get("sheet", table)
+    fields = tuple(one.field for one in load_columns(table))
+    names = list_names(f"sheet.{sheet}")
+    if table == "project":
+        heads = tuple(
+            build_field("project_heads", key, {"kind": "text"}) for key in PROJECT_HEADS
+        )
+        return SheetPlan(name=table, fields=heads, names=names, items=fields)
+    is_needed = table in ("rows", "net_types")
+    return SheetPlan(name=table, fields=fields, names=names, required=is_needed)
+
+
+PARTS = ("ropes", "posts", "links", "soils")  # blocks of sheet Parts
+TABLES: tuple[str, ...] = tuple(load_file("office")["sheets"])
+
+
+def load_text(key: str, language: Language, area: str = "text") -> str:
+    """Text of the template."""
+    text: str = load_file("office")[area][key][language]
+    return text
+
+
+@cache
+def list_texts(*keys: str) -> frozenset[str]:
+    """Texts in all languages, normalised."""
+    texts: Data = load_file("office")["text"]
+    return frozenset(normalise(texts[key][one]) for key in keys for one in LANGUAGES)
+
+
+@cache
+def list_choices() -> Mapping[str, tuple[str, str]]:
+    """Unit and measure by the normalised text of a unit cell: "m vertical"."""
+    found: dict[str, tuple[str, str]] = {}
+    for choice, language in product(load_file("office")["choices"], LANGUAGES):
+        for measure in list_measures(choice):
+            text = render(say(f"choice.{choice}.{measure}"), language)
+            found[normalise(text)] = (text.split()[0], measure)
+    return found
+
+
+def list_measures(choice: str) -> Sequence[str]:
+    """Measures of one thing, of which a unit cell says one."""
+    measures: Sequence[str] = load_file("office")["choices"][choice]
+    return measures

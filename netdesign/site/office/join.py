@@ -1,0 +1,206 @@
+"""The input workbook as lines of a site, each reading with the cell it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from netdesign.site.cells.cells import Workbook
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import SNOW
+from netdesign.site.content import Content
+from netdesign.site.lines import (
+    Lines,
+    index_lines,
+    refuse_unknown_ids,
+)
+from netdesign.site.office.declared import list_declared
+from netdesign.site.office.project import (
+    build_office_ranges,
+    build_project,
+    read_lines,
+)
+from netdesign.site.office.rows import (
+    join_ends,
+    join_net,
+    join_rows,
+    read_approval,
+)
+from netdesign.site.office.sheets import FURTHER, OfficeTables, find_office_tables
+from netdesign.site.office.types import (
+    find_field,
+    join_anchors,
+    join_links,
+    join_posts,
+    join_ropes,
+    join_tests,
+    list_dips,
+    list_end_types,
+    list_ids,
+    rename,
+    settle_ids,
+    take,
+)
+from netdesign.site.ranges import assume_stiffness
+from netdesign.site.readings import Row, refuse
+from netdesign.site.snow_sheets import LayersByRow, order_layers
+from netdesign.site.tables import find_table
+from netdesign.site.type_lines import count_in_tests, name_by_ground, place_in_ground
+from netdesign.site.type_sheets import read_types
+from netdesign.words.message import say
+
+# Columns of net rows and of their ends that name a type, by the sheet of the types.
+_NAMING = {
+    "Anchors": ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor"),
+    "Ropes": ("ridge_rope", "lower_rope", "uphill_guy", "downhill_guy", "end_guy"),
+    "Posts": ("post",),
+}
+_BLOCKS = {"Anchors": "anchor_types", "Ropes": "ropes", "Posts": "posts"}
+
+
+def read_office(workbook: Workbook, findings: list[Finding]) -> Content:
+    """Read all sheets and join them to lines of a site; faults go to ``findings``."""
+    tables = find_office_tables(workbook, findings)
+    lines = _settle_all({key: list(of) for key, of in tables.lines.items()})
+    project = read_lines(tables.tables["project"], lines["project"], findings)
+    measure = tables.measures.get(("net_types", "slack"), "")
+    nets = index_lines(
+        [join_net(one, measure, findings) for one in lines["net_types"]],
+        "id",
+        say("nets.ids_once"),
+        findings,
+    )
+    _refuse_unknown_nets(lines["rows"], nets, findings)
+    named, cells = build_project(project)
+    of_rows = {line["id"].word: line["net_type"].word for line in lines["rows"]}
+    approvals = {
+        row: approval
+        for row, net in of_rows.items()
+        if net in nets and (approval := read_approval(nets[net]))
+    }
+    return Content(
+        workbook=workbook,
+        project=named,
+        project_cells=cells,
+        lines=_join(tables, lines, project, nets, findings),
+        nets=tables.tables["rows"],
+        declared=list_declared(lines["declared"]),
+        further={one.name: find_table(workbook, one, findings) for one in FURTHER},
+        approvals=approvals,
+    )
+
+
+def _join(
+    tables: OfficeTables,
+    lines: Mapping[str, Sequence[Row]],
+    project: Row,
+    nets: Mapping[str, Row],
+    findings: list[Finding],
+) -> Lines:
+    snow = _join_layers(tables, lines["layers"], findings)
+    dips = list_dips(lines["anchor_types"])
+    measure = tables.measures.get(("rows", "snow"), "")
+    rows = join_rows(lines["rows"], nets, snow, project, dips, measure, findings)
+    at_end = {
+        name: one
+        for block in _BLOCKS.values()
+        for name, one in list_end_types(lines[block]).items()
+    }
+    ends = join_ends(lines["rows"], rows, nets, at_end, dips)
+    return _collect(tables, lines, project, rows, ends, snow, findings)
+
+
+def _settle_all(lines: dict[str, list[Row]]) -> dict[str, list[Row]]:
+    """Lines whose ids are spelt as their own sheet has them."""
+    ids = {name: list(list_ids(lines[name])) for name in ("rows", "net_types")}
+    ids |= {sheet: list(list_ids(lines[block])) for sheet, block in _BLOCKS.items()}
+    lines["rows"] = settle_ids(lines["rows"], ids["net_types"], "net_type")
+    for sheet, keys in _NAMING.items():
+        for key in keys:
+            table = "net_types" if sheet != "Anchors" else "rows"
+            lines[table] = settle_ids(lines[table], ids[sheet], key)
+        block = _BLOCKS[sheet]
+        lines[block] = settle_ids(lines[block], ids[sheet], "at_end")
+    lines["tests"] = settle_ids(lines["tests"], ids["Anchors"], "type")
+    both = [*ids["Anchors"], *ids["Ropes"]]
+    lines["links"] = settle_ids(lines["links"], both, "type")
+    lines["layers"] = settle_ids(lines["layers"], ids["rows"], "row")
+    return lines
+
+
+def _refuse_unknown_nets(
+    rows: Sequence[Row], nets: Mapping[str, Row], findings: list[Finding]
+) -> None:
+    places = {name: one["id"].place for name, one in nets.items()}
+    refuse_unknown_ids((row["net_type"] for row in rows), places, findings)
+
+
+def _join_layers(
+    tables: OfficeTables, lines: Sequence[Row], findings: list[Finding]
+) -> LayersByRow:
+    """Lines of sheet Snow by net row, vertical or normal as their unit cell says."""
+    measure = tables.measures.get(("layers", "thickness"), "")
+    key = "height" if measure == "vertical" else "thickness"
+    joined = []
+    for line in lines:
+        size = rename(line["thickness"], find_field(SNOW, key))
+        bare = {one: reading for one, reading in line.items() if one != "thickness"}
+        joined.append(take(SNOW, bare, **{key: size}))
+    if lines and not measure:
+        refuse(lines[0]["thickness"], say("office.no_measure"), "", findings)
+    return order_layers(joined, findings)
+
+
+def _refuse_ranges(rows: Sequence[Row], findings: list[Finding]) -> None:
+    """Refuse ranges of single rows, which nothing searches yet; each cell once."""
+    cells = {
+        one.place: one for row in rows for one in row.values() if one.span is not None
+    }
+    for reading in cells.values():
+        refuse(reading, say("office.range"), say("accepted.one_number"), findings)
+
+
+def _collect(
+    tables: OfficeTables,
+    lines: Mapping[str, Sequence[Row]],
+    project: Row,
+    rows: list[Row],
+    ends: list[Row],
+    snow: LayersByRow,
+    findings: list[Finding],
+) -> Lines:
+    _refuse_ranges(rows, findings)
+    tests = join_tests(lines["tests"])
+    anchors = join_anchors(lines["anchor_types"], tests, lines["soils"], project)
+    if tests:
+        anchors = count_in_tests(anchors, tests, findings)
+    grounds = {
+        row["id"].word: row["ground"] for row in rows if row["ground"].state == "given"
+    }
+    rows, _ = place_in_ground(rows, anchors, grounds, findings)
+    ends, _ = place_in_ground(ends, anchors, grounds, findings)
+    of_types = {
+        "Anchors": name_by_ground(anchors),
+        "Ropes": join_ropes(lines["ropes"]),
+        "Posts": join_posts(lines["posts"], project, lines["net_types"]),
+    }
+    found = {
+        sheet: read_types(tables.tables[_BLOCKS[sheet]], of, findings)
+        for sheet, of in of_types.items()
+    }
+    ranges = build_office_ranges(project)
+    if all(row["net_stiffness"].state == "blank" for row in rows):
+        ranges = assume_stiffness(ranges)
+    joined = Lines(
+        nets=rows,
+        ends=index_lines(ends, "row", say("ends.one_line"), findings),
+        snow=snow,
+        types={sheet: of or {} for sheet, of in found.items()},
+        absent=[one for one, block in _BLOCKS.items() if not tables.tables[block]],
+        unreadable=[one for one, of in found.items() if of is None],
+        ranges=ranges,
+        links=join_links(lines["links"]),
+        tests=tests,
+    )
+    for of_row in snow.values():
+        refuse_unknown_ids([of_row[0]["row"]], joined.places, findings)
+    return joined

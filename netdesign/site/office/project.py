@@ -1,0 +1,95 @@
+"""Sheet Project of the input workbook: what holds for the whole site."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from netdesign.site.assumed import load_assumed
+from netdesign.site.cells.cells import Cell
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import USUAL_QUANTITIES
+from netdesign.site.columns.fields import Field, normalise_unit
+from netdesign.site.columns.office import load_plan
+from netdesign.site.headings import Table
+from netdesign.site.model import Project
+from netdesign.site.ranges import (
+    RangesSheet,
+    collect_ranges,
+    make_default,
+    split_reading,
+)
+from netdesign.site.readings import Reading, Row, explain_unit, read_nothing, refuse
+from netdesign.site.tables import match_item, read_answered
+from netdesign.words.message import say
+
+_TEXTS = ("name", "number", "author", "checker", "standard")
+_DOCUMENTS = ("snow_document", "glide_document", "ground_document")
+
+
+def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -> Row:
+    """Lines of sheet Project by their key, each read as what it is.
+
+    Parameters
+    ----------
+    table : Table or None
+        The sheet, if it was found.
+    lines : list of Row
+        Its lines, as texts.
+    findings : list of Finding
+        Appended to: a line that is no item, or that stands twice.
+    """
+    found: dict[str, Reading] = {}
+    for line in lines if table else ():
+        assert table is not None
+        item = line["item"]
+        if not item.word:
+            continue
+        field = match_item(item, table, "item", findings).field
+        if field is None:
+            continue
+        if field.key in found:
+            rule = say("item.twice", place=found[field.key].place)
+            refuse(item, rule, say("item.one_line"), findings)
+            continue
+        cell = line["value"].cell
+        found[field.key] = (
+            read_nothing(field, None)
+            if cell is None
+            else _read_value(table, cell, field, line["unit"], findings)
+        )
+    items = load_plan("project").items
+    return {one.key: found.get(one.key) or read_nothing(one, None) for one in items}
+
+
+def _read_value(
+    table: Table, cell: Cell, field: Field, typed: Reading, findings: list[Finding]
+) -> Reading:
+    unit = normalise_unit(typed.word.strip(" []()")) if field.units else ""
+    unit = unit or field.unit
+    if unit not in field.units and field.units:
+        refuse(typed, *explain_unit(unit, field), findings)
+        return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+    return read_answered(table.sheet, cell, field, unit, findings)
+
+
+def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
+    """Project of the site, and the cells of its lines."""
+    given = {
+        key: lines[key] for key in (*_TEXTS, *_DOCUMENTS) if lines[key].state == "given"
+    }
+    values = {key: one.word for key, one in given.items() if key in _TEXTS}
+    return Project(**values), {key: one.place for key, one in given.items()}
+
+
+def build_office_ranges(lines: Row) -> RangesSheet:
+    """Ranges of the usual three quantities; the assumed ones where a line is empty."""
+    found = {}
+    for field in USUAL_QUANTITIES:
+        reading = lines[field.key]
+        if reading.state == "faulty":
+            return RangesSheet()
+        if reading.state == "given":
+            found[field.key] = split_reading(field, reading)
+        else:
+            found[field.key] = make_default(field, load_assumed()[field.key].shown)
+    return collect_ranges(found)

@@ -1,0 +1,197 @@
+"""Sheets of the input workbook: which they are, and their tables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.site.cells.cells import Cell, Sheet, Workbook
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import (
+    MONITORING,
+    SHEETS,
+    UNCERTAINTY,
+    WINTER,
+)
+from netdesign.site.columns.fields import SheetPlan, normalise, split_heading
+from netdesign.site.columns.office import (
+    PARTS,
+    TABLES,
+    list_choices,
+    list_texts,
+    load_plan,
+)
+from netdesign.site.headings import Table
+from netdesign.site.readings import Row
+from netdesign.site.tables import find_table, read_rows
+from netdesign.site.titles import is_meant
+
+_FIRST_ROWS = 25  # in which headings and their units stand
+_LEAST_KNOWN = 2  # headings, to be a row of them
+_IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
+_ALONE = tuple(one for one in TABLES if one not in PARTS)
+FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons, as they are
+_OF_TEMPLATE = ("table.above_headings", "table.gap", "table.empty_row", "heading.group")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OfficeTables:
+    """Tables of the workbook by their name in `office.toml`, and their lines.
+
+    ``measures`` has what the unit cell of a column says it measures, by table and key;
+    empty where it says none.
+    """
+
+    tables: Mapping[str, Table | None]
+    lines: Mapping[str, Sequence[Row]]
+    measures: Mapping[tuple[str, str], str]
+
+    @property
+    def rows(self) -> Table | None:
+        """Table of the net rows."""
+        return self.tables["rows"]
+
+
+def is_office(workbook: Workbook) -> bool:
+    """A workbook has a sheet of rows that names net types."""
+    plan = load_plan("rows")
+    return any(
+        plan.matches(sheet.name) and _names_net_types(sheet, plan)
+        for sheet in workbook.sheets
+    )
+
+
+def may_be_office(name: str) -> bool:
+    """A name is that of one of its sheets."""
+    return any(load_plan(one).matches(name) for one in TABLES)
+
+
+def _names_net_types(sheet: Sheet, plan: SheetPlan) -> bool:
+    known = next(one.names for one in plan.fields if one.key == "net_type")
+    rows = (_list_headings(sheet, number) for number in range(1, _FIRST_ROWS + 1))
+    return any(
+        not known.isdisjoint(row) and _count_known(row, plan) >= _LEAST_KNOWN
+        for row in rows
+    )
+
+
+def _list_headings(sheet: Sheet, number: int) -> list[str]:
+    cells = sheet.row(number)
+    return [split_heading(one.value)[0] for one in cells if isinstance(one.value, str)]
+
+
+def _count_known(headings: Sequence[str], plan: SheetPlan) -> int:
+    names = frozenset[str]().union(*(one.names for one in plan.fields))
+    return sum(one in names for one in headings)
+
+
+def keep_sheets(workbook: Workbook, *, of_office: bool) -> Workbook:
+    """Workbook without the sheets that its kind does not have: they are not read."""
+    plans = (*map(load_plan, TABLES), *FURTHER) if of_office else SHEETS
+    kept = tuple(
+        sheet
+        for sheet in workbook.sheets
+        if any(is_meant(sheet.name, plan, workbook.answers) for plan in plans)
+    )
+    left = tuple(one.name for one in workbook.sheets if one not in kept)
+    return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
+
+
+def find_office_tables(workbook: Workbook, findings: list[Finding]) -> OfficeTables:
+    """All tables of the workbook with their lines; faults go to ``findings``."""
+    told: list[Finding] = []
+    settled = [_settle_units(sheet) for sheet in workbook.sheets]
+    named = {sheet.name: measures for sheet, measures in settled}
+    plain = replace(workbook, sheets=tuple(sheet for sheet, _ in settled))
+    tables = {name: find_table(plain, load_plan(name), told) for name in _ALONE}
+    tables |= _find_parts(plain, told)
+    findings.extend(one for one in told if not _is_of_template(one))
+    return OfficeTables(
+        tables=tables,
+        lines={name: read_rows(one, findings) for name, one in tables.items()},
+        measures={
+            (name, key): named[table.sheet.name].get(column.number, "")
+            for name, table in tables.items()
+            if table
+            for key, column in table.columns.items()
+        },
+    )
+
+
+def _is_of_template(finding: Finding) -> bool:
+    """A remark on titles above headings, or on lines left empty between others."""
+    is_mild = finding.severity == "note" or finding.rule.key != _OF_TEMPLATE[0]
+    return is_mild and finding.rule.key in _OF_TEMPLATE
+
+
+def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
+    """Sheet whose unit cells hold units alone, and what they measure by column."""
+    measures: dict[int, str] = {}
+    rows = dict(sheet.rows)
+    for number in range(1, _FIRST_ROWS + 1):
+        cells = sheet.row(number)
+        first = normalise(str(cells[0].value)) if cells else ""
+        is_units = first in list_texts("unit")
+        changed = {
+            cell.column: plain
+            for cell in cells
+            if (plain := _settle(cell, measures, is_unit=is_units))
+        }
+        if changed:
+            rows[number] = {**rows[number], **changed}
+    return replace(sheet, rows=rows), measures
+
+
+def _settle(cell: Cell, measures: dict[int, str], *, is_unit: bool) -> Cell | None:
+    """Cell with the unit alone; None where it does not say what it measures."""
+    if not isinstance(cell.value, str):
+        return None
+    found = _IN_BRACKETS.fullmatch(cell.value)
+    before, text, behind = found.groups() if found else ("", cell.value, "")
+    known = list_choices().get(normalise(text)) if found or is_unit else None
+    if known is None:
+        return None
+    measures[cell.column] = known[1]
+    return replace(cell, value=f"{before}{known[0]}{behind}")
+
+
+def _find_parts(
+    workbook: Workbook, findings: list[Finding]
+) -> Iterator[tuple[str, Table | None]]:
+    """Blocks of sheet Parts, one below the other, each with headings of its own."""
+    plan = load_plan(PARTS[0])
+    sheet = next((one for one in workbook.sheets if plan.matches(one.name)), None)
+    starts = {
+        name: start
+        for name in PARTS
+        if sheet and (start := _find_start(sheet, load_plan(name)))
+    }
+    ends = sorted(starts.values())[1:]
+    for name in PARTS:
+        if sheet is None or name not in starts:
+            yield name, None
+            continue
+        end = next((one for one in ends if one > starts[name]), 0)
+        block = _cut(sheet, starts[name], end)
+        yield (
+            name,
+            find_table(replace(workbook, sheets=(block,)), load_plan(name), findings),
+        )
+
+
+def _find_start(sheet: Sheet, plan: SheetPlan) -> int:
+    """Row with the most headings of a block; 0 where there is none."""
+    counts = {row: _count_known(_list_headings(sheet, row), plan) for row in sheet.rows}
+    best = max(counts, key=lambda row: counts[row], default=0)
+    return best if counts.get(best, 0) >= _LEAST_KNOWN else 0
+
+
+def _cut(sheet: Sheet, start: int, end: int) -> Sheet:
+    """Rows of a block from its headings to the title of the next, 0 for none."""
+    last = end or max(sheet.rows) + 1
+    if end and len(sheet.row(end - 1)) == 1:
+        last = end - 1
+    rows = {row: cells for row, cells in sheet.rows.items() if start <= row < last}
+    merged = tuple(one for one in sheet.merged if start <= one.row < last)
+    return replace(sheet, rows=rows, merged=merged)

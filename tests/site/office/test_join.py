@@ -1,0 +1,304 @@
+"""Rows and net types, joined: what is typed is what a net row has."""
+
+import math
+
+import openpyxl
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.office.rows import find_slack
+from netdesign.site.reader import read_site
+from tests.each import each
+from tests.site.office.books import write_office
+from tests.site.office.drawn import draw_tables
+
+LANGUAGES = ("en", "fr", "de")
+CASES = [(seed, LANGUAGES[seed % 3]) for seed in range(12)]
+
+
+def find_line(tables, table, key):
+    return next(one for one in tables[table] if one["id"] == key)
+
+
+@each("seed, language", CASES)
+def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
+    tables = draw_tables(seed)
+    measure = ("vertical", "normal")[seed % 2]
+    sag = ("sag", "slack")[seed % 2]
+    if sag == "sag":
+        for net in tables["net_types"]:
+            net["slack"] = net["slack"] + 9
+    path = tmp_path / f"{seed}.xlsx"
+    write_office(
+        path, tables, language, {("rows", "snow"): measure, ("net_types", "slack"): sag}
+    )
+    site = read_site(path)
+    assert site.project.name == f"Site {seed}"
+    density = site.ranges["density"]
+    assert (density.low, density.high) == tables["project"]["density"]
+    for line, row in zip(tables["rows"], site.rows, strict=True):
+        net = find_line(tables, "net_types", line["net_type"])
+        slope = math.radians(line["slope_angle"])
+        factor = math.cos(slope) if measure == "vertical" else 1.0
+        slack = net["slack"] / 100
+        assert row.slope_angle == pytest.approx(slope)
+        assert row.snow_thickness == pytest.approx(line["snow"] * factor)
+        assert row.glide_factor == line["glide_factor"]
+        assert row.net_height == net["net_height"]
+        assert row.slack == pytest.approx(find_slack(slack) if sag == "sag" else slack)
+        assert row.layout.post_spacing == line["post_spacing"]
+        assert row.layout.post_tilt == pytest.approx(math.radians(net["post_tilt"]))
+        assert row.guys.are_shared is (net["guy_anchors"] == "shared")
+        assert row.net_stiffness_per_m == 1e3 * net["net_stiffness"]
+        assert row.post_count == line["post_count"]
+        assert row.design_life == tables["project"]["design_life"]
+        assert row.ground_type == "till"
+        assert row.approval.foot_force.value == 1e3 * net["maker_foot"]
+        assert row.approval.glide_factor.value == net["glide_most"]
+        assert {one.upper.sag for one in row.panels} == {net["ridge_sag"] / 100}
+        foot = find_line(tables, "anchor_types", line["foot_anchor"])
+        axis = math.radians(foot["dip"]) + slope
+        assert row.find_axis("foot_anchor") == pytest.approx(axis)
+        tendon = next(
+            one
+            for one in row.resistances
+            if (one.member, one.mode) == ("foot_anchor", "tendon")
+        )
+        assert tendon.value == 1e3 * foot["tendon"]
+        assert tendon.type_id == foot["id"]
+
+
+@each("seed", range(6))
+def test_every_cell_that_a_row_shows_is_where_it_was_typed(tmp_path, seed):
+    tables = draw_tables(seed)
+    language = LANGUAGES[seed % 3]
+    path = tmp_path / f"{seed}.xlsx"
+    places = write_office(path, tables, language)
+    site = read_site(path)
+    typed = {f"{sheet}!{cell}" for sheet, cell in places.values()}
+    for row in site.rows:
+        shown = {one.cell for one in row.inputs if "!" in one.cell}
+        assert shown <= typed
+        sheets = {one.partition("!")[0] for one in shown}
+        assert {places["rows", 0, "id"][0], places["net_types", 0, "id"][0]} <= sheets
+
+
+SPOILT = [
+    ("rows", "slope_angle", "steep"),
+    ("rows", "snow", 0.01),
+    ("rows", "glide_factor", "quick"),
+    ("rows", "net_type", "SN 99"),
+    ("rows", "foot_anchor", "GEWI 9"),
+    ("rows", "post_spacing", "1,5,0"),
+    ("rows", "ground", "cheese"),
+    ("net_types", "net_height", "tall"),
+    ("net_types", "slack", -4),
+    ("net_types", "ridge_rope", "S 99"),
+    ("net_types", "guy_count", 3),
+    ("anchor_types", "tendon", "strong"),
+    ("anchor_types", "proven", "I think so"),
+    ("anchor_types", "dip", 120),
+    ("ropes", "rope", "thick"),
+    ("posts", "yield_strength", 20),
+    ("project", "density", "light"),
+    ("project", "soil", "nice"),
+]
+
+
+@each("table, key, text", SPOILT)
+def test_a_fault_names_its_cell(tmp_path, table, key, text):
+    tables = draw_tables(3)
+    line = tables[table] if table == "project" else tables[table][0]
+    line[key] = text
+    if table == "net_types":  # a type that no row names is no fault of a row
+        for row in tables["rows"]:
+            row["net_type"] = line["id"]
+    path = tmp_path / "site.xlsx"
+    places = write_office(path, tables, ("en", "fr", "de")[len(key) % 3])
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    errors = [one for one in refused.value.findings if one.severity == "error"]
+    assert {(one.sheet, one.cell) for one in errors} == {places[table, 0, key]}
+
+
+@each("seed", range(5))
+def test_an_id_is_known_whatever_its_case(tmp_path, seed):
+    tables = draw_tables(seed)
+    plain = write_and_read(tmp_path / "plain.xlsx", tables)
+    for line in tables["rows"]:
+        for key in ("net_type", "foot_anchor", "end_anchor"):
+            line[key] = line[key].lower().replace(" ", "  ")
+    for net in tables["net_types"]:
+        net["ridge_rope"] = net["ridge_rope"].lower()
+    other = write_and_read(tmp_path / "other.xlsx", tables)
+    assert [list_types(row) for row in plain.rows] == [
+        list_types(row) for row in other.rows
+    ]
+
+
+def write_and_read(path, tables, **more):
+    write_office(path, tables, **more)
+    return read_site(path)
+
+
+def list_types(row):
+    return [(one.member, one.mode, one.type_id) for one in row.resistances]
+
+
+def test_the_nearest_ids_are_offered(tmp_path):
+    tables = draw_tables(1)
+    known = tables["net_types"][0]["id"]
+    tables["rows"][0]["net_type"] = known + "0"
+    with pytest.raises(SiteDataError) as refused:
+        write_and_read(tmp_path / "site.xlsx", tables)
+    assert known in str(refused.value)
+
+
+def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
+    path = tmp_path / "site.xlsx"
+    places = write_office(path, draw_tables(2))
+    book = openpyxl.load_workbook(path)
+    sheet, address = places["rows", 0, "snow"]
+    column = address.rstrip("0123456789")
+    book[sheet][f"{column}2"] = "m"
+    book.save(path)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    assert {one.cell[:1] for one in refused.value.findings} == {column}
+
+
+def test_nets_that_go_on_at_both_ends_have_no_end(tmp_path):
+    tables = draw_tables(5, rows=4)
+    first = tables["rows"][0]
+    for line in tables["rows"]:  # alike, so that the nets are one
+        line |= {key: first[key] for key in first if key not in ("id", "gap")}
+    for line, gap in zip(tables["rows"], ("into a2", "into A3", 1.5, 2.0), strict=True):
+        line["gap"] = gap
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    assert [row.gap for row in site.rows] == [math.inf, 0.0, 1.5, 2.0]
+    assert [row.row_end is None for row in site.rows] == [False, True, False, False]
+
+
+@each("language, word", [("en", "free"), ("fr", "libre"), ("de", "frei")])
+def test_snow_may_glide_freely(tmp_path, language, word):
+    tables = draw_tables(4)
+    tables["rows"][1]["glide_factor"] = word
+    site = write_and_read(tmp_path / "site.xlsx", tables, language=language)
+    kinds = [row.ground.kind for row in site.rows]
+    assert kinds == ["sliding", "free", "sliding", "sliding"]
+
+
+def test_other_types_may_stand_at_the_ends(tmp_path):
+    tables = draw_tables(6)
+    inside, other = (one["id"] for one in tables["anchor_types"][:2])
+    for line in tables["rows"]:
+        line["foot_anchor"] = inside
+    tables["anchor_types"][0]["at_end"] = other.lower()
+    tables["ropes"][0]["at_end"] = "S 24"
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    for row in site.rows:
+        at_end = {one.member: one.type_id for one in row.resistances_at("edge")}
+        assert at_end["foot_anchor"] == other
+        assert at_end["uphill_guy"] == "S 24"
+        assert at_end["post"] == "HEA 160"
+
+
+def test_the_line_of_the_row_s_ground_counts(tmp_path):
+    tables = draw_tables(7)
+    of_scree = {"ground": "scree", "pull_out": 77, "test_count": 1, "test_mean": 80}
+    tables["anchor_types"] += [one | of_scree for one in tables["anchor_types"]]
+    scree = tables["anchor_types"][0]
+    for number, line in enumerate(tables["rows"]):
+        line["foot_anchor"] = scree["id"]
+        line["ground"] = ("till", "scree")[number % 2]
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    found = [find_tests(row).least for row in site.rows]
+    till = 1e3 * tables["anchor_types"][0]["pull_out"]
+    assert found == [till, 77e3] * 2
+
+
+def find_tests(row):
+    return next(
+        one.tests
+        for one in row.resistances
+        if (one.member, one.mode) == ("foot_anchor", "pull_out")
+    )
+
+
+WAYS = [("report", "report"), ("calculated", "computed"), (None, "computed")]
+
+
+@each("proven, basis", WAYS)
+def test_a_pull_out_force_is_known_in_one_way(tmp_path, proven, basis):
+    tables = draw_tables(8)
+    anchor = tables["anchor_types"][0]
+    for key in ("test_count", "test_mean", "proven"):
+        del anchor[key]
+    if proven:
+        anchor["proven"] = proven
+    for line in tables["rows"]:
+        line["foot_anchor"] = anchor["id"]
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    known = next(
+        one
+        for one in site.rows[0].resistances
+        if (one.member, one.mode) == ("foot_anchor", "pull_out")
+    )
+    assert (known.basis, known.value) == (basis, 1e3 * anchor["pull_out"])
+
+
+def test_single_tests_are_counted_and_no_number_beside_them(tmp_path):
+    tables = draw_tables(9)
+    anchor = tables["anchor_types"][0]
+    for line in tables["rows"]:
+        line["foot_anchor"] = anchor["id"]
+    for key in ("pull_out", "proven", "test_count", "test_mean"):
+        del anchor[key]
+    forces = [141.5, 133.0, 150.5]
+    tables["tests"] = [
+        {"type": anchor["id"].upper(), "ground": "till", "force": one, "result": "held"}
+        for one in forces
+    ]
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    tests = find_tests(site.rows[0])
+    assert (tests.count, tests.least) == (3, 133e3)
+    anchor["pull_out"] = 133.0
+    with pytest.raises(SiteDataError):
+        write_and_read(tmp_path / "twice.xlsx", tables)
+
+
+def test_layers_belong_to_the_rows_that_have_some(tmp_path):
+    tables = draw_tables(10)
+    line = tables["rows"][2]
+    height = line["snow"]
+    tables["layers"] = [
+        {"row": "a3", "layer": 1, "thickness": round(0.4 * height, 3), "density": 380},
+        {"row": "a3", "layer": 2, "thickness": round(0.6 * height, 3), "density": 310},
+    ]
+    measures = {("layers", "thickness"): "vertical"}
+    site = write_and_read(tmp_path / "site.xlsx", tables, measures=measures)
+    assert [len(row.layers) for row in site.rows] == [0, 0, 2, 0]
+    total = sum(layer.thickness for layer in site.rows[2].layers)
+    factor = math.cos(math.radians(line["slope_angle"]))
+    assert total == pytest.approx(height * factor, abs=0.011)
+
+
+def test_a_word_declares_several_checks_of_several_rows(tmp_path):
+    tables = draw_tables(11)
+    document = {"document": "EX-G7", "author": "B. Example"}
+    tables["declared"] = [{"row": "A1, A3", "check": "post base", **document}]
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    assert {one.row_id for one in site.declared} == {"A1", "A3"}
+    assert {one.mode for one in site.declared} == {"bearing", "sliding"}
+    assert {one.proof.document for one in site.declared} == {"EX-G7"}
+
+
+def test_the_ground_of_the_wedge_is_that_of_the_type(tmp_path):
+    tables = draw_tables(12)
+    tables["soils"] = [
+        {"ground": "till", "soil_cohesion": 5, "soil_friction": 32, "soil_weight": 20},
+        {"ground": "scree", "soil_cohesion": 0, "soil_friction": 38, "soil_weight": 19},
+    ]
+    site = write_and_read(tmp_path / "site.xlsx", tables)
+    soil = dict(site.rows[0].anchors)["foot_anchor"].soil
+    assert (soil.cohesion, soil.weight) == (5e3, 20e3)
