@@ -409,8 +409,7 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     shared = leaves.get("E_t")
     is_alone = in_panel is None and by_floor is None and shared is None
     name = f"{letter}_k" if is_alone else f"{letter}_c"
-    on_section = push if support.is_second else None
-    coupled = bring_to_support(name, inside, load, support, on_section)
+    coupled = bring_to_support(name, inside, load, support, push)
     by_panel = guideline = None
     if in_panel is not None:
         by_panel = bring_to_support(f"{letter}_p", in_panel, load, support, push)

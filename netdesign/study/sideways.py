@@ -212,13 +212,13 @@ def _share_end(
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
-    Of the cases in which guys and ridge rope pull most, with what may hide. None of one
-    guy on a side.
+    Of the cases in which guys, by section and by panel, and ridge rope pull most, with
+    what may hide. None of one guy on a side, or without a panel.
     """
     row, splay = task.row, task.row.guys.splay
     if row.row_end is None or row.guys.count < 2 or splay is None:
         return None
-    keys = (*GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
+    keys = (*GUYS, *GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
     extremes = [task.extremes[key] for key in keys if key in task.extremes]
     hidden = 1.0 + max(
         (one.hidden / one.force.high for one in extremes if one.force.high > 0.0),
@@ -230,10 +230,9 @@ def _share_end(
     heads = [
         EndHead(points=one.points, pull=(scale * x, scale * y), along=load.along)
         for one in states
-        if one.panel is not None
         for x, y in (one.anchors.head_pull,)
     ]
-    if not heads:
+    if all(one.panel is None for one in states):
         return None
     ways = list(dict.fromkeys(product(*row.row_end.stiffnesses)))
     tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)

@@ -13,7 +13,7 @@ UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg", "T_min": "kN
 UNITS |= {"T_r": "kN", "γ": "deg", "V_k": "kN", "R_k": "kN", "R_m": "kN", "R_min": "kN"}
 UNITS |= {"A": "kN", "Z": "kN", "E_k": "kN", "E_g0": "kN", "P_g": "kN"}
 UNITS |= {"T_min_g": "kN"}
-UNITS |= dict.fromkeys(("E_c", "E_p", "E_g"), "kN")
+UNITS |= dict.fromkeys(("E_c", "E_p", "E_g", "E_p0"), "kN")
 
 
 def q(symbol, value, low=None, high=None):
@@ -140,6 +140,15 @@ def test_an_end_guy_pulls_and_presses():
     assert formulas.push_by_end_guy(rope, angle, part).value == pytest.approx(46.8)
     one = formulas.push_by_end_guy(rope, angle, part, q("β", 60.0))
     assert one.value == pytest.approx(46.8)
+
+
+def test_the_head_holds_the_end_guy_whatever_tells_its_net_s_pull():
+    """(S24a): 46.8 kN beside 100, 60 and 20 kN inside, times 3.2 / 4: 126.8 kN."""
+    given_ = {"E_s": 100.0, "E_p0": 60.0, "E_g0": 20.0, "b": 4.0, "f_R": 1.5, "Δl": 0.8}
+    given_ |= {"T_r": 30.0, "γ": 45.0, "e": 1.2}
+    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
+    found = (force.coupled, force.by_panel, force.guideline, force.action)
+    assert [one.value for one in found] == pytest.approx([126.8, 94.8, 62.8, 126.8])
 
 
 def test_a_base_slides_by_the_tilt_of_its_post():

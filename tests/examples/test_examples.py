@@ -114,10 +114,10 @@ def test_own_site(tmp_path):
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (as_built,) = re.findall(r"^R1 .*? (\d\.\d\d)$", readme, re.MULTILINE)
     assert found[4.0] == (pytest.approx(float(as_built), abs=0.005), "pass")
-    # Wider posts carry snow by their spacing; the end effect and the ropes do not grow.
-    assert 1.3 < found[7.0][0] / found[5.0][0] < 7.0 / 5.0
+    # Wider posts carry snow by their spacing; the end effect stays, ropes grow less.
+    assert 1.15 < found[7.0][0] / found[5.5][0] < 7.0 / 5.5
     verdicts = {spacing: verdict for spacing, (_, verdict) in found.items()}
-    assert verdicts == {4.0: "pass", 5.0: "not_proven", 5.85: "fail", 7.0: "fail"}
+    assert verdicts == {4.0: "pass", 4.57: "not_proven", 5.5: "fail", 7.0: "fail"}
 
 
 def test_limit_profile(tmp_path):

@@ -110,13 +110,13 @@ def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
     assert foot.demand_kN == plain["foot_anchor.tendon"].demand_kN
 
 
-def add_push(check, panel):
-    """Force by the panel with what the end guy adds, on one of two guys or alone."""
+def add_push(check, force):
+    """Force on a support with what the end guy adds, on one of two guys or alone."""
     push, across = (check.read(symbol) or 0.0 for symbol in ("Z", "B"))
     if not (push and across):
-        return panel + push
+        return force + push
     splay, wide = math.radians(check.read("β")), compare_support(check)
-    in_section = math.sqrt(panel**2 - (across * wide) ** 2) + push * math.cos(splay)
+    in_section = math.sqrt(force**2 - (across * wide) ** 2) + push * math.cos(splay)
     return math.hypot(in_section, across * wide + push * math.sin(splay))
 
 
@@ -128,9 +128,9 @@ def test_numbers_of_the_record_give_the_demand(pair):
             continue
         letter = check.name_force("k")[0]
         section, panel = (
-            bring(check, check.read(f"{letter}_{one}") or 0.0) for one in ("s", "p0")
+            add_push(check, bring(check, check.read(f"{letter}_{one}") or 0.0))
+            for one in ("s", "p0")
         )
-        panel = add_push(check, panel)
         least = check.read(f"{letter}_g") or 0.0
         across = max(section, panel, least, check.read("E_t") or 0.0)
         tilt = check.read("t")

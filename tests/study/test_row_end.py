@@ -87,7 +87,11 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     assert post.read("Z") == pytest.approx(pushed, rel=1e-12)
     assert post.read(post.name_force("p")) > pushed
     assert checks["post.compression"].read("Z") is None
-    assert post.governs == "panel"
+    width = post.read("b_e") / post.read("b")
+    for model, inside in (("coupled", "E_s"), ("panel", "E_p0")):  # the head holds both
+        of_net = (post.read(inside) + (post.read("A") or 0.0)) * width
+        held = post.read(post.name_force(model[0]))
+        assert held == pytest.approx(of_net + pushed, rel=1e-12)
 
 
 RANK = [Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS]

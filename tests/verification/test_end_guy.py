@@ -5,6 +5,7 @@ digits given there.
 """
 
 import math
+import random
 from itertools import product
 
 import numpy as np
@@ -97,6 +98,41 @@ def test_post_and_uphill_guy_hold_what_the_end_guy_pulls_down(row, inclination):
     along = hold_end_guy(points, BASE)
     assert along.post_compression == pytest.approx(1.0)
     assert along.uphill_guy_tension == pytest.approx(0.0, abs=1e-12)
+
+
+def hold_head(points, guy, pull, along):
+    """Post, uphill guys and end guy by the sums of forces in three directions [kN]."""
+    head = np.array([*points.head, 0.0])
+    base, anchor = np.array([[*points.post_base, 0.0], [*points.uphill_anchor, 0.0]])
+    ways = np.array([head - base, anchor - head, guy.find_way(points)])
+    lengths = np.linalg.norm(ways, axis=1, keepdims=True)
+    return np.linalg.solve((ways / lengths).T, [-pull[0], -pull[1], -along])
+
+
+@each("seed", range(30))
+def test_the_last_head_is_in_equilibrium_under_the_section_s_pull_and_the_rope(seed):
+    """(S24a); b_e / b = (2 + 1.5 * 2/3) / 4, (P8) with 1.5 * 2/3 / 4."""
+    draw = random.Random(seed)
+    points = place(draw.choice([*ROWS]), draw.uniform(25.0, 35.0))
+    guy = EndGuy(
+        angle=math.radians(draw.uniform(10.0, 50.0)),
+        from_base=draw.choice([None, 0.0, 0.3]),
+    )
+    pull = np.array([draw.uniform(20.0, 90.0), -draw.uniform(60.0, 260.0)])
+    rope = draw.uniform(40.0, 400.0)
+    held = hold_end_guy(points, guy)
+    inside = hold_head(points, guy, pull, 0.0)
+    at_end = hold_head(points, guy, 0.75 * pull, 1.25 * rope)
+    assert at_end[2] == pytest.approx(1.25 * rope / math.cos(guy.angle))
+    for number, part in enumerate((held.post_compression, held.uphill_guy_tension)):
+        values = {"E_s": inside[number], "T_r": rope, "e": part, "b": 4.0, "f_R": 1.5}
+        values |= {"Δl": 2.0 / 3.0, "γ": math.degrees(guy.angle)}
+        leaves = {
+            name: given(name, value, UNITS.get(name, "-"), "here")
+            for name, value in values.items()
+        }
+        force = calculate_force(leaves).coupled.value
+        assert force == pytest.approx(at_end[number], rel=1e-9)
 
 
 def test_both_grow_with_the_tilt_and_with_a_steeper_guy():

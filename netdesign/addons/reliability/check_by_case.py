@@ -200,21 +200,17 @@ def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckB
 
 
 def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
-    """Part of the force that a rope brings; None of a member that none pulls.
-
-    The end guy brings it to the force by the panel alone; beside the end, the rope's
-    unbalanced pull D comes to that by the section, too.
-    """
+    """Part of the force that a rope brings; None of a member that none pulls."""
     on, results = force.on, task.solved.results
     if on.push is None or not on.push.high:
         return None
-    is_foot, in_panel = one.given.member == Member.FOOT_ANCHOR, force.solved[-1:]
+    is_foot = one.given.member == Member.FOOT_ANCHOR
     rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
     inside = force.on_support * force.share
     ratios = {
         record.quantity: on.push.high / pull / (inside * _widen(record, results))
-        for record in (force.solved if on.support.is_second else in_panel)
+        for record in force.solved
     }
     along = on.load.along.value if on.load.along else None
     return Push(rope=rope, ratios=ratios, along=along)

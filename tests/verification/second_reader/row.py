@@ -263,10 +263,10 @@ class Row:
     def demand(self, member, law, pushed=0.0):
         """Largest of section, panel and guideline, by a law of force and head's pull.
 
-        The end guy's push stands beside panel and guideline, which know the ropes.
+        The head holds the end guy's push, whatever tells the net's pull on it.
         """
         floor = np.full(3, self.floor[FLOORS.get(member, member)])
-        section = law(self.solved[member], self.head, 0.0)
+        section = law(self.solved[member], self.head, pushed)
         panel = law(self.solved[f"panel_{member}"], self.head, pushed)
         guided = law(floor, np.full(3, self.floor["head"]), pushed)
         return np.max([section, panel, guided], axis=0)
@@ -343,8 +343,11 @@ class Row:
         """
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
         along, angle, place = self.end_guy
-        guy, post = self.solved["panel_uphill_guy"], self.solved["panel_post"]
-        hidden = max(one[2] / one[1] for one in (along, guy, post))
+        pulls = [
+            (self.solved[f"{model}uphill_guy"], self.solved[f"{model}post"])
+            for model in ("", "panel_")  # by the section, and by the panel
+        ]
+        hidden = max(one[2] / one[1] for one in (along, *itertools.chain(*pulls)))
         low, high = ({"uphill": [], "downhill": []} for _ in "ab")
         for section in self.sections:
             at = None if place is None else section.base[0] + place
@@ -363,10 +366,11 @@ class Row:
                     found = statics.solve_truss((*section.head, 0.0), bars, load)
                     return found["outer uphill"], found["outer downhill"]
 
-                pressed, free = find(guy[1], post[1]), find(guy[1], 0.0)
-                low["uphill"].append(pressed[0])
-                high["uphill"].append(hidden * free[0])
-                low["downhill"].append(pressed[1])
+                for guy, post in pulls:
+                    pressed, free = find(guy[1], post[1]), find(guy[1], 0.0)
+                    low["uphill"].append(pressed[0])
+                    high["uphill"].append(hidden * free[0])
+                    low["downhill"].append(pressed[1])
                 high["downhill"].append(hidden * find(0.0, 0.0)[1])
         return tuple({k: max(one[k]) for k in one} for one in (low, high))
 
