@@ -18,7 +18,7 @@ from netdesign.edge.given_files import find_resource
 from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import load_example
+from netdesign.site.template.example import load_input_example
 from netdesign.words.message import restore, say
 from tests.program import QUICK, call_program, spoilt_program, start_program
 from tests.report.reading import read_workbook
@@ -429,11 +429,11 @@ def test_init_example_reads_back_as_the_example(tmp_path):
     assert "wrote site.xlsx" in result.err
     site = read_site(tmp_path / "site.xlsx")
     assert [row.id for row in site.rows] == [
-        line["id"] for line in load_example()["Nets"]
+        line["id"] for line in load_input_example()["rows"]
     ]
     counted = call_program("check", "site.xlsx", "--dry-run", cwd=tmp_path)
     assert counted.code == 0
-    assert "site.xlsx: 7 net rows, about 385 cases" in counted.out
+    assert "site.xlsx: 8 net rows, about " in counted.out
 
 
 # --- report ------------------------------------------------------------------------

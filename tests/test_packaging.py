@@ -168,7 +168,7 @@ def test_installed_program_has_its_templates(installed, tmp_path):
     counted = call(
         *(installed / "netdesign", "check", "site.xlsx", "--dry-run"), cwd=tmp_path
     )
-    assert "7 net rows" in counted
+    assert "8 net rows" in counted
     report = (
         "from netdesign.edge.given_files import find_resource;"
         "print((find_resource('templates') / 'page.html').is_file())"

@@ -196,16 +196,28 @@ def init(site_file: Path, **asked: Any) -> None:
     \b
     netdesign init site.xlsx
     netdesign init chantier.xlsx --language fr
+    netdesign init site.xlsx --with parts,tests
     netdesign init example.xlsx --example
     """
     from netdesign.edge.output import require_free
-    from netdesign.site.template.workbook import write_site_workbook
+    from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+    from netdesign.site.template.office_workbook import WITH, write_input_workbook
 
     if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
-    given = {"example": asked["example"], "language": asked["language"]}
+    named = filter(None, map(str.strip, (asked["more"] or "").split(",")))
+    more = list(dict.fromkeys((*(WITH_EXAMPLE if asked["example"] else ()), *named)))
+    strange = tuple(one for one in more if one not in WITH)
+    if strange:
+        raise UsageRefusal(say("usage.init_with", sheets=strange, known=tuple(WITH)))
     require_free([site_file], overwrite=asked["force"])
-    write_site_workbook(site_file, overwrite=asked["force"], **given)
+    write_input_workbook(
+        site_file,
+        language=asked["language"],
+        more=more,
+        tables=load_input_example() if asked["example"] else None,
+        overwrite=asked["force"],
+    )
     tell(say("cli.wrote", path=str(site_file)), err=True)
 
 

@@ -5,7 +5,7 @@ import tempfile
 
 import pytest
 
-from netdesign.site.template import workbook as template
+from netdesign.site.template import example as template
 
 LONG = "9" * 400
 
@@ -89,7 +89,7 @@ def test_no_room_for_the_example_is_no_bug(call, monkeypatch):
 
 
 def test_a_file_of_the_program_that_lacks_is_a_bug(call, monkeypatch):
-    monkeypatch.setattr(template, "EXAMPLE_FILE", "lacks.toml")
+    monkeypatch.setattr(template, "INPUT_EXAMPLE_FILE", "lacks.toml")
     ended = call("init", "site.xlsx", "--example")
     assert ended.code == 5
     assert "internal error, please report it: FileNotFoundError" in ended.err

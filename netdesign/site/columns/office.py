@@ -137,9 +137,14 @@ def list_choices() -> Mapping[str, tuple[str, str]]:
     found: dict[str, tuple[str, str]] = {}
     for choice, language in product(load_file("office")["choices"], LANGUAGES):
         for measure in list_measures(choice):
-            text = render(say(f"choice.{choice}.{measure}"), language)
+            text = name_measure(choice, measure, language)
             found[normalise(text)] = (text.split()[0], measure)
     return found
+
+
+def name_measure(choice: str, measure: str, language: Language) -> str:
+    """Unit cell of a measure in a language."""
+    return render(say(f"choice.{choice}.{measure}"), language)
 
 
 def list_measures(choice: str) -> Sequence[str]:

@@ -65,6 +65,16 @@ def find_slack(sag: float) -> float:
     return 0.5 * math.hypot(1.0, slope) + 0.5 * math.asinh(slope) / slope - 1.0
 
 
+def find_sag(slack: float) -> float:
+    """Sag over its chord of a net of some slack [-]: the inverse of `find_slack`."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        is_low = find_slack(middle) < slack
+        low, high = (middle, high) if is_low else (low, middle)
+    return low
+
+
 def join_net(line: Row, measure: str, findings: list[Finding]) -> Row:
     """Line of sheet Net types whose sag is the slack that it makes."""
     slack = line["slack"]

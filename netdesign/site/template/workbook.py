@@ -70,6 +70,11 @@ class Book:
     formats: Mapping[str, Format]
 
     @property
+    def created(self) -> datetime.datetime:
+        """Date of every workbook: the same program writes the same bytes."""
+        return _CREATED
+
+    @property
     def texts(self) -> Mapping[str, str]:
         """General texts of the workbook in its language."""
         return load_text(self.language)

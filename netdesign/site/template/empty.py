@@ -1,0 +1,58 @@
+"""What the template says of an empty cell: what is assumed, and its source."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.site.assumed import Assumed, load_assumed
+from netdesign.site.columns.office import Column, load_text
+from netdesign.site.office.rows import find_sag
+from netdesign.words.catalogue import Language, render, set_marks
+
+# What a range is a multiple of, and which of its ends are.
+_TIMES = {"net_height": ("D_K", 2), "altitude_factor": ("f_c", 1)}
+_TIMES |= {"breaking_force": ("F", 2)}
+
+
+def say_empty(column: Column, language: Language) -> str:
+    """Range or value that is assumed of an empty cell, or what is said of it."""
+    values = column.assumed or _list_ends(column)
+    if values:
+        texts = dict.fromkeys(_show(one, language) for one in values)
+        return f" {load_text('to', language)} ".join(texts)
+    if column.said:
+        return load_text(column.said, language, "said")
+    assumed = _find(column)
+    return render(assumed.text, language) if assumed else ""
+
+
+def say_why(column: Column, language: Language) -> str:
+    """Where that comes from; empty where nothing is assumed."""
+    if language in column.texts["why"]:
+        return column.texts["why"][language]
+    assumed = _find(column)
+    return render(assumed.why, language) if assumed else ""
+
+
+def _find(column: Column) -> Assumed | None:
+    return None if column.said else load_assumed().get(column.field.key)
+
+
+def _list_ends(column: Column) -> Sequence[float | str]:
+    assumed = _find(column)
+    if assumed is None or assumed.word:
+        return ()
+    ends = (assumed.low, assumed.high) if assumed.times else assumed.shown
+    if column.choice == "sag_unit":
+        return tuple(round(100.0 * find_sag(end), 1) for end in ends)
+    if column.unit == "%" and column.field.unit == "-":
+        return tuple(round(100.0 * end, 6) for end in ends)
+    if assumed.times:
+        sign, count = _TIMES[assumed.times]
+        return (f"{ends[0]:g} {sign}", f"{ends[1]:g} {sign}" if count > 1 else ends[1])
+    return tuple(round(end, 6) for end in ends)
+
+
+def _show(value: float | str, language: Language) -> str:
+    text = value if isinstance(value, str) else f"{value:.6g}"
+    return set_marks(text, language)

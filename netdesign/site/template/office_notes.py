@@ -1,0 +1,85 @@
+"""Sheet Notes of the input workbook: colours, the section, what columns mean."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+from netdesign.site.columns.all_tables import load_file
+from netdesign.site.columns.office import PARTS, load_plan
+from netdesign.site.template.empty import say_empty
+from netdesign.site.template.form import Form, list_shown, name_column, say_unit
+from netdesign.site.template.workbook import count_lines, describe_accepted
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import say
+
+if TYPE_CHECKING:  # slow to import and only needed to write a workbook
+    from xlsxwriter.worksheet import Worksheet
+
+_NOTE_WIDTHS = (13, 25, 12, 16, 27, 15, 62)
+_PICTURE_ROW, _PICTURE_ROWS = 6, 22
+
+
+def write_notes(form: Form) -> None:
+    """Sheet Notes: colours, the section with its names, every column."""
+    sheet = form.book.workbook.add_worksheet(render(say("sheet.notes"), form.language))
+    sheet.hide_gridlines(2)
+    sheet.set_landscape()
+    sheet.set_paper(9)
+    sheet.fit_to_pages(1, 0)
+    for number, width in enumerate(_NOTE_WIDTHS):
+        sheet.set_column(number, number, width)
+    sheet.write_string(0, 0, form.text("title"), form.style("title"))
+    sheet.write_blank(2, 0, None, form.style("yes"))
+    sheet.write_string(2, 1, form.text("needed"))
+    sheet.write_blank(3, 0, None, form.style("cell"))
+    sheet.write_string(3, 1, form.text("optional"))
+    sheet.write_string(4, 0, form.text("range"))
+    sheet.write_string(5, 0, form.text("section"), form.style("bold"))
+    picture = files(__package__).joinpath(name_section(form.language)).read_bytes()
+    options = {"image_data": BytesIO(picture), "description": form.text("section")}
+    scale = {"x_scale": 0.6, "y_scale": 0.6, "object_position": 3}
+    sheet.insert_image(_PICTURE_ROW, 0, "section.png", options | scale)
+    row = _PICTURE_ROW + _PICTURE_ROWS + 1
+    for name in form.sheets:
+        for table in PARTS if name == "parts" else (name,):
+            row = _write_columns(form, sheet, row, table) + 1
+
+
+def _write_columns(form: Form, sheet: Worksheet, row: int, table: str) -> int:
+    """Columns of a table with what they mean; returns the row below."""
+    plan = load_plan(table)
+    title = plan.name_in(form.language)
+    if table in PARTS:
+        about = load_file("office")["sheets"][table]["about"][form.language]
+        title = f"{title}: {about}"
+    for number in range(len(_NOTE_WIDTHS)):
+        sheet.write_blank(row, number, None, form.style("group"))
+    sheet.write_string(row, 0, title, form.style("group"))
+    keys = ("item", "unit", "accepted", "empty", "has", "meaning")
+    sheet.write_blank(row + 1, 0, None, form.style("head"))
+    for number, key in enumerate(keys, start=1):
+        sheet.write_string(row + 1, number, form.text(key), form.style("head"))
+    row += 1
+    for column in list_shown(form, table):
+        row += 1
+        sheet.write_blank(row, 0, None, form.style("yes" if column.need else "cell"))
+        texts = (
+            *(name_column(form, column), say_unit(form, column)),
+            *(describe_accepted(column.field, form.language)[:90],),
+            *(say_empty(column, form.language), form.text(column.has, "who")),
+            column.texts["note"][form.language],
+        )
+        for number, text in enumerate(texts, start=1):
+            sheet.write_string(
+                row, number, text, form.style("grey" if number == 4 else "cell")
+            )
+        lines = max(map(count_lines, texts, _NOTE_WIDTHS[1:]))
+        sheet.set_row(row, 13.0 * lines)
+    return row + 1
+
+
+def name_section(language: Language) -> str:
+    """File of the section with the names of a language, beside this module."""
+    return f"section.{language}.png"

@@ -1,0 +1,370 @@
+"""Writes the input workbook of `site/columns/office.toml`, empty or with lines."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from netdesign.checks import list_standards
+from netdesign.edge.output import require_free, write_files
+from netdesign.site.columns.all_tables import (
+    MONITORING,
+    UNCERTAINTY,
+    WINTER,
+    load_file,
+)
+from netdesign.site.columns.office import (
+    PARTS,
+    PROJECT_HEADS,
+    Column,
+    load_columns,
+    load_plan,
+    load_text,
+    name_measure,
+)
+from netdesign.site.office.declared import GROUPS, name_group
+from netdesign.site.template.empty import say_empty, say_why
+from netdesign.site.template.form import (
+    Form,
+    Tables,
+    list_shown,
+    name_column,
+    say_unit,
+)
+from netdesign.site.template.office_notes import write_notes
+from netdesign.site.template.workbook import (
+    describe_accepted,
+    start_book,
+    write_sheet,
+)
+from netdesign.words.catalogue import Language, render
+
+if TYPE_CHECKING:  # slow to import and only needed to write a workbook
+    from xlsxwriter.worksheet import Worksheet
+
+DEFAULT = ("project", "rows", "net_types", "anchor_types")
+_FURTHER = {"winter": WINTER, "monitoring": MONITORING, "reliability": UNCERTAINTY}
+WITH: Mapping[str, str] = {
+    **{"snow": "layers", "tests": "tests", "parts": "parts", "declared": "declared"},
+    **{name: name for name in _FURTHER},
+}
+_FIRST = 5  # row of the first line, from 0: title, groups, names, units, if empty
+_WIDE = 18  # columns, of a sheet whose headings are narrow
+_NOTE = {"x_scale": 1.6, "y_scale": 0.8, "font_size": 9, "author": ""}
+
+
+def write_input_workbook(
+    path: str | Path,
+    *,
+    language: Language = "en",
+    more: Sequence[str] = (),
+    tables: Tables | None = None,
+    overwrite: bool = False,
+) -> None:
+    """Write an input workbook to fill in, or with some lines.
+
+    Parameters
+    ----------
+    path : str or Path
+        The xlsx file to write.
+    language : str
+        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``.
+    more : sequence of str
+        Further sheets, by their names in `WITH`.
+    tables : mapping, optional
+        Lines by table and key, as `office.toml` has them; words in English.
+    overwrite : bool
+        Replace a file that exists.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and may not be replaced, or cannot be written.
+    """
+    path = Path(path)
+    require_free([path], overwrite=overwrite)
+    content = render_input(tables or {}, language, more)
+    write_files({path: content}, overwrite=overwrite)
+
+
+def render_input(
+    tables: Tables,
+    language: Language = "en",
+    more: Sequence[str] = (),
+    measures: Mapping[tuple[str, str], str] | None = None,
+) -> bytes:
+    """Input workbook with some lines; the same bytes each time.
+
+    Parameters
+    ----------
+    tables, language, more
+        As of `write_input_workbook`.
+    measures : mapping, optional
+        What the unit cell of a column says it measures, by table and key.
+    """
+    content = BytesIO()
+    book = start_book(content, language)
+    book.workbook.set_properties(
+        {"title": load_text("title", language), "created": book.created}
+    )
+    sheets = [*DEFAULT, *(WITH[one] for one in more if one not in _FURTHER)]
+    form = Form(book, sheets, tables, measures or {})
+    for sheet in sheets:
+        _write(form, sheet)
+    for one in more:
+        if one in _FURTHER:
+            write_sheet(book, _FURTHER[one], tables.get(_FURTHER[one].name, ()))
+    write_notes(form)
+    book.workbook.worksheets()[1].activate()
+    book.workbook.close()
+    return content.getvalue()
+
+
+def _write(form: Form, name: str) -> None:
+    table = PARTS[0] if name == "parts" else name
+    title = load_plan(table).name_in(form.language)
+    sheet = form.book.workbook.add_worksheet(title)
+    sheet.hide_gridlines(2)
+    sheet.set_landscape()
+    sheet.set_paper(9)
+    sheet.fit_to_pages(1, 0)
+    sheet.set_margins(0.4, 0.4, 0.5, 0.6)
+    sheet.set_footer(f"&L&F&R{form.text('page')} &P / &N")
+    sheet.write_string(0, 0, title, form.style("title"))
+    sheet.set_row(0, 20)
+    if name == "project":
+        _write_project(form, sheet)
+    elif name == "parts":
+        _write_parts(form, sheet)
+    else:
+        _write_table(form, sheet, name)
+
+
+def _write_table(form: Form, sheet: Worksheet, table: str) -> None:
+    columns = list_shown(form, table)
+    about = load_file("office")["sheets"][table]["about"][form.language]
+    sheet.write_string(0, 2, about, form.style("about"))
+    group = ""
+    for number, column in enumerate(columns):
+        sheet.write_blank(
+            1, number, None, form.style("group" if column.group else "bold")
+        )
+        if column.group and column.group != group:
+            group = column.group
+            sheet.write_string(
+                1, number, form.text(group, "groups"), form.style("group")
+            )
+        sheet.set_column(number, number, _find_width(form, column, len(columns)))
+    _write_block(form, sheet, _FIRST - 3, columns, table)
+    if len(columns) > 15:
+        sheet.set_zoom(90)
+    sheet.freeze_panes(_FIRST, 1)
+    sheet.repeat_rows(0, _FIRST - 1)
+
+
+def _write_parts(form: Form, sheet: Worksheet) -> None:
+    sheet.write_string(0, 1, form.text("parts"), form.style("about"))
+    row = 2
+    for table in PARTS:
+        about = load_file("office")["sheets"][table]["about"][form.language]
+        columns = list_shown(form, table)
+        for number in range(len(columns)):
+            sheet.write_blank(row, number, None, form.style("group"))
+        sheet.write_string(row, 0, about, form.style("group"))
+        _write_block(form, sheet, row + 1, columns, table)
+        row += 5 + _count_lines(form, table)
+    sheet.set_column(0, 0, 15)
+    sheet.set_column(1, 11, 11)
+
+
+def _count_lines(form: Form, table: str) -> int:
+    """Lines of a form: as many as are given, and some more."""
+    usual: int = load_file("office")["sheets"][table]["lines"]
+    return max(usual, len(form.tables.get(table, ())) + 4)
+
+
+def _write_block(
+    form: Form, sheet: Worksheet, row: int, columns: Sequence[Column], table: str
+) -> None:
+    """Headings, units and what is assumed; lines, with what their cells accept."""
+    count = _count_lines(form, table)
+    last = row + 2 + count
+    sheet.set_row(row, 30 if len(columns) < _WIDE else 52)
+    sheet.set_row(row + 2, 34 if len(columns) < _WIDE else 44)
+    for number, column in enumerate(columns):
+        _write_heading(form, sheet, row, number, column)
+        for line in range(row + 3, last + 1):
+            sheet.write_blank(line, number, None, form.style_cell(column))
+        if column.need:
+            _mark_missing(form, sheet, (row + 3, number, last), column, len(columns))
+        if rule := _say_rule(form, column):
+            sheet.data_validation(row + 3, number, last, number, rule)
+    numbers = {one.field.key: number for number, one in enumerate(columns)}
+    for line, given in enumerate(form.tables.get(table, ()), start=row + 3):
+        for key, value in given.items():
+            if key in numbers and value != "":
+                _write_value(
+                    form, sheet, line, numbers[key], columns[numbers[key]], value
+                )
+
+
+def _write_heading(
+    form: Form, sheet: Worksheet, row: int, number: int, column: Column
+) -> None:
+    style = "head yes" if column.need else "head"
+    sheet.write_string(row, number, name_column(form, column, True), form.style(style))
+    sheet.write_comment(row, number, _say_note(form, column), _NOTE)
+    label = form.text("unit") if number == 0 else say_unit(form, column)
+    style = "unit yes" if column.choice else "unit"
+    sheet.write_string(row + 1, number, label, form.style(style))
+    if column.choice:
+        names = [
+            name_measure(column.choice, one, form.language)
+            for one in load_file("office")["choices"][column.choice]
+        ]
+        rule = {
+            "validate": "list",
+            "source": names,
+            "input_message": form.text("choose"),
+        }
+        sheet.data_validation(row + 1, number, row + 1, number, rule)
+    empty = form.text("empty") if number == 0 else say_empty(column, form.language)
+    sheet.write_string(row + 2, number, empty, form.style("empty"))
+
+
+def _write_value(
+    form: Form, sheet: Worksheet, row: int, number: int, column: Column, value: object
+) -> None:
+    style = form.style_cell(column)
+    if isinstance(value, Mapping):
+        value = value[form.language]
+    if isinstance(value, str):
+        sheet.write_string(row, number, _translate(form, column, value), style)
+    else:
+        sheet.write_number(row, number, value, style)
+
+
+def _translate(form: Form, column: Column, value: str) -> str:
+    """Word in the language of the workbook; ids and names stay."""
+    if value in column.field.words:
+        return render(column.field.name_word(value), form.language)
+    is_check = (column.field.table, column.field.key) == ("declared", "check")
+    return name_group(value, form.language) if is_check and value in GROUPS else value
+
+
+def _mark_missing(
+    form: Form,
+    sheet: Worksheet,
+    place: tuple[int, int, int],
+    column: Column,
+    count: int,
+) -> None:
+    """Yellow while a needed cell is empty, in the first line and in those begun."""
+    from xlsxwriter.utility import xl_col_to_name as letter
+
+    first, number, last = place
+    line = f"$A{first + 1}:${letter(count - 1)}{first + 1}"
+    cell = f"{letter(number)}{first + 1}"
+    rule = f'AND({cell}="",OR(COUNTA({line})>0,ROW()={first + 1}))'
+    is_proof = column.field.key in ("pull_out", "proven")
+    if is_proof and column.field.table == "anchor_types" and "tests" in form.sheets:
+        tests = load_plan("tests").name_in(form.language)
+        end = _FIRST + _count_lines(form, "tests")
+        ids = f"'{tests}'!$A${_FIRST + 1}:$A${end}"
+        rule = f"AND({rule},COUNTIF({ids},$A{first + 1})=0)"
+    sheet.conditional_format(
+        *(first, number, last, number),
+        {"type": "formula", "criteria": f"={rule}", "format": form.style("missing")},
+    )
+
+
+def _say_rule(form: Form, column: Column) -> dict[str, Any] | None:
+    """Drop-down of a cell, or a prompt with what it accepts and what is assumed."""
+    accepted = describe_accepted(column.field, form.language)
+    is_number = column.field.kind in ("number", "count")
+    empty = say_empty(column, form.language)
+    lines = [
+        f"{form.text(key)}: {text}"
+        for key, text in (("accepted", accepted if is_number else ""), ("empty", empty))
+        if text
+    ]
+    rule: dict[str, Any] = {"validate": "any"}
+    names = _list_choices(form, column)
+    if names:
+        rule = {"validate": "list", "source": names, "error_type": "warning"}
+    if lines:
+        title = name_column(form, column)[:32]
+        rule |= {"input_title": title, "input_message": "\n".join(lines)[:255]}
+    return rule if names or lines else None
+
+
+_TABLES_OF_IDS = {"Nets": "rows", "Anchors": "anchor_types", "net_types": "net_types"}
+
+
+def _list_choices(form: Form, column: Column) -> list[str] | str:
+    """Words of a cell, or the cells of the ids that it may name."""
+    own = column.field
+    if own.words:
+        return [render(own.name_word(one), form.language) for one in own.words]
+    if (own.table, own.key) == ("project", "standard"):
+        return list(list_standards())
+    if (own.table, own.key) == ("declared", "check"):
+        return [name_group(one, form.language) for one in GROUPS]
+    table = _TABLES_OF_IDS.get(own.refers_to, "")
+    if table not in form.sheets:
+        return []
+    name = load_plan(table).name_in(form.language)
+    return f"='{name}'!$A${_FIRST + 1}:$A${_FIRST + _count_lines(form, table)}"
+
+
+def _say_note(form: Form, column: Column) -> str:
+    source = say_why(column, form.language)
+    told = (form.text("source"), source) if source else None
+    label, text = told or (form.text("has"), form.text(column.has, "who"))
+    return f"{column.texts['note'][form.language]}\n{label}: {text}."
+
+
+def _find_width(form: Form, column: Column, count: int) -> float:
+    """Wide enough for the longest word of the heading, and for what stands below."""
+    words = name_column(form, column, True).replace("/", " ").split()
+    least = 14.0 if count < 9 else 7.5 if count < _WIDE else 6.4
+    if column.field.refers_to or column.field.words:
+        least = max(least, 10.5)
+    return max(least, column.width, 1.15 * max(map(len, words)) + 1.0)
+
+
+def _write_project(form: Form, sheet: Worksheet) -> None:
+    """Lines of sheet Project: what holds for the whole site."""
+    sheet.write_string(0, 2, form.text("range"), form.style("about"))
+    heads = {
+        one.key: one.label_in(form.language) for one in load_plan("project").fields
+    }
+    widths = (27, 34, 8, 24, 30, 15, 52)
+    for number, (key, width) in enumerate(zip(PROJECT_HEADS, widths, strict=True)):
+        sheet.write_string(2, number, heads[key], form.style("head"))
+        sheet.set_column(number, number, width)
+    (given,) = form.tables.get("project") or ({},)
+    for row, column in enumerate(load_columns("project"), start=3):
+        sheet.set_row(row, 26)
+        style = "head yes" if column.need else "head"
+        sheet.write_string(row, 0, name_column(form, column), form.style(style))
+        sheet.write_blank(row, 1, None, form.style_cell(column))
+        if given.get(column.field.key, "") != "":
+            _write_value(form, sheet, row, 1, column, given[column.field.key])
+        if column.need:
+            rule = {"type": "blanks", "format": form.style("missing")}
+            sheet.conditional_format(row, 1, row, 1, rule)
+        if (rule_of_cell := _say_rule(form, column)) is not None:
+            sheet.data_validation(row, 1, row, 1, rule_of_cell)
+        texts = (
+            *(say_unit(form, column), say_empty(column, form.language)),
+            *(say_why(column, form.language), form.text(column.has, "who")),
+            column.texts["note"][form.language],
+        )
+        for number, text in enumerate(texts, start=2):
+            style = "grey" if number in (3, 4) else "cell"
+            sheet.write_string(row, number, text, form.style(style))
+    sheet.freeze_panes(3, 1)
+    sheet.repeat_rows(0, 2)

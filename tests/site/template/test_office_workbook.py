@@ -1,0 +1,115 @@
+"""The input workbook as it is written: read again, alike in every language."""
+
+from io import BytesIO
+
+import openpyxl
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.columns.office import PARTS, TABLES, load_columns, load_plan
+from netdesign.site.reader import read_site
+from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+from netdesign.site.template.office_workbook import WITH, render_input
+from tests.each import each
+from tests.site.office.drawn import draw_tables
+
+LANGUAGES = ("en", "fr", "de")
+ALL = tuple(WITH)
+
+
+def write(path, content):
+    path.write_bytes(content)
+    return path
+
+
+def read_example(tmp_path, language):
+    content = render_input(load_input_example(), language, WITH_EXAMPLE)
+    return read_site(write(tmp_path / f"{language}.xlsx", content))
+
+
+def test_the_same_program_writes_the_same_bytes():
+    lines = load_input_example()
+    assert render_input(lines, "fr", ALL) == render_input(lines, "fr", ALL)
+
+
+def test_the_example_is_one_site_in_every_language(tmp_path):
+    sites = [read_example(tmp_path, one) for one in LANGUAGES]
+    assert len(sites[0].rows) == 8
+    for site in sites:
+        assert [one for one in site.findings if one.severity != "note"] == []
+    first, *others = ([bare(row) for row in site.rows] for site in sites)
+    assert all(rows == first for rows in others)
+
+
+def bare(row):
+    """Numbers of a row, without what names sheets and columns."""
+    resistances = tuple(
+        (one.member, one.mode, one.type_id.split(" (")[0], one.value, one.basis)
+        for one in row.resistances
+    )
+    size = (row.slope_angle, row.snow_thickness, row.slack, row.layout, row.guys)
+    limits = (row.approval.spacing, row.approval.foot_force) if row.approval else ()
+    stated = [one.value for one in limits if one]
+    return *size, row.axes, row.panels, row.gap, row.ground_type, stated, resistances
+
+
+@each("language", LANGUAGES)
+def test_an_empty_form_asks_for_rows_alone(tmp_path, language):
+    path = write(tmp_path / f"{language}.xlsx", render_input({}, language, ALL))
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    errors = [one for one in refused.value.findings if one.severity == "error"]
+    assert {one.rule.key for one in errors} == {"nets.no_row"}
+
+
+@each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(6)])
+def test_what_is_written_is_read_again(tmp_path, seed, language):
+    tables = draw_tables(seed)
+    tables["project"] = [
+        {
+            key: one
+            for key, one in tables["project"].items()
+            if not isinstance(one, tuple)
+        }
+    ]
+    content = render_input(
+        tables, language, ("parts",), {("net_types", "slack"): "slack"}
+    )
+    site = read_site(write(tmp_path / "site.xlsx", content))
+    for line, row in zip(tables["rows"], site.rows, strict=True):
+        (net,) = (one for one in tables["net_types"] if one["id"] == line["net_type"])
+        assert row.id == line["id"]
+        assert row.slack == pytest.approx(net["slack"] / 100)
+        assert row.altitude == line["altitude"]
+        assert row.guys.are_shared is (net["guy_anchors"] == "shared")
+
+
+@each("language", LANGUAGES)
+def test_every_column_has_its_heading_and_what_an_empty_cell_means(language):
+    book = openpyxl.load_workbook(BytesIO(render_input({}, language, ALL)))
+    for table in TABLES:
+        if table in PARTS or table == "project":
+            continue
+        sheet = book[load_plan(table).name_in(language)]
+        columns = [one for one in load_columns(table)]
+        for number, column in enumerate(columns, start=1):
+            heading = sheet.cell(3, number)
+            assert heading.value.replace("-\n", "") == column.field.label_in(language)
+            assert heading.comment is not None
+            is_empty_told = bool(sheet.cell(5, number).value)
+            assert is_empty_told or column.need == "yes"
+
+
+@each("language", LANGUAGES)
+def test_yellow_is_what_is_needed_in_a_line_that_is_begun(language):
+    book = openpyxl.load_workbook(BytesIO(render_input({}, language)))
+    for table in ("rows", "net_types", "anchor_types"):
+        sheet = book[load_plan(table).name_in(language)]
+        ruled = {
+            cells.min_col
+            for one in sheet.conditional_formatting
+            for cells in one.sqref.ranges
+        }
+        shown = [one for one in load_columns(table) if one.group != "structure"]
+        needed = {n for n, one in enumerate(shown, start=1) if one.need}
+        assert ruled == needed
