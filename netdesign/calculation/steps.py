@@ -231,10 +231,11 @@ class Step:
         return low, self.value, self.value if self.high is None else self.high
 
 
-def list_named(quantity: Quantity) -> list[Quantity]:
-    """Quantities under a symbol that one rests on, and itself, in their order."""
+def list_named(*quantities: Quantity) -> list[Quantity]:
+    """Quantities under a symbol that some rest on, and themselves, in their order."""
     found: dict[str, Quantity] = {}
-    _collect(quantity, found)
+    for one in quantities:
+        _collect(one, found)
     return list(found.values())
 
 
@@ -255,9 +256,9 @@ def _differ(one: Quantity, other: Quantity) -> bool:
     return len(set(ends)) > 1
 
 
-def list_steps(quantity: Quantity) -> list[Step]:
-    """Steps of a calculation; a quantity under the same symbol stands once."""
-    return [_record(one) for one in list_named(quantity)]
+def list_steps(*quantities: Quantity) -> list[Step]:
+    """Steps of calculations; a quantity under the same symbol stands once."""
+    return [_record(one) for one in list_named(*quantities)]
 
 
 def _record(one: Quantity) -> Step:

@@ -9,7 +9,7 @@ from enum import StrEnum
 from functools import cached_property
 from typing import ClassVar, Literal
 
-from netdesign.calculation.steps import Step
+from netdesign.calculation.steps import Step, list_operands
 from netdesign.checks.result import Proof
 from netdesign.edge.json_text import Items
 from netdesign.outcome import SEVERITY, Verdict
@@ -183,6 +183,7 @@ class Check:
 
     WRITTEN: ClassVar = (
         *("demand_kN", "resistance_kN", "utilisation"),
+        *("utilisation_by_model", "utilisation_by_guideline"),
         *("verdict", "reason", "governs"),
     )  # also in the document, where nobody reads them back
 
@@ -243,6 +244,34 @@ class Check:
     def utilisation_band(self) -> tuple[float | None, float | None]:
         """Utilisation at the low and at the high end of the demand [-]."""
         return self.read_band("μ")
+
+    @property
+    def utilisation_by_model(self) -> float | None:
+        """Utilisation by the coupled calculation alone [-]; None where not known."""
+        if "E_c" in self.known or not self.is_of_force:
+            return self._rate("cpt")
+        used = self.utilisation  # of a rope, which the guideline may have raised
+        return None if used is None else used / (self.read("φ_g") or 1.0)
+
+    @property
+    def utilisation_by_guideline(self) -> float | None:
+        """Utilisation by the guideline's load alone [-]; None where not known."""
+        return self.utilisation if "φ_g" in self.known else self._rate("g")
+
+    @property
+    def exceeds_by_model(self) -> bool:
+        """The coupled force is above the resistance, though it does not decide."""
+        used = self.utilisation_by_model
+        return self.is_by_guideline_alone and used is not None and used > 1.0
+
+    def _rate(self, loads: str) -> float | None:
+        """Utilisation by some of the loads on the support, by their letters [-]."""
+        forces = (self.read(f"E_{load}") for load in loads)
+        known = [one for one in forces if one is not None]
+        factor, design = map(self.read, ("γ_E", "R_d"))
+        if not known or factor is None or not design:
+            return None
+        return factor * max(known) / design
 
     @property
     def is_unbounded(self) -> bool:
@@ -352,17 +381,30 @@ class Check:
         return max(map(self._find_high, "pt")) > self._find_high("c")
 
     @property
+    def is_by_guideline_alone(self) -> bool:
+        """The profile lets the guideline's load decide, whatever the model says."""
+        action = self.known.get(f"{self._letter}_k")
+        coupled = f"{self._letter}_c"
+        if action is None or not action.formula or coupled not in self.known:
+            return False
+        return coupled not in dict(list_operands(action.formula, 1))
+
+    @property
     def governs(self) -> str:
-        """Load of the largest force: "coupled", "panel", "truss", "guideline".
+        """Load of the force that decides.
 
-        "" of no force.
-
-        Solved forces count with their upper ends.
+        "coupled", "panel", "truss", "guideline" or "maker"; "" of no force. Solved
+        forces count with their upper ends.
         """
         if not self.is_of_force:
             return ""
-        least = self._find_high("g")
-        if least and least >= max(map(self._find_high, "cpt")):
+        least, stated = self._find_high("g"), self._find_high("m")
+        solved = max(map(self._find_high, "cpt"))
+        if self.is_by_guideline_alone:
+            solved = 0.0
+        if stated > max(least, solved):
+            return "maker"
+        if least and least >= solved:
             return "guideline"
         if self._find_high("t") > max(map(self._find_high, "cp")):
             return "truss"
@@ -371,7 +413,7 @@ class Check:
     @property
     def reason(self) -> Message:
         """Why it has its verdict, in one sentence, with the load that governs."""
-        loads = [load for load in "cptg" if self.name_force(load) in self.known]
+        loads = [load for load in "cptgm" if self.name_force(load) in self.known]
         is_alone = len(loads) < 2 or not self._has_section
         if is_alone or not any(map(self._find_high, loads)):
             return self.told

@@ -28,6 +28,7 @@ def check_member(
     points: Sequence[Open] = (),
     *,
     strength: Quantity | None = None,
+    beside: Sequence[Quantity] = (),
 ) -> Check:
     """Check one member in one mode: design force against design resistance.
 
@@ -45,6 +46,8 @@ def check_member(
         them nothing passes.
     strength : Quantity, optional
         R_k [kN]; that of ``resistance`` unless told otherwise.
+    beside : sequence of Quantity
+        Forces that stand beside the one that decides [kN].
 
     Returns
     -------
@@ -63,7 +66,7 @@ def check_member(
         resistance_basis=resistance.basis,
         resistance_type=resistance.type_id,
         resistance_cell=resistance.source,
-        steps=list_steps(used),
+        steps=list_steps(*beside, used),
         open=list(points),
     )
     known = {one.message for one in points}

@@ -8,7 +8,7 @@ resistance/THEORY.md, (R1), (R12), (R15). Forces in kN, lengths in m, angles in 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from netdesign.calculation.quantity import (
     Quantity,
@@ -21,117 +21,14 @@ from netdesign.calculation.quantity import (
     sqrt,
     tan,
 )
+from netdesign.checks.support import (
+    MemberLoad,
+    Support,
+    place_end_support,
+    place_second_support,
+)
 
 Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Support:
-    """Support of a row: what makes of a force inside the row that on it.
-
-    Attributes
-    ----------
-    spacing, width : Quantity or None
-        b and b_e [m]; None inside the row, where one is the other.
-    end_factor, end_length : Quantity or None
-        f_R [-] and its length [m]; None inside the row.
-    is_second : bool
-        It stands beside the end.
-    reaching : int
-        End effects that reach the last bay.
-    """
-
-    spacing: Quantity | None = None
-    width: Quantity | None = None
-    end_factor: Quantity | None = None
-    end_length: Quantity | None = None
-    is_second: bool = False
-    reaching: int = 1
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MemberLoad:
-    """Way from a force of the section to that of a member, inside the row.
-
-    Attributes
-    ----------
-    share : Quantity or None
-        g, of the section's force in the member [-]; None of all of it.
-    added : Quantity or None
-        A, by the load along the row [kN]; None of nothing.
-    lateral, along : Quantity or None
-        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
-    across, splay : Quantity or None
-        Of two guys on one anchor, square to what they share in the section [kN]; and
-        the angle of each out of it [deg].
-    """
-
-    share: Quantity | None = None
-    added: Quantity | None = None
-    lateral: Quantity | None = None
-    along: Quantity | None = None
-    across: Quantity | None = None
-    splay: Quantity | None = None
-
-
-def place_end_support(
-    spacing: Quantity,
-    factor: Quantity,
-    length: Quantity,
-    *,
-    other: Quantity | None = None,
-    beside: Quantity | None = None,
-    is_shared: bool = False,
-) -> Support:
-    """First or last support of a row: half a bay and the end effect.
-
-    An anchor that it shares holds a guy of the next post, which carries a whole bay.
-    ``other`` and ``beside`` are parts of a bay of the other end's effect on it, and of
-    the end effects on the next support.
-    """
-    width = spacing / 2 + factor * length
-    if other is not None:
-        width = width + factor * other * spacing
-    if is_shared:
-        of_next = spacing
-        if beside is not None:
-            of_next = _widen(spacing, factor, beside)
-        width = largest(width, (width + of_next) / 2)
-    return Support(
-        spacing=spacing,
-        width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
-        end_factor=factor,
-        end_length=length,
-        reaching=1 if other is None else 2,
-    )
-
-
-def place_second_support(
-    spacing: Quantity,
-    factor: Quantity,
-    length: Quantity,
-    part: Quantity,
-    *,
-    is_shared: bool = False,
-) -> Support:
-    """Support beside an end: a bay, and a part of the end effect by the lever rule.
-
-    An anchor that it shares with the one after it holds a guy of that, too.
-    """
-    width = _widen(spacing, factor, part)
-    if is_shared:
-        width = (width + spacing) / 2
-    return Support(
-        spacing=spacing,
-        width=width.named("b_e", "m", "(S20)" if is_shared else "(S10a)"),
-        end_factor=factor,
-        end_length=length,
-        is_second=True,
-    )
-
-
-def _widen(spacing: Quantity, factor: Quantity, part: Quantity) -> Quantity:
-    return spacing + factor * part * spacing
 
 
 def find_lateral_factor(share: Quantity) -> Quantity:
@@ -238,12 +135,23 @@ def _pull_shared(
 
 
 def take_largest(symbol: str, *forces: Quantity) -> Quantity:
-    """Characteristic force: the largest of section, panel and guideline.
+    """Characteristic force: the largest of section, panel, guideline and maker.
 
     One that is alone has the symbol already.
     """
     first, *others = forces
     return largest(first, *others).named(symbol, "kN", "(V1)") if others else first
+
+
+def take_from_maker(stated: Quantity, support: Support) -> Quantity:
+    """Force on an anchor as its maker states it, at every support of the row.
+
+    Where the end effect loads one with more than a bay, it grows in proportion.
+    """
+    if support.width is None or support.spacing is None:
+        return stated.named("E_m", "kN", "(V1)")
+    width = largest(support.width, support.spacing)
+    return (stated * width / support.spacing).named("E_m", "kN", "(V1)")
 
 
 def pull_at_end(rope: Quantity, support: Support) -> Quantity:
@@ -366,8 +274,9 @@ class SupportForce:
         Of a base that slides, those across it.
     support, load, push : Support, MemberLoad, Quantity or None
         What turns a force inside the row into the member's, and the ropes' part.
-    shared : Quantity or None
-        That of a linear truss of post, guys and end guy, on a guy or its anchor [kN].
+    shared, stated : Quantity or None
+        That of a linear truss of post, guys and end guy, on a guy or its anchor; and
+        that by the maker, on an anchor [kN].
     pressing, tilt : Quantity or None
         Force across the base plate [kN], and that along it over it [-], of a base that
         slides.
@@ -378,11 +287,17 @@ class SupportForce:
     by_panel: Quantity | None = None
     guideline: Quantity | None = None
     support: Support
-    load: MemberLoad = MemberLoad()
+    load: MemberLoad = field(default_factory=MemberLoad)
     push: Quantity | None = None
     shared: Quantity | None = None
+    stated: Quantity | None = None
     pressing: Quantity | None = None
     tilt: Quantity | None = None
+
+    @property
+    def by_model(self) -> list[Quantity]:
+        """Forces of the coupled calculation, whether they decide or not."""
+        return [one for one in (self.coupled, self.by_panel, self.shared) if one]
 
 
 # Symbols of the number of guys on one anchor, by how their pulls are added.
@@ -390,8 +305,12 @@ GUYS_ON_ANCHOR = {"vector": "n_g", "scalar": "n_h"}
 _SHARED = {"n_g": load_shared_anchor, "n_h": load_shared_anchor_in_line}
 
 
-def calculate_force(leaves: Leaves) -> SupportForce:
+def calculate_force(leaves: Leaves, *, by_guideline: bool = False) -> SupportForce:
     """Characteristic force of a check from its leaves, whichever of them it has.
+
+    It is the largest one; ``by_guideline``, that of the guideline's load where there is
+    one, and not less than the maker's ``E_m0``.
+
 
     ``E_s``, ``E_p0``, ``E_g0`` are the forces inside the row by section, panel and
     guideline, which has a pull on the head and a least tension of its own; ``V_s`` and
@@ -406,9 +325,9 @@ def calculate_force(leaves: Leaves) -> SupportForce:
     if inside is None or "T_b" in leaves:
         return _calculate_end(leaves, support)
     load, push = _find_load(leaves, support), _find_push(leaves, support)
-    shared = leaves.get("E_t")
-    is_alone = in_panel is None and by_floor is None and shared is None
-    name = f"{letter}_k" if is_alone else f"{letter}_c"
+    shared, of_maker = leaves.get("E_t"), leaves.get("E_m0")
+    beside = (in_panel, by_floor, shared, of_maker)
+    name = f"{letter}_k" if not any(beside) else f"{letter}_c"
     coupled = bring_to_support(name, inside, load, support, push)
     by_panel = guideline = None
     if in_panel is not None:
@@ -417,8 +336,13 @@ def calculate_force(leaves: Leaves) -> SupportForce:
         own = _find_load(leaves, support, mark="_g")
         of_floor = _find_push(leaves, support, mark="_g")
         guideline = bring_to_support(f"{letter}_g", by_floor, own, support, of_floor)
-    loads = [x for x in (coupled, by_panel, guideline, shared) if x is not None]
-    action, tilt = take_largest(f"{letter}_k", *loads), leaves.get("t")
+    stated = take_from_maker(of_maker, support) if of_maker else None
+    solved = () if by_guideline and guideline else (coupled, by_panel)
+    deciding = (*solved, guideline, shared if solved else None, stated)
+    action = take_largest(f"{letter}_k", *(x for x in deciding if x is not None))
+    if guideline is action:
+        action = action.named(f"{letter}_k", "kN", "(V1)")
+    tilt = leaves.get("t")
     return SupportForce(
         action=action if tilt is None else slide_base(action, tilt),
         coupled=coupled,
@@ -428,6 +352,7 @@ def calculate_force(leaves: Leaves) -> SupportForce:
         load=load,
         push=push,
         shared=shared,
+        stated=stated,
         pressing=None if tilt is None else action,
         tilt=tilt,
     )

@@ -147,6 +147,8 @@ class Standard:
     what it says of itself; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
     says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
+    ``has_maker_floor`` that no anchor's demand lies below what the net's maker states,
+    ``is_by_guideline`` that the guideline's load decides even where it is the smaller,
     ``shared_sum`` how the pulls of two guys on one anchor are added,
     ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
     others must check.
@@ -164,6 +166,8 @@ class Standard:
     choice: str = ""
     choice_text: str = ""
     floor: Floor = "guideline"
+    has_maker_floor: bool = True
+    is_by_guideline: bool = False
     shared_sum: SharedSum = "vector"
     is_floor_overruled: bool = False
     is_default: bool = False
@@ -180,8 +184,12 @@ class Standard:
 
     def overrule_floor(self, floor: Floor) -> Standard:
         """The profile with that floor, marked where it is not the profile's own."""
-        is_own = floor == self.floor
-        return self if is_own else replace(self, floor=floor, is_floor_overruled=True)
+        if floor == self.floor:
+            return self
+        decides = self.is_by_guideline and floor == "guideline"
+        return replace(
+            self, floor=floor, is_by_guideline=decides, is_floor_overruled=True
+        )
 
     @property
     def assumed(self) -> tuple[StandardValue, ...]:
@@ -248,6 +256,8 @@ def _load_folder(folder: Path) -> Standard:
         return check_table(shape, *_parse(contents, name, folder))
 
     document = read(DocumentFile, "document.toml")
+    if (document.load.floor, document.load.governs) == ("none", "guideline"):
+        raise StandardError(say("standard.nothing_governs", folder=str(folder)))
     choice: ChoiceEntry | None = None
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
@@ -269,6 +279,8 @@ def _load_folder(folder: Path) -> Standard:
         **document.model_dump(exclude={"load", "scope", "anchors"}),
         choice_text=choice.text if choice else "",
         floor=document.load.floor,
+        has_maker_floor=document.load.maker == "floor",
+        is_by_guideline=document.load.governs == "guideline",
         shared_sum=document.anchors.sum,
         not_checked=tuple(
             topic

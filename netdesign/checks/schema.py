@@ -164,9 +164,11 @@ Text = Annotated[str, Field(min_length=1)]
 
 
 class LoadTable(_Table):
-    """``load``: which load governs; "none" takes the floor away and is written."""
+    """``load``: which load governs; "none" takes a floor away and is written."""
 
     floor: Floor = "guideline"
+    maker: Literal["floor", "none"] = "floor"  # anchor forces that a net's maker states
+    governs: Literal["larger", "guideline"] = "larger"  # of guideline and coupled force
 
 
 Checked = Literal["checked", "not checked"]
@@ -422,11 +424,8 @@ def _require_bounds(name: str, value: float, reason: str) -> None:
 
 
 def _describe_gap(number: int, start: int, expected: float) -> Message:
-    if start < expected:
-        return say(
-            "standard.row_overlaps", number=number, start=start, expected=expected
-        )
-    return say("standard.row_leaves", number=number, start=start, expected=expected)
+    key = "standard.row_overlaps" if start < expected else "standard.row_leaves"
+    return say(key, number=number, start=start, expected=expected)
 
 
 FileT = TypeVar("FileT", bound=_Table)

@@ -317,6 +317,7 @@ def judge_force(
         standard,
         points,
         strength=resist(given, standard, force) if force else None,
+        beside=force.on.by_model if force and standard.is_by_guideline else (),
     )
     least = known.find_least(given.member) if force else None
     doubted = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)

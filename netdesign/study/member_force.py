@@ -32,6 +32,7 @@ from netdesign.structure.members import (
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
 from netdesign.study.effects import RowEffects
+from netdesign.study.maker import list_maker_leaves
 from netdesign.study.pulls import GUY_ANCHORS, may_share
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import (
@@ -255,13 +256,17 @@ def find_force(
     least = forces.find_least(member)
     if least is not None:
         leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
+    leaves += list_maker_leaves(forces.row, forces.standard, member)
     added, rise = _list_load_leaves(forces, member, width)
     leaves += added
     if panel is not None:
         leaves += _list_rope_leaves(forces, member, width)
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
-    force = calculate_force({one.symbol: one for one in leaves})
+    force = calculate_force(
+        {one.symbol: one for one in leaves},
+        by_guideline=forces.standard.is_by_guideline,
+    )
     is_by_panel, held = _high(force.by_panel) > _high(force.coupled), forces.along_row
     has_no_pull = member in (
         Member.FOOT_ANCHOR,

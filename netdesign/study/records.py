@@ -251,6 +251,8 @@ class ProfileRecord:
     floor: str = "guideline"  # what no demand lies below: or "none"
     shared_sum: str = "vector"  # of the pulls of two guys on one anchor
     is_floor_overruled: bool = False  # the profile itself takes the other one
+    has_maker_floor: bool = True  # nor below an anchor force that the maker states
+    is_by_guideline: bool = False  # its load decides even where it is the smaller
     is_default: bool = False  # nobody named it
     proof_factor: float | None = None  # load of a test over the design force it proves
     not_checked: Items[str] = field(default_factory=list)  # topics that others check

@@ -29,7 +29,8 @@ def list_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
     _, used = one.check.utilisation_band
     if used is None:
         return _annotate(one, changes)
-    if not basis.row.panels:  # its forces are in no proportion to the spacing
+    # ropes' forces are in no proportion to the spacing, and the maker's is as it is
+    if not basis.row.panels and one.check.governs != "maker":
         spacing = basis.row.layout.post_spacing
         changes.append(find_spacing_remedy(spacing, one.width, used))
     return _annotate(one, changes)

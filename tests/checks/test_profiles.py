@@ -305,6 +305,20 @@ def test_profiles_have_the_guideline_as_floor_unless_they_say_otherwise(folder, 
     assert load_standard(mine).floor == "none"
 
 
+def test_a_profile_says_which_load_governs(folder):
+    mine = folder("swiss-guideline-2007")
+    assert load_standard(mine).has_maker_floor
+    assert not load_standard(mine).is_by_guideline
+    file = mine / "document.toml"
+    floor = 'load.floor = "guideline"\n'
+    edit(file, floor, f'{floor}load.governs = "guideline"\nload.maker = "none"\n')
+    assert load_standard(mine).is_by_guideline
+    assert not load_standard(mine).has_maker_floor
+    edit(file, floor, 'load.floor = "none"\n')
+    with pytest.raises(StandardError, match=r"load\.governs"):
+        load_standard(mine)
+
+
 def test_a_profile_says_its_choice_and_what_it_does_not_check():
     """What document.toml and choices.toml have, read by themselves."""
     folder = find_resource("standards") / "eurocode"

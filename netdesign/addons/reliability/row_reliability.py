@@ -115,7 +115,7 @@ def _find_lack(check: Check | None, by_case: CheckByCase | None) -> Message | No
     """Reason why a check has no limit state of its solved force."""
     if check is None:
         return say("reliability.no_check")
-    if check.governs == "guideline":
+    if check.governs in ("guideline", "maker"):
         return say("reliability.by_guideline")
     numbers = [check.utilisation, check.read("γ_E"), check.read("γ_R")]
     if by_case is None or not all(numbers):

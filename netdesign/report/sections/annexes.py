@@ -316,7 +316,7 @@ _OF_SNOW = ("E_s", "E_p0", "V_s", "V_p0", "T_r", "T_b")  # forces of solved snow
 def _is_by_snow(check: Check) -> bool:
     """Solved snow governs, by a force that is not that of the load along the row."""
     solved = (check.read_band(symbol)[1] for symbol in _OF_SNOW)
-    return check.governs != "guideline" and any(solved)
+    return check.governs not in ("guideline", "maker") and any(solved)
 
 
 # What is asked, what the study says to it, and the section that tells more.

@@ -59,6 +59,8 @@ def describe_resistance(check: Check, words: Words) -> str:
 
 def name_case(check: Check, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
+    if check.governs == "maker":
+        return words("load_name.maker")
     if check.governs != "guideline":
         show = words.name_case_short if is_short else words.name_case
         return show(check.case)
@@ -106,7 +108,7 @@ def describe_loads(check: Check, words: Words) -> str:
     Solved ones at most: with their error and what may hide between cases.
     """
     found = {}
-    letters = {"coupled": "c", "panel": "p", "truss": "t", "guideline": "g"}
+    letters = dict(zip(_LOADS, "cptgm", strict=True))
     for load, letter in letters.items():
         symbol = check.name_force(letter)
         _, force = check.read_band(symbol)
@@ -309,6 +311,7 @@ def name_few(checks: Sequence[Check], words: Words) -> str:
     return words("todo.and_more", names=few, count=rest) if rest > 0 else few
 
 
+_LOADS = ("coupled", "panel", "truss", "guideline", "maker")
 _FAR = 2.0  # times today's value, or its half: beyond it nobody would build
 _SENSES = {
     "at least": "show.change_at_least",

@@ -1,0 +1,119 @@
+"""Support of a row, and the way from a force of the section to that of a member.
+
+Theory: structure/THEORY.md, (S9) to (S20).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from netdesign.calculation.quantity import Quantity, largest
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Support:
+    """Support of a row: what makes of a force inside the row that on it.
+
+    Attributes
+    ----------
+    spacing, width : Quantity or None
+        b and b_e [m]; None inside the row, where one is the other.
+    end_factor, end_length : Quantity or None
+        f_R [-] and its length [m]; None inside the row.
+    is_second : bool
+        It stands beside the end.
+    reaching : int
+        End effects that reach the last bay.
+    """
+
+    spacing: Quantity | None = None
+    width: Quantity | None = None
+    end_factor: Quantity | None = None
+    end_length: Quantity | None = None
+    is_second: bool = False
+    reaching: int = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberLoad:
+    """Way from a force of the section to that of a member, inside the row.
+
+    Attributes
+    ----------
+    share : Quantity or None
+        g, of the section's force in the member [-]; None of all of it.
+    added : Quantity or None
+        A, by the load along the row [kN]; None of nothing.
+    lateral, along : Quantity or None
+        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
+    across, splay : Quantity or None
+        Of two guys on one anchor, square to what they share in the section [kN]; and
+        the angle of each out of it [deg].
+    """
+
+    share: Quantity | None = None
+    added: Quantity | None = None
+    lateral: Quantity | None = None
+    along: Quantity | None = None
+    across: Quantity | None = None
+    splay: Quantity | None = None
+
+
+def place_end_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    *,
+    other: Quantity | None = None,
+    beside: Quantity | None = None,
+    is_shared: bool = False,
+) -> Support:
+    """First or last support of a row: half a bay and the end effect.
+
+    An anchor that it shares holds a guy of the next post, which carries a whole bay.
+    ``other`` and ``beside`` are parts of a bay of the other end's effect on it, and of
+    the end effects on the next support.
+    """
+    width = spacing / 2 + factor * length
+    if other is not None:
+        width = width + factor * other * spacing
+    if is_shared:
+        of_next = spacing
+        if beside is not None:
+            of_next = _widen(spacing, factor, beside)
+        width = largest(width, (width + of_next) / 2)
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
+        end_factor=factor,
+        end_length=length,
+        reaching=1 if other is None else 2,
+    )
+
+
+def place_second_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    part: Quantity,
+    *,
+    is_shared: bool = False,
+) -> Support:
+    """Support beside an end: a bay, and a part of the end effect by the lever rule.
+
+    An anchor that it shares with the one after it holds a guy of that, too.
+    """
+    width = _widen(spacing, factor, part)
+    if is_shared:
+        width = (width + spacing) / 2
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S10a)"),
+        end_factor=factor,
+        end_length=length,
+        is_second=True,
+    )
+
+
+def _widen(spacing: Quantity, factor: Quantity, part: Quantity) -> Quantity:
+    return spacing + factor * part * spacing
