@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from netdesign.checks.schema import (
     ChoiceEntry,
@@ -20,6 +20,7 @@ from netdesign.checks.schema import (
     FileT,
     Floor,
     LimitsFile,
+    LoadTable,
     ModelFile,
     SharedSum,
     TableEntry,
@@ -256,8 +257,6 @@ def _load_folder(folder: Path) -> Standard:
         return check_table(shape, *_parse(contents, name, folder))
 
     document = read(DocumentFile, "document.toml")
-    if (document.load.floor, document.load.governs) == ("none", "guideline"):
-        raise StandardError(say("standard.nothing_governs", folder=str(folder)))
     choice: ChoiceEntry | None = None
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
@@ -278,9 +277,7 @@ def _load_folder(folder: Path) -> Standard:
     return Standard(
         **document.model_dump(exclude={"load", "scope", "anchors"}),
         choice_text=choice.text if choice else "",
-        floor=document.load.floor,
-        has_maker_floor=document.load.maker == "floor",
-        is_by_guideline=document.load.governs == "guideline",
+        **_read_load(document.load, folder),
         shared_sum=document.anchors.sum,
         not_checked=tuple(
             topic
@@ -297,6 +294,17 @@ def _load_folder(folder: Path) -> Standard:
         ),
         sha256=_hash(contents),
     )
+
+
+def _read_load(load: LoadTable, folder: Path) -> dict[str, Any]:
+    """Which load governs, as a profile says it."""
+    if (load.floor, load.governs) == ("none", "guideline"):
+        raise StandardError(say("standard.nothing_governs", folder=str(folder)))
+    return {
+        "floor": load.floor,
+        "has_maker_floor": load.maker == "floor",
+        "is_by_guideline": load.governs == "guideline",
+    }
 
 
 def _find_choice(name: str, choices: ChoicesFile, folder: Path) -> ChoiceEntry:
