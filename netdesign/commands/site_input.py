@@ -32,7 +32,7 @@ def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
     """Read a site; with ``annotate`` also write its copy, whether refused or not.
 
     ``asked`` are options of the command line: delimiter, decimal_mark, annotate, force,
-    and instead, texts that are read in the place of those of some cells.
+    net_types, and instead, texts that are read in the place of those of some cells.
 
     Raises
     ------
@@ -45,7 +45,8 @@ def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
     from netdesign.site.reader import read_site
 
     text_format, annotate = build_text_format(asked), asked.get("annotate")
-    read = partial(read_site, path, text_format, asked.get("instead") or {})
+    library, instead = asked.get("net_types"), asked.get("instead") or {}
+    read = partial(read_site, path, text_format, instead, net_types=library)
     if annotate is None:
         return read()
     if annotate.suffix.casefold() != ".xlsx":

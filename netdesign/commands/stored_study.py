@@ -87,11 +87,14 @@ def _read_again(study: Study, path: Path) -> Site:
     """Site from a file, by the options that took effect when it was read."""
     from netdesign.site.declared_sheet import split_replacement
     from netdesign.site.reader import read_site
-    from netdesign.study.record_provenance import read_text_format
+    from netdesign.study.record_provenance import read_library_name, read_text_format
 
+    library = Path(read_library_name(study.provenance)).name
+    net_types = path.parent / library if library else None
     instead = (split_replacement(f"{one.cell}={one.now}") for one in study.what_if)
     cells = dict(filter(None, instead))
-    return read_site(path, read_text_format(study.provenance), cells)
+    form = read_text_format(study.provenance)
+    return read_site(path, form, cells, net_types=net_types)
 
 
 def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study:

@@ -33,6 +33,8 @@ class Content:
         Sheets of add-ons, by name.
     approvals : mapping of str to Approval
         Of the net types, by net row.
+    library : tuple of str
+        File of further net types, and its hash; empty without one.
     """
 
     workbook: Workbook
@@ -43,3 +45,4 @@ class Content:
     declared: Sequence[Row]
     further: Mapping[str, Table | None]
     approvals: Mapping[str, Approval] = field(default_factory=dict)
+    library: tuple[str, str] = ("", "")

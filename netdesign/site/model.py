@@ -371,6 +371,8 @@ class Site:
     confirmed: tuple[str, ...] = ()  # cells of numbers, on sheet Declared
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
+    library_file: str = ""  # of further net types, where there is one
+    library_sha256: str = ""
     text_format: TextFormat = UNDECLARED  # with which the file was read
     winter: StationWinter | None = None
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not

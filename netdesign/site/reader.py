@@ -40,6 +40,7 @@ from netdesign.site.model import NetRow, Project, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.nets_workbook import read_nets_workbook
 from netdesign.site.office.join import read_office
+from netdesign.site.office.library import read_library
 from netdesign.site.office.sheets import is_office, keep_sheets, may_be_office
 from netdesign.site.plausible import ask
 from netdesign.site.ranges import (
@@ -74,6 +75,7 @@ def read_site(
     text_format: TextFormat = UNDECLARED,
     instead: Mapping[str, str] = MappingProxyType({}),
     sheets: Mapping[str, str] = MappingProxyType({}),
+    net_types: Path | None = None,
 ) -> Site:
     """Read a site workbook.
 
@@ -88,6 +90,8 @@ def read_site(
         Texts that are read in the place of those of some cells (``Nets!P8``).
     sheets : mapping of str to str
         Answers about sheets beside those of the file of answers.
+    net_types : Path, optional
+        Workbook whose net types and parts count beside those of the site.
 
     Returns
     -------
@@ -105,14 +109,19 @@ def read_site(
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
-    return replace(_build_site(workbook, replaced, findings), text_format=text_format)
+    if is_office(workbook):
+        library = read_library(net_types, text_format, findings) if net_types else None
+        content = read_office(workbook, findings, library)
+    else:
+        content = read_nets_workbook(workbook, findings)
+        if net_types:
+            findings.append(workbook.finding(say("office.no_library")))
+    return replace(_build_site(content, replaced, findings), text_format=text_format)
 
 
 def _build_site(
-    workbook: Workbook, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
+    content: Content, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
 ) -> Site:
-    read = read_office if is_office(workbook) else read_nets_workbook
-    content = read(workbook, findings)
     workbook, lines, further = content.workbook, content.lines, content.further
     ranges = lines.ranges
     net_rows = _build_rows(content, findings)
@@ -145,6 +154,8 @@ def _build_site(
         confirmed=tuple(sorted(confirmed)),
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
+        library_file=content.library[0],
+        library_sha256=content.library[1],
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,

@@ -100,6 +100,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "shape_tolerance": f"{settings.shape_tolerance:g}",
             "balance_tolerance": f"{settings.balance_tolerance:g}",
             **({"map": f"{file}, sha256 {site.map_sha256}"} if file else {}),
+            **({"net_types": _name_library(site)} if site.library_file else {}),
             **{key: declared for key, declared in text.items() if declared},
         },
         libraries={
@@ -108,6 +109,18 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "netdesign.core": name_core(),
         },
     )
+
+
+_SHA256 = ", sha256 "
+
+
+def _name_library(site: Site) -> str:
+    return f"{site.library_file}{_SHA256}{site.library_sha256}"
+
+
+def read_library_name(made: Provenance) -> str:
+    """File of further net types that a study was made with; empty without one."""
+    return made.settings.get("net_types", "").partition(_SHA256)[0]
 
 
 def name_law(law: CreepLaw) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
@@ -14,6 +15,7 @@ from netdesign.site.lines import (
     refuse_unknown_ids,
 )
 from netdesign.site.office.declared import list_declared
+from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import (
     build_office_ranges,
     build_project,
@@ -57,18 +59,31 @@ _NAMING = {
 _BLOCKS = {"Anchors": "anchor_types", "Ropes": "ropes", "Posts": "posts"}
 
 
-def read_office(workbook: Workbook, findings: list[Finding]) -> Content:
-    """Read all sheets and join them to lines of a site; faults go to ``findings``."""
-    tables = find_office_tables(workbook, findings)
-    lines = _settle_all({key: list(of) for key, of in tables.lines.items()})
+def read_office(
+    workbook: Workbook, findings: list[Finding], library: Library | None = None
+) -> Content:
+    """Read all sheets and join them to lines of a site; faults go to ``findings``.
+
+    Parameters
+    ----------
+    workbook : Workbook
+        As read.
+    findings : list of Finding
+        Appended to.
+    library : Library, optional
+        Net types and parts of another workbook.
+    """
+    elsewhere = ("net_types",) if library else ()
+    tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
+    lines = _join_nets(tables, findings)
+    if library:
+        others = _join_nets(library.found, findings)
+        lines = add_lines(lines, others, findings)
+        tables = _fill_in(tables, library.found)
+    lines = _settle_all(lines)
     project = read_lines(tables.tables["project"], lines["project"], findings)
-    measure = tables.measures.get(("net_types", "slack"), "")
-    nets = index_lines(
-        [join_net(one, measure, findings) for one in lines["net_types"]],
-        "id",
-        say("nets.ids_once"),
-        findings,
-    )
+    accepted = say("nets.ids_once")
+    nets = index_lines(lines["net_types"], "id", accepted, findings)
     _refuse_unknown_nets(lines["rows"], nets, findings)
     named, cells = build_project(project)
     of_rows = {line["id"].word: line["net_type"].word for line in lines["rows"]}
@@ -86,7 +101,26 @@ def read_office(workbook: Workbook, findings: list[Finding]) -> Content:
         declared=list_declared(lines["declared"]),
         further={one.name: find_table(workbook, one, findings) for one in FURTHER},
         approvals=approvals,
+        library=(library.file, library.sha256) if library else ("", ""),
     )
+
+
+def _join_nets(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
+    """Lines by table, those of net types with the slack that their sag makes."""
+    lines = {key: list(of) for key, of in tables.lines.items()}
+    measure = tables.measures.get(("net_types", "slack"), "")
+    lines["net_types"] = [
+        join_net(one, measure, findings) for one in lines["net_types"]
+    ]
+    return lines
+
+
+def _fill_in(tables: OfficeTables, library: OfficeTables) -> OfficeTables:
+    """Tables of the workbook, or those of its library where it has none."""
+    found = {
+        name: one or library.tables.get(name) for name, one in tables.tables.items()
+    }
+    return replace(tables, tables=found)
 
 
 def _join(

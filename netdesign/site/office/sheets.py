@@ -30,7 +30,7 @@ from netdesign.site.titles import is_meant
 _FIRST_ROWS = 25  # in which headings and their units stand
 _LEAST_KNOWN = 2  # headings, to be a row of them
 _IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
-_ALONE = tuple(one for one in TABLES if one not in PARTS)
+SHEETS_ALONE = tuple(one for one in TABLES if one not in PARTS)
 FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons, as they are
 _OF_TEMPLATE = ("table.above_headings", "table.gap", "table.empty_row", "heading.group")
 
@@ -98,13 +98,35 @@ def keep_sheets(workbook: Workbook, *, of_office: bool) -> Workbook:
     return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
 
 
-def find_office_tables(workbook: Workbook, findings: list[Finding]) -> OfficeTables:
-    """All tables of the workbook with their lines; faults go to ``findings``."""
+def find_office_tables(
+    workbook: Workbook,
+    findings: list[Finding],
+    alone: Sequence[str] = SHEETS_ALONE,
+    elsewhere: Sequence[str] = (),
+) -> OfficeTables:
+    """Tables of the workbook with their lines; faults go to ``findings``.
+
+    Parameters
+    ----------
+    workbook : Workbook
+        As read.
+    findings : list of Finding
+        Appended to.
+    alone, elsewhere : sequence of str
+        Tables that are looked for beside those of sheet Parts, and those that need not
+        be there.
+    """
     told: list[Finding] = []
     settled = [_settle_units(sheet) for sheet in workbook.sheets]
     named = {sheet.name: measures for sheet, measures in settled}
     plain = replace(workbook, sheets=tuple(sheet for sheet, _ in settled))
-    tables = {name: find_table(plain, load_plan(name), told) for name in _ALONE}
+    plans = {
+        name: replace(load_plan(name), required=False)
+        if name in elsewhere
+        else load_plan(name)
+        for name in alone
+    }
+    tables = {name: find_table(plain, plan, told) for name, plan in plans.items()}
     tables |= _find_parts(plain, told)
     findings.extend(one for one in told if not _is_of_template(one))
     return OfficeTables(
