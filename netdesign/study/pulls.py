@@ -248,7 +248,8 @@ def check_direction(
     gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
     if pull.angle > limit.value_si:
         return None
-    finding = say("direction.rope_within", angle=pull.angle_deg, most=limit.value)
+    angle = round(pull.angle_deg, 9)  # less is rounding
+    finding = say("direction.rope_within", angle=angle, most=limit.value)
     found = compare("direction", Verdict.PASS, finding, member=pull.anchor)
     return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)
 

@@ -137,7 +137,8 @@ _COLOURS = {
 DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
 _DIGIT_PT = 5.56  # width of a digit
 _LINE_PT = 11.5  # height of a line of text
-_DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
+# With the mark of any language: a sign, and a unit behind.
+_DECIMAL = re.compile(r"([-+\u2212]?)\d+(?:[.,](\d+))?( m²?)?")
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
@@ -351,11 +352,15 @@ class Book:
 
 
 def _find_look(quantity: str, text: str) -> dict[str, Any]:
-    """Format of a number: that of its quantity, or with as many digits as its text."""
+    """Format of a number: that of its quantity, or with digits and unit of its text."""
     if quantity:
         return {"num_format": QUANTITIES[quantity].number_format}
     found = _DECIMAL.fullmatch(text)
-    return {"num_format": f"0.{'0' * len(found[1] or '')}".rstrip(".")} if found else {}
+    if found is None:
+        return {}
+    digits = f"0.{'0' * len(found[2] or '')}".rstrip(".")
+    shown = f'{digits}"{found[3]}"' if found[3] else digits
+    return {"num_format": f"+{shown};-{shown};{shown}" if found[1] == "+" else shown}
 
 
 def _align(column: Column) -> dict[str, Any]:

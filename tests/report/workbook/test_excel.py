@@ -14,6 +14,7 @@ from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.site.reader import read_site
 from netdesign.study.document import compute_digest
 from netdesign.study.judge import judge_site
+from netdesign.study.parts import NET, PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.calculation.evaluate import evaluate
 from tests.golden.drawn import RUN
@@ -354,3 +355,25 @@ def test_bare_row_has_a_workbook():
 
 def test_workbook_repeats_byte_for_byte(content):
     assert content == render_workbook(STUDY)
+
+
+def test_no_number_shows_all_its_digits():
+    """What is typed or chosen has few; what is worked out has a format and its unit."""
+    known = next(one for one in STUDY.rows[0].checks if one.resistance_type)
+    kind = {"part": known.member, "type_id": known.resistance_type}
+    parts = [
+        PartRecord(**kind, count=22, size=5.0**0.5),
+        PartRecord(part=NET, type_id="", count=1, size=1e3 / 7.0),
+    ]
+    rows = [replace(row, parts=parts) for row in STUDY.rows]
+    numbers = [
+        (cell.coordinate, cell.value, cell.number_format)
+        for sheet in read_workbook(render_workbook(replace(STUDY, rows=rows)))
+        for line in sheet.iter_rows()
+        for cell in line
+        if isinstance(cell.value, float)
+    ]
+    looks = {look for _, _, look in numbers}
+    assert {'0.0" m"', '0" m²"'} <= looks
+    bare = [one for one in numbers if one[2] == "General"]
+    assert [one for one in bare if len(f"{one[1]:.12g}") > 8] == []
