@@ -81,6 +81,7 @@ THIRD_PARTY = {
             "envelope.*",
             "guideline.*",
             "resistance.wedge",
+            "structure.anchors",
             "structure.splay",
             "search.*",
             "addons.reliability.*",

@@ -229,14 +229,16 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     """Write SITE.map.toml: which headings mean what, to be answered.
 
     \b
-    netdesign map site.xlsx
-    netdesign map chantier.xlsx --language fr
-    netdesign map site.xlsx --force      again, with the answers given so far
+    netdesign map list.xlsx              a list of your own
+    netdesign map liste.csv --language fr
+    netdesign map list.xlsx --force      again, with the answers given so far
 
-    Every question mark in the file asks for an answer: a heading of the workbook with
-    its unit, or "ignore". Later runs read the file beside the workbook by themselves.
+    Every heading has the program's guess, or a question mark with what it may mean and
+    its first cells behind it. Change what is wrong, replace each question mark by a
+    column of the workbook, or by "ignore". Later runs read the file by themselves.
     """
     from netdesign.edge.output import require_free, write_files
+    from netdesign.site.lists.ask import is_own_list, write_list_map
     from netdesign.site.questions import write_questions
     from netdesign.site.titles import name_map
 
@@ -244,7 +246,8 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
     form = build_text_format(asked)
-    text, missing = write_questions(site_file, form, asked["language"])
+    write = write_list_map if is_own_list(site_file, form) else write_questions
+    text, missing = write(site_file, form, asked["language"])
     write_files({place: text.encode()}, overwrite=overwrite)
     tell(say("cli.wrote", path=str(place)), err=True)
     tell(

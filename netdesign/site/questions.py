@@ -147,6 +147,11 @@ _EXPECTED = (NETS, RANGES, ANCHORS, ROPES, POSTS)
 _OPEN = re.compile(r'^(?:"(?:[^"\\]|\\.)*"|\w+) = "(?:[^"\\]|\\.)*\?', re.MULTILINE)
 
 
+def is_open(line: str) -> bool:
+    """A line of a file of answers waits for an answer."""
+    return _OPEN.match(line) is not None
+
+
 @dataclass(frozen=True, slots=True)
 class Question:
     """One line of the file: what is asked, a first answer, what is accepted.

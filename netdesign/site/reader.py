@@ -36,6 +36,13 @@ from netdesign.site.content import Content
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.further_sheets import read_monitoring, read_uncertain
 from netdesign.site.headings import count_known
+from netdesign.site.lists.join import join_list
+from netdesign.site.lists.list_map import (
+    ListMap,
+    read_list,
+    read_list_map,
+    require_answered,
+)
 from netdesign.site.model import NetRow, Project, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.nets_workbook import read_nets_workbook
@@ -104,6 +111,8 @@ def read_site(
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
+    if found := read_list_map(Path(path)):
+        return _read_list(Path(path), found, text_format, instead)
     cells = read_cells(Path(path), text_format, sheets)
     workbook, replaced = replace_cells(cells, instead)
     workbook = doubt_results(workbook)
@@ -117,6 +126,19 @@ def read_site(
         if net_types:
             findings.append(workbook.finding(say("office.no_library")))
     return replace(_build_site(content, replaced, findings), text_format=text_format)
+
+
+def _read_list(
+    path: Path, found: ListMap, text_format: TextFormat, instead: Mapping[str, str]
+) -> Site:
+    """Site of an office's own list, by the answers to its headings."""
+    require_answered(found)
+    mark = text_format.decimal_mark or found.answers.decimal_mark
+    cells = read_list(path, replace(text_format, decimal_mark=mark))
+    cells, replaced = replace_cells(cells, instead)
+    workbook, told = join_list(doubt_results(cells), found)
+    findings = [*workbook.remarks, *judge_answers(workbook), *told]
+    return replace(_build_site(workbook, replaced, findings), text_format=text_format)
 
 
 def _build_site(

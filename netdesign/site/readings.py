@@ -434,6 +434,12 @@ def _shift(number: float, digits: int) -> float:
     return float(Decimal(repr(number)).scaleb(digits))
 
 
+def knows_word(field: Field, text: str) -> bool:
+    """A column of words knows a text."""
+    cell = Cell(file="", sheet="", row=1, column=1, value=text)
+    return isinstance(_understand_word(cell, field), str)
+
+
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:
     spellings = {normalise(name): word for name, word in field.spellings.items()}
     word = spellings.get(normalise(str(cell.value)))

@@ -271,11 +271,11 @@ def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> Non
     known = {column.number for column in table.columns.values()}
     known |= {cell.column for cell in table.sheet.row(table.heading_row)}
     for row in table.rows:
-        for cell in table.sheet.row(row):
-            if cell.column in known:
+        for column, cell in table.sheet.rows[row].items():
+            if column in known or cell.is_blank:
                 continue
-            known.add(cell.column)
-            cover = find_cover(table.sheet, table.heading_row, cell.column)
+            known.add(column)
+            cover = find_cover(table.sheet, table.heading_row, column)
             if cover:
                 rule = say("table.below_merged", range=cover.text)
                 findings.append(cell.finding(rule, say("table.heading_each")))

@@ -1,9 +1,13 @@
 """``netdesign map`` from the command line, in three languages."""
 
+import json
+
 import openpyxl
 import pytest
 
 from tests.short_example import write_short_example
+from tests.site.lists.answer import answer_list
+from tests.site.lists.offices import CONSULTANT
 
 
 @pytest.fixture
@@ -49,3 +53,22 @@ def test_a_sure_guess_is_the_first_answer_and_it_is_read(call, tmp_path):
     read = call("check", path, "--dry-run")
     assert read.code == 0
     assert "is read as" in read.out
+
+
+def test_an_own_list_is_mapped_once_and_read_by_every_command(call, tmp_path):
+    path = CONSULTANT.write(tmp_path)
+    assert call("table", path).code == 3
+    assert call("map", path).code == 0
+    refused = call("table", path)
+    assert refused.code == 3
+    assert "Net anchor" in refused.err
+    answer_list(CONSULTANT, path)
+    shown = call("table", path, "--json")
+    assert shown.code == 0, shown.err
+    rows = json.loads(shown.out)["rows"]
+    assert [row["id"] for row in rows] == [
+        line[0] for line in CONSULTANT.sheets[0].lines
+    ]
+    again = call("map", path, "--force")
+    assert again.code == 0
+    assert call("check", path, "--dry-run").code == 0

@@ -131,6 +131,10 @@ def list_texts(*keys: str) -> frozenset[str]:
     return frozenset(normalise(texts[key][one]) for key in keys for one in LANGUAGES)
 
 
+# Units in which an office's own list may have what is shown in metres.
+_UNITS_BESIDE = {"m": ("m", "cm", "mm")}
+
+
 @cache
 def list_choices() -> Mapping[str, tuple[str, str]]:
     """Unit and measure by the normalised text of a unit cell: "m vertical"."""
@@ -138,7 +142,9 @@ def list_choices() -> Mapping[str, tuple[str, str]]:
     for choice, language in product(load_file("office")["choices"], LANGUAGES):
         for measure in list_measures(choice):
             text = name_measure(choice, measure, language)
-            found[normalise(text)] = (text.split()[0], measure)
+            first, _, word = text.partition(" ")
+            for unit in _UNITS_BESIDE.get(first, (first,)):
+                found[normalise(f"{unit} {word}")] = (unit, measure)
     return found
 
 

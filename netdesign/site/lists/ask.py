@@ -1,0 +1,428 @@
+"""Writes ``LIST.map.toml`` beside an office's own list: what each heading may mean.
+
+A guess stands where a name is known, whole or but for accents and signs, or is so like
+one that no other comes near; else a question mark, with the likeliest behind it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+
+from netdesign.edge.given_files import is_there, make_printable
+from netdesign.site.cells.cells import (
+    UNDECLARED,
+    Cell,
+    Sheet,
+    TextFormat,
+    name_column,
+)
+from netdesign.site.columns.all_tables import (
+    ANCHORS,
+    IGNORE,
+    NETS,
+    SHEETS,
+    TESTS,
+    UNANSWERED,
+    Lexicon,
+    has_no_part,
+    is_allowable,
+)
+from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.office import load_plan
+from netdesign.site.lists.join import find_list_unit, find_units, list_lacking
+from netdesign.site.lists.list_map import (
+    SCHEMA,
+    ListMap,
+    ListTable,
+    read_list,
+    read_list_map,
+)
+from netdesign.site.lists.targets import (
+    GROUPS,
+    Target,
+    find_table,
+    list_targets,
+    read_answer,
+)
+from netdesign.site.questions import guess, is_open
+from netdesign.site.readings import knows_word
+from netdesign.site.titles import find_own_unit, name_asked, name_map
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
+
+_FIRST_LINES = 20  # in which headings stand
+_LEAST_TEXTS = 3  # in a line of headings
+_LEAST_KNOWN = 2  # of them, in a sheet that is read
+_EXAMPLES = 3
+_OLD = {"rows": NETS, "net_types": NETS, "anchor_types": ANCHORS, "tests": TESTS}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeadingGuess:
+    """First answer to a heading, how it was found, and what else it may mean.
+
+    Attributes
+    ----------
+    name : str
+        Heading as the file names it.
+    answer : str
+        With a question mark where only an engineer knows.
+    target : Target or None
+        Column that the answer names.
+    how : Message or None
+        How it was found.
+    ranked : str
+        Likeliest columns, with how alike they are, of 100.
+    cells : str
+        The first cells below it.
+    """
+
+    name: str
+    answer: str
+    target: Target | None = None
+    how: Message | None = None
+    ranked: str = ""
+    cells: str = ""
+
+    @property
+    def is_known(self) -> bool:
+        """A column is taken for it."""
+        return self.target is not None
+
+
+def write_list_map(
+    path: Path, text_format: TextFormat = UNDECLARED, language: Language = "en"
+) -> tuple[str, int]:
+    """Text of the file of answers to a list, and how many of them are missing.
+
+    Parameters
+    ----------
+    path : Path
+        The list; answers that stand beside it already are kept.
+    text_format : TextFormat
+        As for reading.
+    language : str
+        Of columns and comments.
+
+    Raises
+    ------
+    SiteDataError
+        If the list cannot be read at all, or a file of answers beside it.
+    """
+    given = read_list_map(path)
+    if given and not text_format.decimal_mark:
+        mark = given.answers.decimal_mark
+        text_format = replace(text_format, decimal_mark=mark)
+    workbook = read_list(path, text_format)
+    lines = [*_begin(path, given, language)]
+    count = 0
+    for sheet in workbook.sheets:
+        more, missing = _write_sheet(sheet, given, language)
+        lines += more
+        count += missing
+    return "\n".join(lines) + "\n", count
+
+
+def is_own_list(path: Path, text_format: TextFormat) -> bool:
+    """A workbook is an office's own: few of its headings are those of a template.
+
+    Where a file of answers stands beside it already, that says what it is.
+    """
+    if is_there(name_map(path)):
+        return read_list_map(path) is not None
+    workbook = read_list(path, text_format)
+    counts = [_count_of_template(sheet) for sheet in workbook.sheets]
+    known, every = (sum(one) for one in zip(*counts, strict=True)) if counts else (0, 0)
+    return 2 * known < every
+
+
+def _count_of_template(sheet: Sheet) -> tuple[int, int]:
+    """Headings that a template has just so, and all; of a sheet without any none."""
+    line = find_heading_line(sheet)
+    if not line:
+        return 0, 0
+    names = [split_heading(str(one.value))[0] for one in sheet.row(line)]
+    return sum(one in _list_template_names() for one in names), len(names)
+
+
+def _list_template_names() -> frozenset[str]:
+    return frozenset(
+        normalise(names[0])
+        for plan in (*SHEETS, *map(load_plan, GROUPS))
+        for field in plan.fields
+        for names in field.headings.values()
+        if names
+    )
+
+
+def find_heading_line(sheet: Sheet) -> int:
+    """Line of the headings: that with the most known, else with the most texts."""
+    lines = list(islice((n for n in sorted(sheet.rows) if sheet.row(n)), _FIRST_LINES))
+
+    def rank(number: int) -> tuple[int, int]:
+        texts = [one.value for one in sheet.row(number) if isinstance(one.value, str)]
+        return sum(map(_is_name, texts)), len(texts)
+
+    best = max(lines, key=rank, default=0)
+    return best if best and rank(best)[1] >= _LEAST_TEXTS else 0
+
+
+def _is_name(text: str) -> bool:
+    return has_no_part(text) or split_heading(text)[0] in _list_names()
+
+
+def _list_names() -> frozenset[str]:
+    targets = (one for table in GROUPS for one in list_targets(table))
+    return frozenset[str]().union(*(one.field.names for one in targets))
+
+
+def _begin(path: Path, given: ListMap | None, language: Language) -> Iterator[str]:
+    for line in render(say("list_map.head", file=path.name), language).splitlines():
+        yield f"# {line}".rstrip()
+    yield f'schema = "{SCHEMA}"'
+    yield f"list = {_quote(path.name)}"
+    mark = (
+        {",": "comma", ".": "point"}.get(given.answers.decimal_mark) if given else None
+    )
+    if mark:
+        yield f'decimal_mark = "{mark}"'
+    yield ""
+
+
+def _write_sheet(
+    sheet: Sheet, given: ListMap | None, language: Language
+) -> tuple[list[str], int]:
+    """Table of a sheet, and how many answers are missing."""
+    known = (
+        next((x for x in given.tables if x.name == sheet.name), None) if given else None
+    )
+    line = known.line if known else find_heading_line(sheet)
+    becomes = known.becomes if known else _find_kind(sheet, line)
+    place = f"tables.{_quote(sheet.name)}"
+    lines = [f"[{place}]"]
+    if not becomes or not line:
+        return [*lines, f'becomes = "{IGNORE}"', ""], 0
+    table = ListTable(name=sheet.name, becomes=becomes, line=line)
+    guesses = list(guess_headings(sheet, table, language))
+    old = known.headings if known else {}
+    guesses = [_keep(one, old) for one in guesses]
+    lines.append(f"becomes = {_quote(load_plan(becomes).name_in(language))}")
+    lines.append(f"headings_in_line = {line}")
+    lines += ["", f"[{place}.headings]", *(_show(one, language) for one in guesses)]
+    if words := list(_ask_words(sheet, table, guesses, known, language)):
+        lines += ["", f"[{place}.words]", *words]
+    always = _ask_always(guesses, known, becomes, language)
+    if always:
+        about = render(say("list_map.always"), language)
+        lines += ["", f"[{place}.always]  # {about}", *always]
+    answered = [read_answer(one.answer, becomes).target for one in guesses]
+    own = {(one.table, one.key) for one in answered if one is not None}
+    for one in list_lacking(becomes, own):
+        about = render(say("list_map.lacks", column=one.label(language)), language)
+        lines.append(f"# {about}")
+    return [*lines, ""], sum(map(is_open, lines))
+
+
+def _find_kind(sheet: Sheet, line: int) -> str:
+    """Table that a sheet becomes, by its name or by most of its headings."""
+    own = find_table(sheet.name)
+    if own:
+        return own
+    counts = {}
+    for table in GROUPS:
+        of = ListTable(name=sheet.name, becomes=table, line=line)
+        counts[table] = sum(x.is_known for x in guess_headings(sheet, of, "en"))
+    best = max(counts, key=lambda one: counts[one])
+    return best if line and counts[best] >= _LEAST_KNOWN else ""
+
+
+def guess_headings(
+    sheet: Sheet, table: ListTable, language: Language
+) -> Iterator[HeadingGuess]:
+    """Guesses at all headings of a sheet; two of one column are questions.
+
+    Parameters
+    ----------
+    sheet, table : Sheet, ListTable
+        The sheet, and what becomes of it.
+    language : str
+        Of the answers.
+    """
+    units = find_units(sheet, table)
+    found = []
+    for name, cell in _name_headings(sheet, table):
+        below = _list_cells(sheet, table, cell, units)
+        unit = find_list_unit(cell, units)
+        one = _guess(cell, unit, table.becomes, below, language)
+        found.append(replace(one, name=name))
+    for one in found:
+        alike = [x for x in found if x.target is not None and _is_same(x, one)]
+        if len(alike) > 1:
+            how = say("list_map.twice", count=len(alike), column=one.answer)
+            yield replace(one, answer=UNANSWERED, target=None, how=how)
+        else:
+            yield one
+
+
+def _name_headings(sheet: Sheet, table: ListTable) -> list[tuple[str, Cell]]:
+    """Headings as the file names them: those that stand twice with their column."""
+    cells = sheet.row(table.line)
+    names = [name_asked(one) for one in cells]
+    return [
+        (
+            name if names.count(name) == 1 else f"{name_column(cell.column)}: {name}",
+            cell,
+        )
+        for name, cell in zip(names, cells, strict=True)
+    ]
+
+
+def _is_same(one: HeadingGuess, other: HeadingGuess) -> bool:
+    if one.target is None or other.target is None:
+        return False
+    return (one.target.table, one.target.key) == (other.target.table, other.target.key)
+
+
+def _list_cells(
+    sheet: Sheet, table: ListTable, cell: Cell, units: Mapping[int, str]
+) -> list[Cell]:
+    """First filled cells below a heading."""
+    rows = [row for row in sorted(sheet.rows) if row > table.line and sheet.row(row)]
+    below = (sheet.cell(row, cell.column) for row in rows[1 if units else 0 :])
+    return list(islice((one for one in below if not one.is_blank), _EXAMPLES))
+
+
+def _guess(
+    cell: Cell, unit: str, becomes: str, below: Sequence[Cell], language: Language
+) -> HeadingGuess:
+    """First answer to one heading."""
+    text = str(cell.value)
+    shown = HeadingGuess(
+        name=name_asked(cell),
+        answer=UNANSWERED,
+        cells="; ".join(make_printable(one.text) for one in below),
+    )
+    if has_no_part(text):
+        return replace(shown, answer=IGNORE, how=say("list_map.no_part"))
+    targets = list_targets(becomes)
+    by_key = {(one.table, one.field.key): one for one in targets}
+    fields = [replace(one.field, table=one.table) for one in targets]
+    found = guess(text, unit, fields)
+    ranked = " · ".join(
+        f"{by_key[field.table, field.key].title(language, unit)} {score:.0f}"
+        for field, score in found.ranked
+    )
+    shown = replace(shown, ranked=ranked)
+    if is_allowable(text):
+        return replace(shown, how=say("list_map.allowable"))
+    known = [one for one in targets if _is_known(text, one) and _has_unit(unit, one)]
+    how = say("list_map.known")
+    if not known and found.field is not None and not _is_unclear(text, becomes):
+        known = [by_key[found.field.table, found.field.key]]
+        how = say("list_map.alike", score=found.ranked[0][1])
+    if len(known) != 1 or _is_unclear(text, becomes):
+        return replace(shown, how=say("list_map.unknown"))
+    (target,) = known
+    answer = _complete(target, unit, below, language)
+    return replace(shown, answer=answer, target=target, how=how)
+
+
+def _is_known(text: str, target: Target) -> bool:
+    """A heading is a name of a column, whatever its case, accents and signs."""
+    own = split_heading(text)[0]
+    return own in target.field.names or normalise(text) in target.field.names
+
+
+def _has_unit(unit: str, target: Target) -> bool:
+    return not unit or unit in (target.field.units or ("-",))
+
+
+def _is_unclear(text: str, becomes: str) -> bool:
+    """A heading is known to mean several things."""
+    plan = _OLD[becomes]
+    return bool(Lexicon.of(plan.fields, plan).match(text).readings)
+
+
+def _complete(
+    target: Target, unit: str, below: Sequence[Cell], language: Language
+) -> str:
+    """Answer with the unit, where the list does not say it."""
+    field = target.field
+    label = target.label(language)
+    unit = unit or find_own_unit(list(below), field)
+    has_none = field.unit in ("", "-") or unit
+    if target.measure:
+        return f"{label} [{target.measure_in(language, unit or UNANSWERED)}]"
+    return label if has_none else f"{label} [{UNANSWERED}]"
+
+
+def _keep(one: HeadingGuess, given: Mapping[str, str]) -> HeadingGuess:
+    """Guess whose answer was given before."""
+    answer = given.get(one.name, "")
+    if not answer or UNANSWERED in answer:
+        return one
+    return replace(one, answer=answer, how=None, ranked="")
+
+
+def _ask_words(
+    sheet: Sheet,
+    table: ListTable,
+    guesses: Sequence[HeadingGuess],
+    known: ListTable | None,
+    language: Language,
+) -> Iterator[str]:
+    """Texts of cells that a column of words does not know, or that are answered."""
+    given = known.words if known else {}
+    yield from (f"{_quote(one)} = {_quote(text)}" for one, text in given.items())
+    cells = {name: cell for name, cell in _name_headings(sheet, table)}
+    asked = set(given)
+    for one in guesses:
+        target = read_answer(one.answer, table.becomes).target
+        if target is None or target.field.kind != "word":
+            continue
+        field, column = target.field, cells[one.name].column
+        accepted = render(field.accepted, language)
+        below = (sheet.cell(row, column) for row in sheet.rows if row > table.line)
+        for text in dict.fromkeys(x.text.strip() for x in below if not x.is_blank):
+            if text not in asked and not knows_word(field, text):
+                asked.add(text)
+                about = f"{field.label_in(language)}: {accepted}"
+                yield f"{_quote(text)} = {_quote(UNANSWERED)}  # {about}"
+
+
+def _ask_always(
+    guesses: Sequence[HeadingGuess],
+    known: ListTable | None,
+    becomes: str,
+    language: Language,
+) -> list[str]:
+    """What stands in every line though no heading says it: how a pull-out is proven."""
+    given = dict(known.always) if known else {}
+    keys = {one.target.key for one in guesses if one.target}
+    if "pull_out" in keys and "proven" not in keys and not given:
+        target = next(x for x in list_targets(becomes) if x.key == "proven")
+        given[target.label(language)] = UNANSWERED
+        words = tuple(map(target.field.name_word, target.field.words))
+        about = render(say("accepted.words", words=words), language)
+        return [
+            f"{_quote(one)} = {_quote(text)}  # {about}" for one, text in given.items()
+        ]
+    return [f"{_quote(one)} = {_quote(text)}" for one, text in given.items()]
+
+
+def _show(one: HeadingGuess, language: Language) -> str:
+    """Line of the file: heading, answer, and how it was found."""
+    how = render(one.how, language) if one.how else ""
+    ranked = one.ranked if UNANSWERED in one.answer else ""
+    cells = render(say("map.cells", cells=one.cells), language) if one.cells else ""
+    about = " | ".join(filter(None, (how, ranked, cells)))
+    line = f"{_quote(one.name)} = {_quote(one.answer)}"
+    return f"{line}  # {' '.join(about.split())}" if about else line
+
+
+def _quote(text: str) -> str:
+    return json.dumps(make_printable(text), ensure_ascii=False)

@@ -1,0 +1,216 @@
+"""Columns of the input workbook that a heading of an office's own list may mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+from netdesign.site.columns.all_tables import (
+    IGNORE,
+    SHEETS,
+    UNANSWERED,
+    load_file,
+)
+from netdesign.site.columns.fields import Field, normalise, normalise_unit
+from netdesign.site.columns.office import (
+    Column,
+    list_measures,
+    load_columns,
+    load_plan,
+    name_measure,
+)
+from netdesign.words.catalogue import LANGUAGES, Language
+
+# Tables that a sheet of a list may become, with the sheets that its columns go to.
+GROUPS: Mapping[str, tuple[str, ...]] = {
+    "rows": ("rows", "net_types"),
+    "net_types": ("net_types",),
+    "anchor_types": ("anchor_types",),
+    "tests": ("tests",),
+}
+# Columns of earlier workbooks whose names say what a column with a choice measures.
+_MEASURED: Mapping[tuple[str, str], Mapping[str, str]] = {
+    ("rows", "snow"): {"vertical": "snow_height", "normal": "snow_thickness"},
+    ("net_types", "slack"): {"slack": "slack", "sag": ""},
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """A column that a heading may mean; of one with several measures, one of them.
+
+    Attributes
+    ----------
+    table, key : str
+        Sheet and column of the input workbook.
+    measure : str
+        ``vertical``, ``normal``, ``sag`` or ``slack``; empty of any other column.
+    field : Field
+        Of the column, with the names that it had in earlier workbooks, too.
+    """
+
+    table: str
+    key: str
+    measure: str = ""
+    field: Field
+
+    def label(self, language: Language) -> str:
+        """Name of sheet and column, as the file of answers has it."""
+        sheet = load_plan(self.table).name_in(language)
+        return f"{sheet}: {self.field.label_in(language)}"
+
+    def title(self, language: Language, unit: str = "") -> str:
+        """The same, with what it measures in brackets, in a unit of the list's."""
+        label = self.label(language)
+        return f"{label} [{self.measure_in(language, unit)}]" if self.measure else label
+
+    def measure_in(self, language: Language, unit: str = "") -> str:
+        """What it measures in a language, in a unit: "cm vertical"."""
+        choice = _find_column(self.table, self.key).choice
+        shown = name_measure(choice, self.measure, language)
+        first, _, word = shown.partition(" ")
+        return f"{unit or first} {word}"
+
+    def heading(self, unit: str) -> str:
+        """Heading of the column in the input workbook."""
+        bracket = self.measure_in("en", unit) if self.measure else unit
+        own = self.field.label_in("en")
+        return f"{own} [{bracket}]" if bracket else own
+
+
+@cache
+def list_targets(becomes: str) -> tuple[Target, ...]:
+    """Columns that the headings of a sheet may mean, by the table that it becomes.
+
+    A row names its net type: its list has no other column for that.
+    """
+    return tuple(
+        target
+        for table in GROUPS[becomes]
+        for column in load_columns(table)
+        if (becomes, table, column.field.key) != ("rows", "net_types", "id")
+        for target in _split(table, column)
+    )
+
+
+def _split(table: str, column: Column) -> Iterator[Target]:
+    """Target of a column; of one with several measures, one each."""
+    key = column.field.key
+    if not column.choice:
+        field = _add_names(column.field, _find_like(table, key))
+        field = _add_symbol(field) if (table, key) in _SYMBOLS else field
+        yield Target(table=table, key=key, field=field)
+        return
+    for measure in list_measures(column.choice):
+        of_old = _MEASURED.get((table, key), {})
+        old = _find_old("Nets", of_old.get(measure, ""))
+        field = _add_names(column.field, old)
+        # a name that says nothing of the measure is that of both
+        named = replace(field, key=f"{key}.{measure}")
+        yield Target(table=table, key=key, measure=measure, field=named)
+
+
+def _find_column(table: str, key: str) -> Column:
+    return next(one for one in load_columns(table) if one.field.key == key)
+
+
+# Columns whose symbol, the last word of their name, stands for nothing else.
+_SYMBOLS = (
+    *(("rows", key) for key in ("slope_angle", "glide_factor", "upslope_length")),
+    ("net_types", "net_height"),
+)
+
+
+def _add_symbol(field: Field) -> Field:
+    """Column that is known by its symbol, too: N of "glide factor N"."""
+    symbol = field.label_in("en").split()[-1]
+    named = {one: (*names, symbol) for one, names in field.headings.items()}
+    return replace(field, headings=named)
+
+
+def _find_like(table: str, key: str) -> Field | None:
+    """Column of earlier workbooks that a column stands for."""
+    data = load_file("office")
+    like = data[table][key].get("like", f"{data['sheets'][table]['of']}.{key}")
+    return _find_old(*like.rsplit(".", 1))
+
+
+def _find_old(sheet: str, key: str) -> Field | None:
+    plans = (one for one in SHEETS if one.name == sheet)
+    fields = (field for plan in plans for field in plan.fields)
+    return next((one for one in fields if one.key == key), None)
+
+
+def _add_names(field: Field, old: Field | None) -> Field:
+    """Column that is known by the names of an earlier one, too."""
+    if old is None:
+        return field
+    names = {
+        one: tuple(dict.fromkeys((*field.headings.get(one, ()), *them)))
+        for one, them in old.headings.items()
+    }
+    return replace(field, headings={**field.headings, **names})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """Answer to a heading: a column, ``ignore``, or none yet.
+
+    Attributes
+    ----------
+    target : Target or None
+        The column; None where it is to be ignored, or is not answered.
+    unit : str
+        Of its numbers, where the answer gives it.
+    is_open : bool
+        A question mark stands in it.
+    fault : bool
+        It names no column, or not which of several measures.
+    """
+
+    target: Target | None = None
+    unit: str = ""
+    is_open: bool = False
+    fault: bool = False
+
+
+def read_answer(text: str, becomes: str) -> Answer:
+    """Meaning of an answer, in any language.
+
+    Parameters
+    ----------
+    text : str
+        ``sheet: column [unit]``, ``ignore`` or a question mark.
+    becomes : str
+        Table that the sheet of the list becomes.
+    """
+    plain = " ".join(text.split())
+    if plain.casefold() == IGNORE:
+        return Answer()
+    if UNANSWERED in plain:
+        return Answer(is_open=True)
+    label, _, bracket = plain.partition("[")
+    bracket = bracket.rstrip("] ")
+    named = [one for one in list_targets(becomes) if _is_named(one, label)]
+    for target in named:
+        if not target.measure:
+            return Answer(target=target, unit=normalise_unit(bracket))
+        unit, _, word = bracket.partition(" ")
+        words = {
+            normalise(target.measure_in(one).partition(" ")[2]) for one in LANGUAGES
+        }
+        if normalise(word) in words:
+            return Answer(target=target, unit=normalise_unit(unit))
+    return Answer(fault=True)
+
+
+def _is_named(target: Target, label: str) -> bool:
+    return any(normalise(target.label(one)) == normalise(label) for one in LANGUAGES)
+
+
+def find_table(text: str) -> str | None:
+    """Table that a sheet becomes, by its name in any language; "" of none."""
+    if text.strip().casefold() == IGNORE:
+        return ""
+    return next((one for one in GROUPS if load_plan(one).matches(text)), None)

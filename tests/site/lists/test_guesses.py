@@ -1,0 +1,124 @@
+"""Guesses at headings of five offices: none is wrong, most are right or ranked."""
+
+from collections import Counter
+
+import pytest
+
+from netdesign.site.cells.cells import UNDECLARED
+from netdesign.site.lists.ask import (
+    _find_kind,
+    find_heading_line,
+    guess_headings,
+    is_own_list,
+)
+from netdesign.site.lists.list_map import ListTable, read_list
+from netdesign.site.lists.targets import list_targets
+from tests.site.lists.answer import find_target, name_target
+from tests.site.lists.offices import OFFICES, OfficeList, OfficeSheet
+
+
+def judge(office, path):
+    """How each heading was guessed at, by what it means."""
+    names = {one.name: one for one in office.sheets}
+    for sheet in read_list(path, UNDECLARED).sheets:
+        line = find_heading_line(sheet)
+        kind = _find_kind(sheet, line)
+        table = ListTable(name=sheet.name, becomes=kind, line=line)
+        for one in guess_headings(sheet, table, office.language):
+            meaning = names[sheet.name].headings[one.name]
+            yield one.name, rate(one, meaning, kind, office.language)
+
+
+def rate(one, meaning, kind, language):
+    """Right, wrong, or a question: with the right column first, among three, or not."""
+    if "?" not in one.answer or one.target is not None:
+        own = name_target(one.target) if one.target else one.answer
+        return "right" if own == meaning else "wrong"
+    if meaning in ("ask", "ignore"):
+        return "asked"
+    wanted = find_target(kind, meaning).label(language)
+    listed = [entry.split(" [")[0] for entry in one.ranked.split(" · ")]
+    names = [entry if "[" in entry else entry.rsplit(" ", 1)[0] for entry in listed]
+    names = [x if x == wanted else x.rsplit(" ", 1)[0] for x in names]
+    if wanted not in names:
+        return "unranked"
+    return "first" if names[0] == wanted else "ranked"
+
+
+@pytest.fixture(scope="module")
+def rated(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lists")
+    return {
+        (office.file, name): how
+        for office in OFFICES
+        for name, how in judge(office, office.write(folder))
+    }
+
+
+def test_no_guess_is_wrong(rated):
+    assert [name for name, how in rated.items() if how == "wrong"] == []
+
+
+def test_most_headings_are_known_or_ranked(rated):
+    counts = Counter(rated.values())
+    assert sum(counts.values()) >= 95
+    assert counts["right"] >= 0.55 * sum(counts.values())
+    open_ones = [counts[one] for one in ("first", "ranked", "unranked")]
+    assert counts["unranked"] <= 0.3 * sum(open_ones)
+
+
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_a_list_is_no_template(office, tmp_path):
+    assert is_own_list(office.write(tmp_path), UNDECLARED)
+
+
+def make_list(*headings, language="de"):
+    """A list with a few known headings and some more."""
+    known = {"Reihe": "", "Hangneigung [°]": "", "Stützenabstand [m]": ""}
+    every = known | dict.fromkeys(headings, "")
+    sheet = OfficeSheet("Netzreihen", (), every, (tuple(range(len(every))),))
+    return OfficeList("liste.xlsx", language, (sheet,))
+
+
+def guess_at(tmp_path, *headings):
+    office = make_list(*headings)
+    (sheet,) = read_list(office.write(tmp_path), UNDECLARED).sheets
+    table = ListTable(name=sheet.name, becomes="rows", line=1)
+    found = {one.name: one for one in guess_headings(sheet, table, "de")}
+    return [found[one] for one in headings]
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "zul. Stützenabstand [m]",
+        "zulässige Schneehöhe lotrecht [m]",
+        "Meereshöhe adm. [m]",
+        "allowable altitude [m]",
+    ],
+)
+def test_an_allowable_value_is_always_asked(tmp_path, heading):
+    (one,) = guess_at(tmp_path, heading)
+    assert one.answer == "?"
+
+
+def test_only_an_exact_word_is_ignored(tmp_path):
+    found = guess_at(tmp_path, "Bemerkung", "Bemerkungg", "N")
+    assert next(one.answer for one in found) == "ignore"
+    assert "ignore" not in [one.answer for one in found][1:]
+
+
+def test_two_headings_of_one_column_are_asked(tmp_path):
+    found = guess_at(tmp_path, "Meereshöhe [m]", "Seehöhe [m]")
+    assert [one.answer for one in found] == ["?", "?"]
+
+
+def test_a_column_of_another_unit_is_no_candidate(tmp_path):
+    (one,) = guess_at(tmp_path, "Hangneigung bergseits [kN]")
+    slope = next(x for x in list_targets("rows") if x.key == "slope_angle")
+    assert slope.label("de") not in one.ranked
+
+
+def test_a_heading_without_a_unit_asks_for_it(tmp_path):
+    (one,) = guess_at(tmp_path, "Meereshöhe")
+    assert one.answer.endswith("[?]")

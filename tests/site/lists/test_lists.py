@@ -1,0 +1,171 @@
+"""An office's own list, mapped once, is read as the input workbook would be."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.cells.cells import UNDECLARED
+from netdesign.site.lists.ask import write_list_map
+from netdesign.site.lists.join import join_list
+from netdesign.site.lists.list_map import read_list, read_list_map
+from netdesign.site.reader import read_site
+from netdesign.site.titles import name_map
+from tests.site.lists.answer import answer_list
+from tests.site.lists.offices import CONSULTANT, GRISONS, OFFICES, TYROL, VALAIS
+
+
+def number(text):
+    return float(str(text).replace(",", "."))
+
+
+def list_typed(office, meaning):
+    """What the lines of the first sheet have in the column of a meaning."""
+    sheet = office.sheets[0]
+    place = list(sheet.headings.values()).index(meaning)
+    return [line[place] for line in sheet.lines]
+
+
+def read_answered(office, folder):
+    path = office.write(folder)
+    answer_list(office, path)
+    return read_site(path)
+
+
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_every_row_has_what_the_list_says(office, tmp_path):
+    site = read_answered(office, tmp_path)
+    assert [row.id for row in site.rows] == list_typed(office, "rows.id")
+    slopes = list(map(number, list_typed(office, "rows.slope_angle")))
+    assert [math.degrees(row.slope_angle) for row in site.rows] == pytest.approx(slopes)
+    spacings = list(map(number, list_typed(office, "rows.post_spacing")))
+    assert [row.layout.post_spacing for row in site.rows] == pytest.approx(spacings)
+    counts = list(map(number, list_typed(office, "rows.post_count")))
+    assert [row.post_count for row in site.rows] == counts
+
+
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_snow_is_vertical_or_normal_in_its_own_unit(office, tmp_path):
+    site = read_answered(office, tmp_path)
+    (heading, meaning), *_ = [
+        one for one in office.sheets[0].headings.items() if "rows.snow" in one[1]
+    ]
+    factor = 0.01 if "cm" in heading else 1.0
+    for row, typed in zip(site.rows, list_typed(office, meaning), strict=True):
+        size = factor * number(typed)
+        wanted = size * math.cos(row.slope_angle) if "vertical" in meaning else size
+        assert row.snow_thickness == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("office", [VALAIS, CONSULTANT], ids=lambda one: one.file)
+def test_rows_with_the_same_net_share_a_type(office, tmp_path):
+    path = office.write(tmp_path)
+    answer_list(office, path)
+    joined, told = join_list(read_list(path, UNDECLARED), read_list_map(path))
+    assert told == []
+    (nets,) = (one for one in joined.sheets if one.name == "Net types")
+    heights = list_typed(office, "net_types.net_height")
+    assert len(nets.rows) == 1 + len(set(heights))
+    site = read_site(path)
+    wanted = list(map(number, heights))
+    assert [row.net_height for row in site.rows] == pytest.approx(wanted)
+
+
+def test_each_input_names_its_cell_in_the_list(tmp_path):
+    site = read_answered(TYROL, tmp_path)
+    first = {}  # line of each net type
+    for line, row in enumerate(site.rows, 4):
+        net = first.setdefault(row.net_height, line)
+        found = {one.cell for one in row.inputs}
+        # altitude, slope, snow, spacing of the row; D_K of its net
+        assert {f"Werke!{one}{line}" for one in "CEFK"} <= found
+        assert f"Werke!J{net}" in found
+
+
+def test_a_what_if_names_a_cell_of_the_list(tmp_path):
+    path = TYROL.write(tmp_path)
+    answer_list(TYROL, path)
+    site = read_site(path, instead={"Werke!E4": "40"})
+    assert math.degrees(site.rows[0].slope_angle) == pytest.approx(40.0)
+    assert site.what_if[0].cell == "Werke!E4"
+
+
+def list_values(row):
+    """What a row says, without the cells it stands in."""
+    types = [(one.member, one.mode, one.type_id) for one in row.resistances]
+    values = (row.id, row.slope_angle, row.snow_thickness, row.upslope_length)
+    return (*values, row.net_height, row.glide_factor, row.altitude, row.layout, types)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_order_of_columns_does_not_count(seed, tmp_path):
+    draw = random.Random(seed)
+    sheet = GRISONS.sheets[0]
+    order = list(range(len(sheet.headings)))
+    draw.shuffle(order)
+    names = list(sheet.headings.items())
+    moved = replace(
+        sheet,
+        headings=dict(names[one] for one in order),
+        lines=tuple(tuple(line[one] for one in order) for line in sheet.lines),
+    )
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    own = read_answered(GRISONS, tmp_path / "a")
+    other = replace(GRISONS, sheets=(moved, *GRISONS.sheets[1:]))
+    again = read_answered(other, tmp_path / "b")
+    for one, two in zip(own.rows, again.rows, strict=True):
+        assert list_values(one) == list_values(two)
+
+
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_answers_are_kept_when_it_is_mapped_again(office, tmp_path):
+    path = office.write(tmp_path)
+    _, missing = write_list_map(path, UNDECLARED, office.language)
+    assert missing > 0
+    answer_list(office, path)
+    before = read_list_map(path)
+    text, left = write_list_map(path, UNDECLARED, office.language)
+    assert left == 0
+    name_map(path).write_text(text, encoding="utf-8")
+    assert read_list_map(path).tables == before.tables
+
+
+def spoil(path, old, new):
+    place = name_map(path)
+    text = place.read_text(encoding="utf-8")
+    assert old in text
+    place.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "rule"),
+    [
+        ('"Comments" = "ignore"', '"Comments" = "?"', "list_map.unanswered"),
+        ('"Comments" = "ignore"', '"Comments" = "Rows: nothing"', "list_map.no_column"),
+        ('"Comments" = "ignore"', '"Other" = "ignore"', "list_map.new_heading"),
+        ("headings_in_line = 1", "headings_in_line = 2", "list_map.new_heading"),
+        ("headings_in_line = 1", "headings_in_line = 0", "list_map.no_line"),
+        ('becomes = "Rows"', 'becomes = "Rooms"', "map.no_sheet"),
+        ('list = "', 'lists = "', "map.unknown_key"),
+    ],
+)
+def test_a_faulty_answer_is_refused(old, new, rule, tmp_path):
+    path = CONSULTANT.write(tmp_path)
+    answer_list(CONSULTANT, path)
+    spoil(path, old, new)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    assert rule in {one.rule.key for one in refused.value.findings}
+
+
+def test_an_answer_in_another_unit_than_the_list_is_refused(tmp_path):
+    path = TYROL.write(tmp_path)
+    answer_list(TYROL, path)
+    spoil(path, "[cm lotrecht]", "[m lotrecht]")
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    keys = {one.rule.key for one in refused.value.findings}
+    assert "list_map.other_unit" in keys
