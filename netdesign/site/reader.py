@@ -111,13 +111,18 @@ def read_site(
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
-    if found := read_list_map(Path(path)):
-        return _read_list(Path(path), found, text_format, instead)
-    cells = read_cells(Path(path), text_format, sheets)
+    found = read_list_map(Path(path))
+    if found:
+        cells = _read_list(Path(path), found, text_format)
+    else:
+        cells = read_cells(Path(path), text_format, sheets)
     workbook, replaced = replace_cells(cells, instead)
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks, *judge_answers(workbook)]
-    findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
+    if found:
+        workbook = join_list(workbook, found, findings)
+    else:
+        findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
     if is_office(workbook):
         library = read_library(net_types, text_format, findings) if net_types else None
         content = read_office(workbook, findings, library)
@@ -128,17 +133,12 @@ def read_site(
     return replace(_build_site(content, replaced, findings), text_format=text_format)
 
 
-def _read_list(
-    path: Path, found: ListMap, text_format: TextFormat, instead: Mapping[str, str]
-) -> Site:
-    """Site of an office's own list, by the answers to its headings."""
+def _read_list(path: Path, found: ListMap, text_format: TextFormat) -> Workbook:
+    """Every sheet of an office's own list, whose headings are answered."""
     require_answered(found)
     mark = text_format.decimal_mark or found.answers.decimal_mark
-    cells = read_list(path, replace(text_format, decimal_mark=mark))
-    cells, replaced = replace_cells(cells, instead)
-    workbook, told = join_list(doubt_results(cells), found)
-    findings = [*workbook.remarks, *judge_answers(workbook), *told]
-    return replace(_build_site(workbook, replaced, findings), text_format=text_format)
+    workbook = read_list(path, replace(text_format, decimal_mark=mark))
+    return replace(workbook, answers=found.answers)
 
 
 def _build_site(

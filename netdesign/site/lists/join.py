@@ -65,8 +65,8 @@ class MappedSheet:
         )
 
 
-def join_list(workbook: Workbook, found: ListMap) -> tuple[Workbook, list[Finding]]:
-    """Input workbook that an office's list makes, and what of it does not fit.
+def join_list(workbook: Workbook, found: ListMap, findings: list[Finding]) -> Workbook:
+    """Input workbook that an office's list makes.
 
     Every cell keeps its place in the list. Rows whose net is the same by all its
     columns share a net type; anchor types that nothing is said of have a line each.
@@ -77,8 +77,9 @@ def join_list(workbook: Workbook, found: ListMap) -> tuple[Workbook, list[Findin
         Every sheet of the list.
     found : ListMap
         Answers to it, none of them missing.
+    findings : list of Finding
+        Appended to: what of the answers does not fit.
     """
-    findings: list[Finding] = []
     by_name = {one.name: one for one in workbook.sheets}
     mapped: list[MappedSheet] = []
     for table in found.tables:
@@ -94,7 +95,7 @@ def join_list(workbook: Workbook, found: ListMap) -> tuple[Workbook, list[Findin
     if not any(one.table.becomes == "anchor_types" for one in mapped):
         named = map(_name_anchors, mapped)
         sheets += [one for one in named if one is not None]
-    made = replace(
+    return replace(
         workbook,
         sheets=tuple(sheets),
         unread=tuple(
@@ -102,7 +103,6 @@ def join_list(workbook: Workbook, found: ListMap) -> tuple[Workbook, list[Findin
         ),
         answers=found.answers,
     )
-    return made, findings
 
 
 def map_sheet(

@@ -63,7 +63,8 @@ def test_snow_is_vertical_or_normal_in_its_own_unit(office, tmp_path):
 def test_rows_with_the_same_net_share_a_type(office, tmp_path):
     path = office.write(tmp_path)
     answer_list(office, path)
-    joined, told = join_list(read_list(path, UNDECLARED), read_list_map(path))
+    told = []
+    joined = join_list(read_list(path, UNDECLARED), read_list_map(path), told)
     assert told == []
     (nets,) = (one for one in joined.sheets if one.name == "Net types")
     heights = list_typed(office, "net_types.net_height")
