@@ -151,7 +151,6 @@ def build_row(name, **changes):
         "net_parts": list_net_parts(has_ropes=bool(changes.get("panels"))),
         "ground_type": "till",
         "anchors": tuple((anchor, TURNS) for anchor in ANCHORS),
-        "drills_along_pull": True,
         "inputs": (
             InputEcho(
                 label=say("column.Nets.slack"),

@@ -23,7 +23,11 @@ from netdesign.report.sections.checks import (
     list_changes,
     name_case,
 )
-from netdesign.report.sections.decision import list_open_points, show_line
+from netdesign.report.sections.decision import (
+    list_conditions,
+    list_open_points,
+    show_line,
+)
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
     MISSING,
@@ -174,6 +178,7 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
     for one in list_additions(study):
         yield from one.list_lines(study, words)
     yield from _list_to_do(study, words)
+    yield from list_conditions(study, words)
     if is_short:
         return
     points = list(list_open_points(study, words))

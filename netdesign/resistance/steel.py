@@ -351,6 +351,8 @@ def resist_link(
 
 
 # Protections under which the steel itself corrodes, and is counted with what is left.
+# Ground by its corrosion where nobody gives its class: undisturbed, a condition.
+USUAL_SOIL = "natural"
 BARE = ("none", "sacrificial")
 
 

@@ -35,6 +35,7 @@ class Resistance(GivenResistance):
     doubt: Message | None = None
     bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
+    may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve
 
 
 def name_column(key: str) -> Message:
@@ -84,16 +85,6 @@ class RowEnd:
         if self.guy_angle is None:
             return None
         return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
-
-    def list_unsaid_places(self) -> tuple[Message, ...]:
-        """Names of what is not given of the places of its anchors."""
-        said = {
-            "lateral_distance": self.lateral_distance,
-            "lateral_axis": self.lateral_axis,
-            "end_guy_angle": self.guy_angle,
-        }
-        lacking = (key for key, value in said.items() if value is None)
-        return tuple(name_column(f"Ends.{key}") for key in lacking)
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """What one of its anchors is; None where its type is not given."""

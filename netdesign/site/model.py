@@ -32,7 +32,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.words.message import Message, Text, say
+from netdesign.words.message import Message, Text
 
 if TYPE_CHECKING:
     from netdesign.site.further_sheets import MonitoringSeries, UncertainQuantity
@@ -92,12 +92,12 @@ class NetRow:
     altitude: float | None = None  # [m]
     ground_type: str = ""  # where its anchors stand; "" where nobody says it
     edge_distance: float | None = None  # of any anchor to where the ground ends [m]
-    design_life: int | None = None  # [years]; None where nobody gives it
+    design_life: int = 100  # [years]
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
     has_row_above: bool = True  # built alike, the upslope length away
-    axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
-    drills_along_pull: bool = False  # anchors without a given axis
+    # of anchors, where given [rad]; others are drilled along the pull
+    axes: tuple[tuple[Member, float], ...] = ()
     # those that have a type
     anchors: tuple[tuple[Member, AnchorType], ...] = field(default=(), hash=False)
     # of the first and last support; None: those of all others
@@ -152,54 +152,11 @@ class NetRow:
         known = self.end_anchors or () if at_end else self.anchors
         return next((kind for one, kind in known if one == anchor), None)
 
-    def list_unsaid_grounds(self, given: Resistance) -> tuple[Message, ...]:
-        """Names of the grounds that nobody gives, of row and type of a pull-out.
-
-        Its resistance holds in the ground where it was found.
-        """
-        if given.mode != "pull_out" or not given.basis:
-            return ()
-        of_type = say("check.ground_of_type", type=given.type_id)
-        names = {say("column.Nets.ground"): self.ground_type, of_type: given.ground}
-        return tuple(name for name, word in names.items() if not word)
-
-    def list_unsaid_cover(self, anchor: str, position: Position) -> tuple[Message, ...]:
-        """Names of what is not given of the ground around an anchor."""
-        kind = self.find_anchor_type(anchor, position)
-        sheet = "Ends" if anchor in tuple(EndMember) else "Nets"
-        said: dict[str, float | None] = {
-            "Nets.edge_distance": self.edge_distance,
-            f"{sheet}.{anchor}": 1.0 if kind else None,
-        }
-        if kind is not None:
-            said |= {
-                "Anchors.drilled_length": kind.drilled or kind.bond,
-                "Anchors.least_cover": 1.0 if kind.soil else kind.least_cover,
-                "Anchors.least_edge": kind.least_edge,
-            }
-        return tuple(name_column(key) for key, value in said.items() if not value)
-
     def list_unsaid_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Name of an anchor's drilled length, where nobody gives it."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None
         return () if is_said else (name_column("Anchors.drilled_length"),)
-
-    def list_unsaid_wear(self, given: Resistance) -> tuple[Message, ...]:
-        """Names of what is not given of the corrosion of a member's steel."""
-        wear = given.wear
-        if wear is None:
-            return ()
-        sheet = "Ropes" if wear.kind == "rope" else "Anchors"
-        said: dict[str, object] = {"Nets.design_life": self.design_life}
-        if sheet == "Anchors":
-            said["Anchors.protection"] = wear.protection
-        if wear.is_bare:
-            is_known = None not in (wear.outer, wear.inner)
-            said |= {"Anchors.soil": wear.soil, "Anchors.bar_diameter": is_known}
-        elif wear.protection or sheet == "Ropes":
-            said[f"{sheet}.protected_years"] = wear.protected_years
-        return tuple(name_column(key) for key, value in said.items() if not value)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""

@@ -8,6 +8,8 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
+from netdesign.site.anchor_types import read_anchor_types, read_axes
+from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.headings import Table
@@ -41,16 +43,14 @@ from netdesign.site.statements import (
     explain_panel_lack,
     has_same_types,
     list_assumed,
+    list_fixed,
     list_unsaid,
     replace_types,
 )
 from netdesign.site.support_types import (
     build_row_end,
-    find_end_resistances,
     find_net_parts,
     find_resistances,
-    read_anchor_types,
-    read_axes,
     read_guys,
 )
 from netdesign.snow.ground import (
@@ -255,7 +255,7 @@ def _compose_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=find_resistances(row, types),
-        end_resistances=find_end_resistances(at_end, types) if is_other else None,
+        end_resistances=find_resistances(at_end, types) if is_other else None,
         end_anchors=read_anchor_types(at_end, types) if is_other else None,
         inputs=inputs,
         length=_find_length(row),
@@ -264,15 +264,15 @@ def _compose_net_row(
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
         edge_distance=row["edge_distance"].given_si,
-        design_life=row["design_life"].given_count,
+        design_life=row["design_life"].given_count or int(assume("design_life").high),
         glide_factor=row["glide_factor"].given_si,
         guys=read_guys(row),
         has_row_above=row["row_above"].word != "none",
         axes=read_axes(row),
-        drills_along_pull=row["anchor_axes"].word == "along the pull",
         anchors=read_anchor_types(row, types),
         panels=build_panels(row, types["Ropes"]),
         panel_assumed=list_assumed(row, types["Ropes"]),
+        assumed=list_fixed(row, end, types),
         row_end=build_row_end(at_end, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
         panel_lack=explain_panel_lack(row),

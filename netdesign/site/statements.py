@@ -14,9 +14,11 @@ from itertools import chain
 from netdesign.panel.inputs import CUTS, Ends, Panel, find_stiffness, list_panels
 from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.steel import Link
+from netdesign.site.assumed import Assumed, assume
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
+from netdesign.site.columns.all_tables import ANCHORS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.lines import Types
 from netdesign.site.model import InputEcho, NetRow, Resistance
 from netdesign.site.readings import (
     Reading,
@@ -26,7 +28,7 @@ from netdesign.site.readings import (
     refuse_misfits,
     refuse_with,
 )
-from netdesign.site.type_resistances import find_breaking
+from netdesign.site.type_resistances import TEST_COLUMNS, find_breaking
 from netdesign.structure.members import (
     CONNECTED,
     LIFTED_MODE,
@@ -129,10 +131,7 @@ def _list_contradictions(
 
 def explain_panel_lack(row: Row) -> Message | None:
     """Reason why the pull of a row's ropes is not known; None also without ropes."""
-    system = row["panel_system"].word
-    if system == "triangular":
-        return say("panel.triangular")
-    return None if system else say("panel.no_system")
+    return say("panel.triangular") if row["panel_system"].word == "triangular" else None
 
 
 def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
@@ -181,14 +180,14 @@ def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
 
 
 def list_stiffnesses(
-    at_end: Row, end: Row, types: Mapping[str, Mapping[str, Row]]
+    at_end: Row, end: Row | None, types: Mapping[str, Mapping[str, Row]]
 ) -> tuple[Ends, ...]:
     """Least and largest EA of uphill guys, downhill guys, end guy and post [N]."""
-    guys = (at_end[Member.UPHILL_GUY], at_end[Member.DOWNHILL_GUY])
-    ropes = (*guys, end[EndMember.END_GUY])
+    guys = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
+    ropes = [*guys, end[EndMember.END_GUY].word if end else ""]
     post = types["Posts"].get(at_end[Member.POST].word)
     return (
-        *(_find_stiffness(types["Ropes"].get(one.word)) for one in ropes),
+        *(_find_stiffness(types["Ropes"].get(one)) for one in ropes),
         _find_post_stiffness(post),
     )
 
@@ -212,22 +211,14 @@ def _find_stiffness(line: Row | None) -> Ends:
 
 
 def replace_types(row: Row, end: Row | None) -> Row:
-    """Line of sheet Nets with the types of its end.
-
-    A type that sheet Ends does not give is not known there, unless it says that the
-    types not given are those inside.
-    """
-    if end is None:
-        fields = (row[key].field for key in _TYPES)
-        return {**row, **{one.key: Reading(field=one, state="blank") for one in fields}}
-    if end["support_types"].word:
-        return row
-    return {**row, **{key: end[key] for key in _TYPES}}
+    """Line of sheet Nets with the types of its end; others are those inside."""
+    given = [key for key in _TYPES if end and end[key].state == "given"]
+    return {**row, **{key: end[key] for key in given if end}}
 
 
 def has_same_types(at_end: Row, row: Row) -> bool:
-    """Sameness of every type at the row's end and inside; none is left empty."""
-    return all(at_end[key].word == row[key].word != "" for key in _TYPES)
+    """Sameness of every type at the row's end and inside."""
+    return all(at_end[key].word == row[key].word for key in _TYPES)
 
 
 def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
@@ -238,6 +229,70 @@ def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
         for one in readings
         if one.state == "given" and one.field.key != "row"
     )
+
+
+# Columns of sheet Nets with one value for an empty cell; those of a panel, where one
+# may be between the posts.
+_FIXED, _FIXED_OF_PANEL = ("design_life",), ("panel_system", "mid_anchors", "net_cut")
+
+
+def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
+    """Words and single values that stand for empty cells of a row and its types.
+
+    Parameters
+    ----------
+    row, end : Row, Row or None
+        Lines of sheets Nets and Ends.
+    types : mapping of str to mapping of str to Row
+        Lines of the type sheets.
+    """
+    keys = [key for key in _FIXED if _is_empty(row, key)]
+    if _has_panel(row):
+        keys += [key for key in _FIXED_OF_PANEL if _is_empty(row, key)]
+    if row["guy_count"].given_count != 1 and _is_empty(row, "guy_anchors"):
+        keys.append("guy_anchors")
+    has_end = row["row_end"].word != "continuous" and row["gap"].given_si != 0.0
+    if has_end:
+        keys += ["row_end"] if _is_empty(row, "gap") else []
+        said = (*_TYPES, "support_types")
+        is_typed = end is not None and any(not _is_empty(end, one) for one in said)
+        keys += [] if is_typed else ["support_types"]
+        if _has_panel(row) and (end is None or _is_empty(end, "end_guy_angle")):
+            keys.append("end_guy_angle")
+    found = [*keys, *_list_fixed_of_types(row, end or {}, types)]
+    return tuple(assume(key) for key in dict.fromkeys(found))
+
+
+def _is_empty(line: Row, key: str) -> bool:
+    return key not in line or line[key].state in ("blank", "default")
+
+
+_BORES = ("foot_axis", "uphill_axis", "downhill_axis")
+
+
+def _list_fixed_of_types(row: Row, end: Row, types: Types) -> Iterator[str]:
+    """What is assumed of anchors and posts, by key."""
+    if _is_empty(row, "anchor_axes") and any(_is_empty(row, one) for one in _BORES):
+        yield "anchor_axes"
+    named = (one.word for line in (row, end) for one in line.values()
+             if one.field.refers_to == ANCHORS.name)  # fmt: skip
+    for line in (types["Anchors"][one] for one in named if one in types["Anchors"]):
+        kind = line["kind"].word
+        if not kind:
+            yield "anchor_kind"
+        if kind != "rope anchor" and _is_empty(line, "lever_arm"):
+            yield "lever_arm"
+        if not _is_empty(line, "pull_out") and _is_empty(line, "basis"):
+            yield from () if line["pull_out"].derivation else ("basis",)
+        if not _is_empty(line, "test_least"):
+            empty = (one for one in TEST_COLUMNS if _is_empty(line, one))
+            yield from empty
+    posts = {row[Member.POST].word, end[Member.POST].word if end else ""} - {""}
+    lines = [types["Posts"][one] for one in posts if one in types["Posts"]]
+    if not lines or any(
+        _is_empty(one, "base_friction") and _is_empty(one, "sliding") for one in lines
+    ):
+        yield "base_friction"
 
 
 _SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
@@ -257,25 +312,11 @@ def list_missing(
     """
     found = chain(
         row.unsaid,
-        _list_of_row(row),
+        row.panel_assumed,
         _list_of_types(row),
         _list_chains(row, links),
-        _list_of_end(row),
     )
     return tuple(dict.fromkeys(found))
-
-
-def _list_of_row(row: NetRow) -> Iterator[Message]:
-    yield from row.panel_assumed
-    if not row.drills_along_pull and any(
-        row.find_axis(anchor) is None for anchor, _ in row.anchors
-    ):
-        yield _name(NETS, "anchor_axes")
-    for anchor, _ in row.anchors:
-        yield from row.list_unsaid_cover(anchor, "intermediate")
-    may_be_two = row.guys.count > 1 or _name(NETS, "guy_count") in row.unsaid
-    if may_be_two and row.guys.are_shared is None:
-        yield _name(NETS, "guy_anchors")
 
 
 def _list_of_types(row: NetRow) -> Iterator[Message]:
@@ -289,8 +330,7 @@ def _list_of_types(row: NetRow) -> Iterator[Message]:
         elif (one.member, one.mode) == LIFTED_MODE:
             pass  # asked for once some case lifts a post
         elif one.value is None and not (one.tests or one.dimensions):
-            yield from _list_lacking(row, one)
-        yield from (*row.list_unsaid_grounds(one), *row.list_unsaid_wear(one))
+            yield from _list_lacking(one)
 
 
 def _list_chains(
@@ -303,28 +343,12 @@ def _list_chains(
             yield say("links.of_type", type=one.type_id)
 
 
-def _list_lacking(row: NetRow, one: Resistance) -> Iterator[Message]:
+def _list_lacking(one: Resistance) -> Iterator[Message]:
     names = one.lack.arguments.get("names", ()) if one.lack else ()
-    if one.mode == "bending":
-        anchor = row.find_anchor_type(Member(one.member))
-        if anchor is None or not anchor.kind:
-            yield _name(ANCHORS, "kind")
-        yield _name(ANCHORS, "lever_arm")
-    elif one.mode == "sliding":
-        yield _name(POSTS, "base_friction")
-    elif isinstance(names, tuple) and names:
+    if isinstance(names, tuple) and names:
         yield from (one for one in names if isinstance(one, Message))
-    elif one.lack is not None and one.lack.key == "type.sleeve_unsaid":
-        yield _name(ANCHORS, "sleeve")
     else:
         yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
-
-
-def _list_of_end(row: NetRow) -> Iterator[Message]:
-    if any(one.source == ENDS.name for one in _list_at_end(row)):
-        yield say("check.unsaid_ends")
-    elif row.row_end is not None:
-        yield from row.row_end.list_unsaid_places()
 
 
 def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:

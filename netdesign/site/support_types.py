@@ -10,25 +10,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import TypeVar
 
-from netdesign.outcome import ModelError
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
-    HEAD_GRADE,
-    RoundSection,
     Wear,
-    find_ground_lever,
 )
-from netdesign.resistance.wedge import BENDING, AnchorType, Soil
+from netdesign.resistance.wedge import BENDING, AnchorType
+from netdesign.site.anchor_types import (
+    AXES,
+    AnyMember,
+    read_anchor_types,
+    read_anchors,
+)
+from netdesign.site.assumed import assume
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
 from netdesign.site.statements import list_stiffnesses
-from netdesign.site.type_lines import find_depth, find_sleeve, read_bond
+from netdesign.site.type_lines import find_depth, read_bond
 from netdesign.site.type_resistances import (
     SECTION,
-    SOIL_COLUMNS,
     compute_buckling,
     find_proof_limit,
     find_tests,
@@ -54,13 +55,7 @@ from netdesign.structure.members import (
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 
-_AXES = {
-    Member.FOOT_ANCHOR: "foot_axis",
-    Member.UPHILL_ANCHOR: "uphill_axis",
-    Member.DOWNHILL_ANCHOR: "downhill_axis",
-}
 TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
-AnyMember = TypeVar("AnyMember", Member, EndMember)
 _OF_LOAD = ("efficiency", "head_eccentricity", "foot_eccentricity")
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
@@ -81,91 +76,6 @@ def read_guys(row: Row) -> Guys:
     )
 
 
-def read_axes(row: Row) -> tuple[tuple[Member, float], ...]:
-    """Inclinations of those anchors that have one given [rad]."""
-    given = ((member, row[key].given_si) for member, key in _AXES.items())
-    return tuple((member, axis) for member, axis in given if axis is not None)
-
-
-def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType], ...]:
-    """Kind and steel of each anchor whose type is in its sheet."""
-    ground = row["ground"].word
-    return tuple(_read_anchors(row, tuple(_AXES), types, ground).items())
-
-
-def _read_anchors(
-    row: Row, members: Sequence[AnyMember], types: Types, ground: str
-) -> dict[AnyMember, AnchorType]:
-    lines = types["Anchors"]
-    return {
-        member: _read_anchor(lines[row[member].word], ground)
-        for member in members
-        if row[member].word in lines
-    }
-
-
-def _read_anchor(line: Row, ground: str = "") -> AnchorType:
-    """What an anchor is, in the ground of its type, else of its row."""
-    outer, strength = line["bar_diameter"], line["bar_strength"]
-    is_known = outer.state == strength.state == "given" and not lacks_inner(line)
-    has_tube = line["tube_diameter"].state == "given"
-    section = _build_section(line) if is_known or has_tube else None
-    return AnchorType(
-        kind=line["kind"].word,
-        section=section,
-        lever=line["lever_arm"].given_si,
-        ground_lever=_yield_at_mouth(section, line, ground) if section else 0.0,
-        has_tube=has_tube,
-        across=line["head_across"].given_si,
-        drilled=line["drilled_length"].given_si,
-        bond=line["bond_length"].given_si,
-        least_cover=line["least_cover"].given_si,
-        least_edge=line["least_edge"].given_si,
-        soil=_read_soil(line),
-    )
-
-
-def _read_soil(line: Row) -> Soil | None:
-    """Strength of the ground around an anchor; None unless all of it is given."""
-    cohesion, friction, weight = (line[key].given_si for key in SOIL_COLUMNS)
-    if cohesion is None or friction is None or weight is None:
-        return None
-    return Soil(
-        cohesion=cohesion,
-        friction=friction,
-        weight=weight,
-        is_drained=line["soil_water"].word == "drained",
-    )
-
-
-def _yield_at_mouth(section: RoundSection, line: Row, ground: str) -> float:
-    """Lever that the ground at the mouth of a bore adds, (R9a) and (R9b) [m]."""
-    return find_ground_lever(
-        section,
-        ground=line["ground"].word or ground,
-        modulus=line["ground_modulus"].given_si,
-    )
-
-
-def _build_section(line: Row) -> RoundSection | None:
-    """Steel that bends: a tube at the head, else the anchor's own.
-
-    None of dimensions that ``check_support_types`` refused.
-    """
-    tube, wall = line["tube_diameter"].given_si, line["tube_wall"].given_si
-    try:
-        if tube is not None and wall is not None:
-            inner = tube - 2.0 * wall
-            return RoundSection(outer=tube, inner=inner, strength=HEAD_GRADE)
-        return RoundSection(
-            outer=line["bar_diameter"].si,
-            inner=read_inner(line),
-            strength=line["bar_strength"].si,
-        )
-    except ModelError:
-        return None
-
-
 def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     """Resistances of all members of a row in every mode, given or not.
 
@@ -183,7 +93,7 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
             _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
             for member, mode in MEMBER_MODES
         ),
-        *_list_beside_axis(row, tuple(_AXES), anchors, types),
+        *_list_beside_axis(row, tuple(AXES), anchors, types),
         _bend_post(post, line),
         _slide(post, line),
         _hold_foot(post, line),
@@ -208,15 +118,6 @@ def _list_beside_axis(
             yield _open(row[one], one, "direction", of_one)
 
 
-def find_end_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
-    """The same at the row's end; types that are not named there are told together."""
-    lack = say("row_end.no_types")
-    return tuple(
-        one if one.type_id else replace(one, source="Ends", lack=lack)
-        for one in find_resistances(row, types)
-    )
-
-
 def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     """Members that hold a row along itself, all of them, given or not.
 
@@ -229,15 +130,17 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
         lack = say("row_end.no_members")
         beside = product(END_ANCHORS, ("bending", "direction"))
         return RowEnd(
-            guy_angle=None,
+            guy_angle=assume("end_guy_angle").high,
+            stiffnesses=list_stiffnesses(at_end, end, types),
             resistances=tuple(
                 Resistance(member=member, mode=mode, source="Ends", lack=lack)
                 for member, mode in (*END_MODES, *beside)
             ),
         )
-    anchors = _read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
+    anchors = read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
+    angle = end["end_guy_angle"].given_si
     return RowEnd(
-        guy_angle=end["end_guy_angle"].given_si,
+        guy_angle=assume("end_guy_angle").high if angle is None else angle,
         stiffnesses=list_stiffnesses(at_end, end, types),
         guy_from_base=end["end_guy_place"].given_si,
         ropes_slide=end["ropes_at_supports"].word == "slide",
@@ -317,7 +220,7 @@ def _describe_type(
     is_anchor = "ground" in kind
     key = _find_lacking(kind, mode) if not (is_given or tests) else ""
     if is_pulled and basis == "computed" and is_given and not tests:
-        key = find_sleeve(kind["sleeve"].word)
+        key = "type.sleeve_untested" if kind["sleeve"].word == "yes" else ""
         value, derivation = (None, None) if key else (value, derivation)
     return Resistance(
         member=member,
@@ -337,6 +240,7 @@ def _describe_type(
         factored_as=("tendon", "rope") if is_rope else (),
         bond=read_bond(kind) if is_pulled and is_derived else None,
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
+        may_be_sleeved=is_pulled and not (tests or kind["sleeve"].word),
     )
 
 
@@ -386,10 +290,6 @@ def _bend_anchor(
         return _open(named, member, "bending")
     if anchor.kind == "rope anchor":
         return None
-    if not anchor.kind:
-        return _open(named, member, "bending", lack=say("bending.no_kind"))
-    if anchor.lever is None:
-        return _open(named, member, "bending", lack=say("bending.no_lever"))
     wear = _read_wear(types["Anchors"][named.word], "bending")
     if wear is not None and anchor.has_tube and anchor.section is not None:
         outer, inner = anchor.section.outer, anchor.section.inner
@@ -478,16 +378,13 @@ def _slide(named: Reading, line: Row | None) -> Resistance:
     """Resistance of a post's base to sliding: by its friction, or as declared."""
     friction = line["base_friction"] if line else None
     given = line["sliding"] if line else None
-    if friction is not None and friction.state == "given":
-        place = friction.place
-        return _open(named, Member.POST_BASE, "sliding", friction.si, source=place)
-    lack = say("check.no_sliding_resistance")
-    found = _open(named, Member.POST_BASE, "sliding", lack=lack)
-    if given is None or given.state != "given":
-        return found
-    return replace(
-        found, value=given.si, basis="declared", source=given.place, lack=None
-    )
+    if given is not None and given.state == "given":
+        declared = _open(named, Member.POST_BASE, "sliding", source=given.place)
+        return replace(declared, value=given.si, basis="declared")
+    typed = friction.given_si if friction else None
+    friction_si = assume("base_friction").low if typed is None else typed
+    place = friction.place if friction and typed is not None else ""
+    return _open(named, Member.POST_BASE, "sliding", friction_si, source=place)
 
 
 def _hold_foot(named: Reading, line: Row | None) -> Resistance:

@@ -258,14 +258,6 @@ def _read_single(test: Row) -> SingleTest:
     )
 
 
-def find_sleeve(word: str) -> str:
-    """Text of why a computed pull-out resistance does not count; empty where it does.
-
-    Fabric sleeves scatter widely: only tests of the type on the site tell its bond.
-    """
-    return {"no": "", "yes": "type.sleeve_untested"}.get(word, "type.sleeve_unsaid")
-
-
 _LEAST_BAR = 6.0  # widest hole over its bar [-]
 
 

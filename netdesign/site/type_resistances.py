@@ -74,21 +74,23 @@ def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
 def find_tests(row: Row) -> PullOutTests | None:
     """Pull-out tests of an anchor type; None where none, or refused ones, are given.
 
-    A tested resistance without a number of tests is that of one test.
+    Without a number it is one test, without a mean that is the least. A tested
+    resistance is that of one test.
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
     one = row["pull_out"]
     is_typed = one.state == "given" and one.derivation is None
     if is_typed and row["basis"].word == "tested":
         return PullOutTests(count=1, least=one.si, mean=one.si)
-    if any(reading.state != "given" for reading in (count, least, mean)):
+    if least.state != "given" or "faulty" in (count.state, mean.state):
         return None
-    if least.si > mean.si:  # ``check_tests`` has refused it
+    average = least.si if mean.given_si is None else mean.si
+    if least.si > average:  # ``check_tests`` has refused it
         return None
     return PullOutTests(
-        count=int(count.number),
+        count=count.given_count or 1,
         least=least.si,
-        mean=mean.si,
+        mean=average,
         singles=count.singles,
     )
 
@@ -97,9 +99,13 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
     """Refuse tests, or a ground's strength, that are incomplete or contradictory."""
     if "soil_cohesion" in row:
         _is_ready(row, SOIL_COLUMNS, findings)
-    if "test_count" not in row or not _is_ready(row, TEST_COLUMNS, findings):
+    if "test_count" not in row:
         return
-    if row["test_least"].si > row["test_mean"].si:
+    if row["test_least"].state != "given":  # the others say nothing without it
+        _is_ready(row, TEST_COLUMNS, findings)
+        return
+    mean = row["test_mean"].given_si
+    if mean is not None and row["test_least"].si > mean:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
         refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
 

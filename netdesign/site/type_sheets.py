@@ -5,7 +5,7 @@ from __future__ import annotations
 from netdesign.site.cells.findings import Finding
 from netdesign.site.headings import Table
 from netdesign.site.lines import index_lines
-from netdesign.site.readings import Row, refuse, refuse_misfits
+from netdesign.site.readings import Row, refuse_misfits
 from netdesign.site.type_lines import fill_in_section
 from netdesign.site.type_resistances import (
     check_ends,
@@ -27,10 +27,6 @@ def read_types(
         return None
     rows = [fill_in_section(row) for row in rows]
     for row in rows:
-        basis = row.get("basis")
-        if basis and basis.state == "blank" and row["pull_out"].state == "given":
-            rule = say("type.basis_empty", place=row["pull_out"].place)
-            refuse(basis, rule, basis.field.accepted, findings)
         refuse_misfits(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
     for row in filled:  # a computed resistance beside tests is one too many, too

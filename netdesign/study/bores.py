@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import chain, product
 
 from netdesign.checks import Check, OpenKind
@@ -31,7 +31,7 @@ from netdesign.structure.row_position import (
     measure_distance,
 )
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull, lack_sharing
+from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
@@ -55,10 +55,13 @@ def check_anchor_distance(known: RowForces, gap: Message | None) -> Check | None
     if limit is None:
         lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
         return leave_open("anchors", OpenKind.RESISTANCE_MISSING, lack)
-    gap = gap or _find_lack(row, pulls)
     ends = ranges["inclination"]
     places = [place_row(row, one) for one in (ends.low, ends.high)]
-    pairs = (_list_nearest(row, ranges, place, pulls) for place in places)
+    pairs = (
+        _list_nearest(each, ranges, place, pulls)
+        for place in places
+        for each in _list_sharings(row)
+    )
     # of equal distances the first: a millionth is rounding
     least, anchors = min(chain(*pairs), key=lambda one: round(one[0], 6))
     is_apart = least >= limit.value
@@ -68,6 +71,12 @@ def check_anchor_distance(known: RowForces, gap: Message | None) -> Check | None
         return compare("anchors", Verdict.PASS, reason, limit)
     found = compare("anchors", Verdict.NOT_PROVEN, None, limit)
     return found.with_open(OpenKind.UNSOLVED, gap or reason)
+
+
+def _list_sharings(row: NetRow) -> list[NetRow]:
+    """Row with each way in which its guys may be anchored, where nobody says it."""
+    ways = (True, False) if row.guys.are_shared is None else (row.guys.are_shared,)
+    return [replace(row, guys=replace(row.guys, are_shared=way)) for way in ways]
 
 
 def _list_nearest(
@@ -117,9 +126,11 @@ def place_end_anchors(
                 x, y, z = bore.start
                 yield anchor, replace(bore, start=(x, y, -z))
     end = row.row_end
-    if end is None or end.lateral_distance is None:
+    if end is None:
         return
-    starts = {EndMember.LATERAL_ANCHOR: (0.0, 0.0, -end.lateral_distance)}
+    starts = {}
+    if end.lateral_distance is not None:
+        starts[EndMember.LATERAL_ANCHOR] = (0.0, 0.0, -end.lateral_distance)
     if end.guy is not None:
         starts[EndMember.END_GUY_ANCHOR] = end.guy.find_anchor(points)
     for one, start in starts.items():
@@ -132,50 +143,102 @@ def place_end_anchors(
 def check_cover(known: RowForces, gap: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
-    None where the profile leaves it to others, or without any pull.
+    What nobody gives is a condition, `study/conditions.py`. None where the profile
+    leaves it to others, where nothing of it is given, or without any pull.
     """
     row, pulls = known.row, known.pulls
-    if "anchor_ground" in known.standard.not_checked or not pulls:
+    if "anchor_ground" in known.standard.not_checked:
         return None
-    unsaid = dict.fromkeys(
-        name
-        for one in pulls
-        for name in row.list_unsaid_cover(one.anchor, one.position)
-    )
-    if unsaid:
-        gap = say("check.unsaid", names=tuple(unsaid))
-    elif any(not one.is_axis_known for one in pulls):
-        gap = gap or say("bending.no_axis")
-    short = None if unsaid else next(_list_short(row, pulls), None)
+    bonds = list_bonds(row, pulls)
+    if not any(one.is_checked for one in bonds):
+        return None
+    short = next((lack for one in bonds for lack in one.list_short()), None)
     if short is not None:
         return compare("cover", Verdict.FAIL, short)
+    asked = next(filter(None, (one.ask_edge() for one in bonds)), None)
+    if asked is not None:
+        return leave_open("cover", OpenKind.VALUE_ASKED, asked)
     if gap is not None:
         return leave_open("cover", OpenKind.UNSOLVED, gap)
     return compare("cover", Verdict.PASS, say("bores.covered"))
 
 
-def _list_short(row: NetRow, pulls: Sequence[PullRecord]) -> Iterator[Message]:
-    """Anchors whose bond lies too near to the surface, or to an edge."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BondInGround:
+    """Bond of one anchor, and the ground around it.
+
+    Attributes
+    ----------
+    anchor : Member or EndMember
+        Which it is.
+    cover, edge : float or None
+        Ground above the bond's middle, normal to the slope, and beside the anchor, to
+        where it ends [m]; None where it is not known.
+    length : float or None
+        Of the bore, or of the bond alone [m]; None where neither is given.
+    least_cover, least_edge : float or None
+        As the geotechnical engineer asks [m]; None where nobody does.
+    has_soil : bool
+        The strength of the ground is given: its wedge is checked instead of a cover.
+    """
+
+    anchor: Member | EndMember
+    cover: float | None
+    edge: float | None
+    length: float | None
+    least_cover: float | None
+    least_edge: float | None
+    has_soil: bool
+
+    @property
+    def is_checked(self) -> bool:
+        """Something of its ground is given on both sides of a comparison."""
+        return self._has_cover or self.edge is not None
+
+    @property
+    def _has_cover(self) -> bool:
+        return None not in (self.cover, self.least_cover)
+
+    def list_short(self) -> Iterator[Message]:
+        """What lies too near to the surface, or to an edge."""
+        told = {"anchor": name_member(self.anchor)}
+        cover, least = self.cover, self.least_cover
+        if cover is not None and least is not None and cover < least:
+            yield say("bores.too_shallow", **told, cover=cover, least=least)
+        edge, least = self.edge, self.least_edge
+        if edge is not None and least is not None and edge < least:
+            yield say("bores.too_near_edge", **told, edge=edge, least=least)
+
+    def ask_edge(self) -> Message | None:
+        """Question about an edge nearer than a bore is long, that nobody asks for."""
+        if self.least_edge is not None or self.edge is None:
+            return None
+        if self.length is not None and self.edge >= self.length:
+            return None
+        named, least = name_member(self.anchor), self.length or 0.0
+        return say("bores.edge_asked", anchor=named, edge=self.edge, length=least)
+
+
+def list_bonds(row: NetRow, pulls: Sequence[PullRecord]) -> list[BondInGround]:
+    """Bonds of those anchors of a row whose types are given."""
+    found = []
     for pull in pulls:
         kind = row.find_anchor_type(pull.anchor, pull.position)
         if kind is None:
             continue
-        told = {"anchor": name_member(pull.anchor)}
-        cover = min(map(kind.find_cover, _list_axes(row, pull)))
-        least = kind.least_cover or 0.0
-        if cover < least:
-            yield say("bores.too_shallow", **told, cover=cover, least=least)
-        edge, least = row.edge_distance or 0.0, kind.least_edge or 0.0
-        if edge < least:
-            yield say("bores.too_near_edge", **told, edge=edge, least=least)
-
-
-def _find_lack(row: NetRow, pulls: Sequence[PullRecord]) -> Message | None:
-    if any(not x.is_axis_known for x in pulls if x.anchor in tuple(Member)):
-        return say("bending.no_axis")
-    names = row.row_end.list_unsaid_places() if row.row_end else ()
-    of_end = say("check.unsaid", names=names) if names else None
-    return lack_sharing(row.guys) or of_end
+        length = kind.drilled or kind.bond
+        cover = min(map(kind.find_cover, _list_axes(row, pull))) if length else None
+        bond = BondInGround(
+            anchor=pull.anchor,
+            cover=cover,
+            edge=row.edge_distance,
+            length=length,
+            least_cover=kind.least_cover,
+            least_edge=kind.least_edge,
+            has_soil=kind.soil is not None,
+        )
+        found.append(bond)
+    return found
 
 
 def place_anchors(
@@ -252,8 +315,6 @@ def find_ground_resistance(
     on_cohesion, on_friction = (one.value for one in factors if one)
     if pull is None:
         return given
-    if not pull.is_axis_known:
-        return replace(given, lack=say("bending.no_axis"))
     depths = [x for axis in _list_axes(row, pull) for x in anchor.list_depths(axis)]
     if not depths:
         names = row.list_unsaid_bore(pull.anchor, pull.position)

@@ -25,10 +25,11 @@ from netdesign.checks.schema import LONGEST_BOND, ROPE_ANGLE
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum, find_steel_bond
 from netdesign.resistance.post import BasePlate, PostSection
-from netdesign.resistance.pull_out import Bond, compute_steel_bond
+from netdesign.resistance.pull_out import Bond, PullOutTests, compute_steel_bond
 from netdesign.resistance.steel import (
     BARE,
     SHACKLE,
+    USUAL_SOIL,
     BentBar,
     Link,
     RoundSection,
@@ -93,8 +94,6 @@ def _find_bent_resistance(
         return replace(given, lack=say("bending.no_section"))
     if pull is None:
         return given
-    if not pull.is_axis_known:
-        return replace(given, lack=say("bending.no_axis"))
     if pull.angle > _LARGEST_ANGLE:
         return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
     yields = 0.0 if anchor.is_in_block else anchor.ground_lever
@@ -127,8 +126,6 @@ def _find_head_resistance(
     """
     if pull is None:
         return given
-    if not pull.is_axis_known:
-        return replace(given, lack=say("bending.no_axis"))
     limit = standard.find(ROPE_ANGLE)
     told = {"angle": pull.angle_deg, "most": limit.value if limit else 0.0}
     if pull.angle > _LARGEST_ANGLE:
@@ -196,6 +193,35 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
     )
 
 
+def settle_basis(
+    given: Resistance, standard: Standard
+) -> tuple[Resistance, Message | None]:
+    """Pull-out resistance of which nobody says how it was found: the worse counts.
+
+    It is computed, or that of one test. With why it may not count: the profile has no
+    factor on one of these. Others as they are.
+    """
+    if given.mode != "pull_out" or given.basis or given.value is None:
+        return given, None
+    single = PullOutTests(count=1, least=given.value, mean=given.value)
+    ways = [
+        replace(given, basis="computed"),
+        replace(given, basis="tested", value=None, tests=single),
+    ]
+    found: dict[str, tuple[float, Resistance]] = {}
+    for way in ways:
+        strength = find_resistance(way, standard).low
+        factor = find_partial_factor(way, standard)
+        if factor is not None and strength is not None:
+            found[way.basis] = (strength / factor.value_si, way)
+    if not found:
+        return given, None
+    _, worse = min(found.values(), key=lambda one: one[0])
+    if len(found) == len(ways):
+        return worse, None
+    return worse, say("check.no_basis", name=say("column.Anchors.basis"))
+
+
 def shorten_bond(given: Resistance, standard: Standard) -> Resistance:
     """Pull-out resistance of the bond that counts, in ground and grout; others as is.
 
@@ -253,16 +279,16 @@ def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantit
 def corrode(given: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
-    None is known where that is not given. As it is, and no doubt, of what does not
-    corrode, and where the profile leaves corrosion to others.
+    Bare steel whose diameter nobody gives has none that is known. As it is, and no
+    doubt, of what does not corrode, what has a condition in the place of its
+    protection, and where the profile leaves corrosion to others.
     """
     wear, life = given.wear, basis.row.design_life
     if wear is None or "corrosion" in basis.standard.not_checked:
         return given, None
-    unsaid = basis.row.list_unsaid_wear(given)
-    if unsaid or life is None:
-        lack = say("corrosion.lacks", names=unsaid)
-        return replace(given, value=None, dimensions=None, lack=lack), lack
+    if wear.is_bare and None in (wear.outer, wear.inner):
+        lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))
+        return replace(given, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
         return given, _doubt_protection(wear, life)
     try:
@@ -274,12 +300,14 @@ def corrode(given: Resistance, basis: Basis) -> tuple[Resistance, Message | None
 def _doubt_protection(wear: Wear, life: int) -> Message | None:
     if wear.protection in BARE:
         return say("corrosion.of_rope")
-    years = wear.protected_years or 0
-    return say("corrosion.short", years=years, life=life) if years < life else None
+    years = wear.protected_years
+    if years is None or years >= life:
+        return None
+    return say("corrosion.short", years=years, life=life)
 
 
 def _take_loss(given: Resistance, wear: Wear, life: int) -> Resistance:
-    loss = find_loss(wear.soil, life)
+    loss = find_loss(wear.soil or USUAL_SOIL, life)
     outer, inner = wear.outer or 0.0, wear.inner or 0.0
     share = leave_area(outer, inner, loss.value / 1e3)
     if not share:
@@ -305,7 +333,7 @@ def _describe_loss(
         share=share,
         loss=loss.value,
         years=life,
-        soil=say(f"choice.soil.{wear.soil}"),
+        soil=say(f"choice.soil.{wear.soil or USUAL_SOIL}"),
         origin=say("derivation.origin", **origin),
     )
 
@@ -328,8 +356,8 @@ def connect(
     chains : mapping of str to tuple of Link
         By type.
     pull : PullRecord or None
-        On the anchor at the end of the chain; its axis not known, a shackle may be
-        pulled at a right angle. Without a pull its angle is as given, or a right angle.
+        On the anchor at the end of the chain. Without a pull a shackle's angle is as
+        given, or a right angle.
     standard : Standard
         Limit profile.
     """
@@ -348,8 +376,6 @@ def connect(
         return replace(found, basis="declared")
     on_resistance = factor.value
     pulled = None if pull is None else pull.angle
-    if pull is not None and not pull.is_axis_known:
-        pulled = math.pi / 2
     strengths = [
         resist_link(
             one, pulled=pulled, on_action=on_action, on_resistance=on_resistance

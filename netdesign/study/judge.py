@@ -16,6 +16,7 @@ from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.check_run import CheckRun
+from netdesign.study.conditions import list_conditions
 from netdesign.study.effects import find_effects
 from netdesign.study.governing import find_worst
 from netdesign.study.member_force import (
@@ -184,6 +185,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         end_guy=known.at_end,
         envelope=record_envelope(solved),
         reliability=_find_reliability(task, known, found, run),
+        conditions=list_conditions(known),
     )
 
 

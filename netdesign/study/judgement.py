@@ -28,6 +28,7 @@ from netdesign.study.dependent import (
     find_resistance_for_force,
     may_bend,
     resist,
+    settle_basis,
     shorten_bond,
 )
 from netdesign.study.geometry_checks import check_row_geometry
@@ -42,7 +43,6 @@ from netdesign.study.posts import ask_efficiency, find_short_post
 from netdesign.study.pulls import (
     check_direction,
     doubt_mortar,
-    doubt_sharing,
     find_pull,
 )
 from netdesign.study.row_to_check import Basis, find_doubt, name_unsaid
@@ -368,9 +368,9 @@ def find_lasting(
     basis: Basis, given: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
-    row = basis.row
+    given, unsaid = settle_basis(given, basis.standard)
     lasting, worn = corrode(shorten_bond(given, basis.standard), basis)
-    doubt = worn or doubt_ground(row, given) or doubt_sharing(row, given)
+    doubt = unsaid or worn
     if given.basis == BY_REPORT:
         doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))
     return lasting, doubt or doubt_mortar(given, pull, basis.standard)
@@ -397,11 +397,7 @@ def _find_lack(row: NetRow, given: Resistance) -> Message | None:
         return None if row.panels else row.panel_lack
     if row.row_end is None or given.member not in (*EndMember, *PUSHED):
         return None
-    if not row.panels:
-        return row.panel_lack
-    if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
-        return None
-    return say("row_end.no_angle")
+    return None if row.panels else row.panel_lack
 
 
 def _find_loose_end(
@@ -438,12 +434,6 @@ def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
         for one in (*force.solved, *adding)
     )
     return next((one for one in doubts if one is not None), None)
-
-
-def doubt_ground(row: NetRow, given: Resistance) -> Message | None:
-    """Doubt that a pull-out resistance holds where nobody says in which ground."""
-    names = row.list_unsaid_grounds(given)
-    return say("check.no_ground", names=names) if names else None
 
 
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:

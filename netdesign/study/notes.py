@@ -179,7 +179,7 @@ def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
     """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
     for one in pulls:
         is_twice = one.position == "edge" and one.anchor in tuple(Member)
-        if not one.is_axis_known or is_twice:
+        if is_twice:
             continue
         anchor, dip = name_member(one.anchor), one.dip_deg
         least = degree_from_radian(USUAL_DIP)

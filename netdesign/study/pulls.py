@@ -155,13 +155,6 @@ def may_share(guys: Guys) -> bool:
     return guys.count > 1 and guys.are_shared is not False
 
 
-def lack_sharing(guys: Guys) -> Message | None:
-    """Lack of a word on whether an anchor holds two guys."""
-    if guys.count == 1 or guys.are_shared is not None:
-        return None
-    return say("check.unsaid", names=(say("column.Nets.guy_anchors"),))
-
-
 def build_pull(
     row: NetRow,
     anchor: Member | EndMember,
@@ -199,8 +192,6 @@ def build_pull(
         largest_deg=degree_from_radian(pulls.largest),
         axis_deg=degree_from_radian(axis),
         is_axis_given=given is not None,
-        is_axis_known=given is not None
-        or (row.drills_along_pull and anchor in ANCHORS),
         angle_deg=degree_from_radian(turned),
         dip_deg=degree_from_radian(find_dip(axis, row.slope_angle, anchor)),
     )
@@ -215,8 +206,6 @@ def doubt_mortar(
     """
     if given.mode != "pull_out" or pull is None:
         return None
-    if not pull.is_axis_known:
-        return say("bending.no_axis")
     limit = standard.find(LEAST_DIP)
     if limit is None:
         return say("check.no_limit", limit=LEAST_DIP)
@@ -245,15 +234,9 @@ def check_direction(
         lack = say("check.no_limit", limit=ROPE_ANGLE)
         kind = OpenKind.RESISTANCE_MISSING
         return leave_open("direction", kind, lack, member=pull.anchor)
-    gap = gap or (None if pull.is_axis_known else say("bending.no_axis"))
     if pull.angle > limit.value_si:
         return None
     angle = round(pull.angle_deg, 9)  # less is rounding
     finding = say("direction.rope_within", angle=angle, most=limit.value)
     found = compare("direction", Verdict.PASS, finding, member=pull.anchor)
     return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)
-
-
-def doubt_sharing(row: NetRow, given: Resistance) -> Message | None:
-    """Doubt about an anchor of which nobody says whether it holds two guys."""
-    return lack_sharing(row.guys) if given.member in GUY_ANCHORS else None

@@ -30,6 +30,7 @@ from netdesign.study.case_records import (
     GuidelineRecord,
     LargestForce,
 )
+from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.study.parts import PartRecord
 from netdesign.study.scopes import Scope, ScopeRecord, sum_up_row, sum_up_study
 from netdesign.study.support_records import (
@@ -179,6 +180,7 @@ class RowStudy:
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: Items[PartRecord] = field(default_factory=list)  # that it is built of
+    conditions: Items[Condition] = field(default_factory=list)  # that somebody sees to
     reliability: ReliabilityRecord | None = None  # None where nobody asks for it
 
     @cached_property
@@ -281,7 +283,7 @@ class Study:
         "allow_inf_nan": False,
     }
 
-    WRITTEN: ClassVar = ("verdict", "scopes")
+    WRITTEN: ClassVar = ("verdict", "scopes", "conditions")
 
     schema: Literal["netdesign.study/4"]
     what_if: Items[ReplacedCell] = field(default_factory=list)  # of no site as built
@@ -305,6 +307,11 @@ class Study:
         """Verdicts of anchors, structure and siting of all net rows."""
         of_rows = {row.id: row.scopes for row in self.rows}
         return sum_up_study(of_rows, is_part=bool(self.left_out))
+
+    @cached_property
+    def conditions(self) -> list[Condition]:
+        """What has to hold beside the numbers, each once for all net rows."""
+        return merge_conditions(one for row in self.rows for one in row.conditions)
 
     @cached_property
     def written(self) -> JsonPart:

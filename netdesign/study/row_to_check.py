@@ -147,7 +147,8 @@ def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
 def find_doubt(basis: Basis, *, density: float, largest: float) -> Message | None:
     """Doubt that the creep law holds for a member's largest force; None without.
 
-    The workbook may accept the law by its name.
+    Of snow denser than what it was fitted to. In lighter snow it is used, and told
+    once, with what other laws give; the workbook may accept the law by its name.
 
     Parameters
     ----------
@@ -160,10 +161,10 @@ def find_doubt(basis: Basis, *, density: float, largest: float) -> Message | Non
     """
     row, law = basis.row, basis.law
     is_accepted = basis.site.project.accepted_law == law.name
-    if is_accepted or largest == 0.0 or is_calibrated(law, row, density):
-        return None
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
     snow = list_densities(row, density)
+    if is_accepted or largest == 0.0 or max(snow) <= high * (1.0 + 1e-9):
+        return None
     if len(snow) == 1:
         return say(
             "check.outside_law", density=snow[0], low=low, high=high, law=law.name

@@ -77,8 +77,7 @@ class PullRecord:
     largest_deg: float
     axis_deg: float
     aside_deg: float = 0.0  # of an end guy's anchor: from the row's line, downslope
-    is_axis_given: bool  # else along the middle of the pulls, or steeper
-    is_axis_known: bool = True  # given, or drilled along the pull
+    is_axis_given: bool  # else drilled along the middle of the pulls, or steeper
     angle_deg: float  # largest between pull and axis, with the part along the row
     dip_deg: float  # of the axis below the horizontal; negative where the hole rises
 

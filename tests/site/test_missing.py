@@ -12,10 +12,8 @@ from tests.site_lines import write_lines
 NAMES = {(plan.name, one.key): one.label for plan in SHEETS for one in plan.fields}
 FORCES = ("uphill_anchor_distance", "downhill_anchor_distance", "snow_layers")
 LATER = [
-    *(("Nets", key) for key in ("panel_system", "anchor_axes", "uphill_guy", "post")),
-    *(("Nets", key) for key in ("foot_anchor", "downhill_anchor")),
-    *(("Anchors", "lever_arm"), ("Posts", "base_friction"), ("Posts", "bearing")),
-    ("Ends", "end_guy_angle"),
+    *(("Nets", key) for key in ("uphill_guy", "post", "foot_anchor")),
+    *(("Nets", "downhill_anchor"), ("Posts", "bearing")),
 ]
 
 
@@ -39,15 +37,6 @@ def test_what_checks_lack_is_named_with_what_forces_lack(tmp_path, first, later)
     named = NAMES[later]
     with_sheet = f"{named} (sheet {later[0]})"
     assert any({named, with_sheet}.intersection(one) for one in told)
-
-
-def test_a_sheet_of_ends_that_is_missing_is_named(tmp_path):
-    lines = {**copy.deepcopy(load_example()), "Ends": []}
-    for line in lines["Nets"]:
-        line.pop("slack")
-    write_lines(tmp_path / "site.xlsx", lines)
-    row = read_site(tmp_path / "site.xlsx").rows[0]
-    assert "types at the row's end (sheet Ends)" in map(str, row.unsaid)
 
 
 def test_a_row_that_only_its_checks_lack_something_has_forces(tmp_path):

@@ -59,7 +59,7 @@ def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
     assert (ridge.mode, below.mode) == ("rope", "rope")
     assert row.panel_lack is None
     assert other.panel_assumed
-    assert "panel system" in lack(other)
+    assert other.panel_lack is None
 
 
 def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, save):
@@ -71,7 +71,7 @@ def test_a_workbook_without_the_columns_takes_the_panels_that_are_built(sheets, 
             assert (min(sags), max(sags)) == (0.03, 0.10)
             stiffnesses = {one.stiffness for one in ropes}
             assert (min(stiffnesses), max(stiffnesses)) == (3e6, 150e6)
-        assert "panel system" in lack(row)
+        assert row.panel_lack is None
 
 
 @pytest.mark.parametrize(
@@ -174,13 +174,12 @@ def test_what_holds_the_row_along_itself(with_end, save):
     # judged all the same, with nothing that holds it
     assert {one.value for one in other.row_end.resistances} == {None}
     assert {one.cell for one in row.inputs} >= {"Ends!B2", "Ends!E2"}
-    # which types the end has is a statement of its own
-    assert {one.value for one in row.end_resistances} == {None}
+    assert row.end_resistances is None  # the types inside
 
 
 def test_a_row_of_panels_without_a_line_of_ends_has_nothing_that_holds_it(
     with_panel, save
 ):
     row = read_site(save(with_panel)).rows[0]
-    assert row.row_end.guy_angle is None
+    assert row.row_end.guy_angle == math.radians(45.0)
     assert {one.value for one in row.row_end.resistances} == {None}

@@ -125,8 +125,8 @@ def test_bearing_has_the_value_of_its_post_type_or_none(sheets, save):
             "exceeds the mean in Anchors!G2",
         ),
         (
-            {"number of tests": 2, "least tested resistance [kN]": 300},
-            "needs more beside it: mean tested resistance",
+            {"number of tests": 2, "mean tested resistance [kN]": 300},
+            "needs more beside it: least tested resistance",
         ),
         (
             {

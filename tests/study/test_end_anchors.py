@@ -75,19 +75,15 @@ def test_a_lateral_bar_bends_by_the_angle_of_its_axis_to_the_row(axis):
     assert math.sin(math.radians(pull.dip_deg)) == pytest.approx(sine)
 
 
-@each("drills_along_pull", [True, False])
-def test_without_an_axis_a_lateral_anchor_is_not_proven(drills_along_pull):
-    """No word on the other axes stands for its own: knowing less never helps."""
+def test_without_an_axis_a_lateral_anchor_dips_15_degrees():
     end = hold(BENDS, mode="bending", axis=None)
-    checks, pulls = study_end(end, drills_along_pull=drills_along_pull)
+    checks, pulls = study_end(end)
     axis = math.degrees(math.asin(math.sin(math.radians(15)) / math.cos(0.663225)))
     assert pulls[LATERAL].axis_deg == pytest.approx(axis, rel=1e-5)
     assert pulls[LATERAL].dip_deg == pytest.approx(15.0)
-    assert not pulls[LATERAL].is_axis_known
-    for name in ("lateral_anchor.bending.end", "lateral_anchor.pull_out.end"):
-        assert checks[name].verdict is Verdict.NOT_PROVEN
-        assert "axis of the anchor is missing" in str(checks[name].reason)
-    assert "axis" in str(checks["geometry.anchors"].reason)
+    bent = compute_bent_bar_resistance(BAR, angle=math.radians(axis), lever=0.005)
+    found = checks["lateral_anchor.bending.end"]
+    assert found.read("R_k") == pytest.approx(bent.value / 1e3, rel=1e-6)
 
 
 @each("angle", [3.0, 12.0, 30.0, 55.0])
@@ -141,11 +137,12 @@ def test_an_end_of_which_nobody_says_anything_has_all_its_checks_open():
     end = replace(
         an_end(angle=None), resistances=tuple(bare), anchors=(), lateral_axis=None
     )
-    checks, pulls = study_end(end, drills_along_pull=False)
+    checks, pulls = study_end(end)
     assert EndMember.END_GUY_ANCHOR not in pulls
     for one in bare:
         found = checks[f"{one.member}.{one.mode}.end"]
-        assert found.verdict is Verdict.NOT_PROVEN
+        is_rope = (one.member, one.mode) == (LATERAL, "direction")  # at 19 degrees
+        assert (found.verdict is Verdict.NOT_PROVEN) is not is_rope
 
 
 @pytest.mark.parametrize(("place", "is_asked"), [(0.2, False), (3.9, True)])

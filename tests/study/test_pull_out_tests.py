@@ -137,7 +137,7 @@ BOND = {
     [
         ("no", (), ""),
         ("yes", (), "without tests of that type on this site"),
-        (None, (), "is not said: yes or no"),
+        (None, (), ""),
         ("yes", TESTS, ""),
     ],
 )

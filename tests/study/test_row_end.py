@@ -186,19 +186,6 @@ def test_nothing_that_holds_the_row_leaves_it_unproven():
         assert checks[name].demand_kN > 0.0
 
 
-def test_an_end_guy_without_its_angle_proves_neither_itself_nor_the_post():
-    _, study = judge(with_panel(a_panel(), end=an_end(angle=None)))
-    checks = checks_of(study)
-    for name in (
-        *("end_guy.rope.end", "end_guy_anchor.tendon.end"),
-        *("post.compression.end", "post_base.bearing.end"),
-    ):
-        assert checks[name].verdict is Verdict.NOT_PROVEN
-        assert "angle of the end guy" in str(checks[name].reason)
-    assert checks["lateral_anchor.tendon.end"].verdict is Verdict.PASS
-    assert checks["post.compression"].verdict is Verdict.PASS
-
-
 def test_weak_end_fails():
     _, study = judge(with_panel(a_panel(), end=an_end(value=1e3)))
     assert study.verdict is Verdict.FAIL

@@ -24,7 +24,16 @@ FAMILIES: tuple[str, ...] = (
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
-    *("scope.", "todo.", "who.", "quantities.", "loads.", "why_more.", "diff_part."),
+    *(
+        "scope.",
+        "todo.",
+        "who.",
+        "condition.",
+        "quantities.",
+        "loads.",
+        "why_more.",
+        "diff_part.",
+    ),
     "beside.",
     *("assumed_word.", "assumed_source.", "assumed_effect."),
     *(

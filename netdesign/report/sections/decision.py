@@ -65,6 +65,7 @@ from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.to_do import ToDo
 from netdesign.words.message import Message
+from netdesign.words.names import name
 
 _STIFFNESS = "column.quantities.net_stiffness"
 _FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
@@ -113,9 +114,31 @@ def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
                 Items(items=todo, look="numbered"),
                 level=3,
             ),
+            *_show_conditions(study, words),
             _sign(study, words),
         ),
     )
+
+
+def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
+    """What has to hold beside the checks; nothing where there is none."""
+    lines = list_conditions(study, words)
+    if lines:
+        shown = Items(items=tuple(lines), look="numbered")
+        yield section("conditions", words("heading.conditions"), shown, level=3)
+
+
+def list_conditions(study: Study, words: Words) -> list[str]:
+    """What has to hold beside the checks, with who sees to it, and for which rows."""
+    return [
+        words(
+            "condition.line",
+            who=words.show(name("who", one.who)),
+            rows=show_text(name_rows(one.rows, study, words)),
+            text=words.show(one.message),
+        )
+        for one in study.conditions
+    ]
 
 
 def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
@@ -237,7 +260,7 @@ def _list_rising(study: Study, words: Words) -> Iterator[str]:
         (row.id, show_member(words, one.anchor))
         for row in study.rows
         for one in row.pulls
-        if one.is_axis_known and one.dip_deg < _FLAT_DEG - 1e-9
+        if one.dip_deg < _FLAT_DEG - 1e-9
     ]
     if rising:
         ids, anchors = (list(dict.fromkeys(one)) for one in zip(*rising, strict=True))

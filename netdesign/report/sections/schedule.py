@@ -138,7 +138,7 @@ def _show_pulls(row: RowStudy, member: str, words: Words) -> str:
 
 def _show_dips(row: RowStudy, member: str, words: Words) -> str:
     """Dip of an anchor's borehole below the horizontal; negative where it rises."""
-    pulls = [one for one in row.pulls if one.anchor == member and one.is_axis_known]
+    pulls = [one for one in row.pulls if one.anchor == member]
     return _show_span([one.dip_deg for one in pulls], words)
 
 

@@ -59,21 +59,39 @@ def draw_lines(seed, *, is_placed=False, is_tested=False):
 DEFAULT = "nf-p-95-304-style"
 
 
+# Statements: an empty cell is a condition that the study prints. What is drilled and
+# built as the report says, where nobody says otherwise, is none that is not known.
+STATEMENTS = (
+    *("edge_distance", "least_cover", "least_edge", "protection", "protected_years"),
+    *("soil", "sleeve", "lateral_distance", "soil_cohesion", "soil_friction"),
+    *("soil_weight", "soil_water", "foot_axis", "uphill_axis", "downhill_axis"),
+    *("lateral_axis", "anchor_axes", "end_guy_angle", "sliding", "mid_anchors"),
+)
+
+
+def is_unknown(line, key):
+    """Whether an empty cell leaves something unknown, which is assumed at its worst."""
+    is_of_end = "lateral_anchor" in line or "support_types" in line
+    if key == "panel_system":
+        return line[key] != "triangular"
+    return key not in STATEMENTS and not (is_of_end and key in MEMBER_COLUMNS)
+
+
 def list_cells(lines):
-    """Places of all optional cells that hold something: sheet, line, key."""
+    """Places of all optional cells that hold something unknown if empty."""
     return [
         (sheet, number, key)
         for sheet, table in lines.items()
         for number, line in enumerate(table)
         for key in line
-        if key not in REQUIRED[sheet]
+        if key not in REQUIRED[sheet] and is_unknown(line, key)
     ]
 
 
 def list_groups(lines):
     """Cells that belong together: a sheet, a panel, all kinds, all dimensions."""
     cells = list_cells(lines)
-    sheets = ("Ends", "Snow", "Declared", "Anchors", "Ropes", "Posts", "Links", "Tests")
+    sheets = ("Snow", "Declared", "Links", "Tests")
     groups = [[("sheet", sheet)] for sheet in sheets if lines.get(sheet)]
     for keys in (
         PANEL_COLUMNS,
@@ -82,21 +100,16 @@ def list_groups(lines):
         ("ground_modulus",),
         ("head_across",),
         ("tested_dip",),
-        ("lateral_axis",),
         ("head_eccentricity", "foot_eccentricity", "foot_joint", "efficiency"),
-        ("foot_axis", "uphill_axis", "downhill_axis", "anchor_axes"),
         ("guy_count", "guy_splay"),
         ("guy_anchors",),
-        ("design_life", "protection", "protected_years", "soil"),
-        ("edge_distance", "least_cover", "least_edge", "drilled_length"),
-        ("soil_cohesion", "soil_friction", "soil_weight", "soil_water"),
+        ("design_life",),
         ("mesh_strength", "angle", "count"),
         ("chain",),
         ("ground",),
         ("post_tilt", "post_base_distance"),
         ("uphill_anchor_distance", "downhill_anchor_distance"),
         ("gap", "row_end", "neighbour"),
-        ("support_types",),
         MEMBER_COLUMNS,
         ("test_count", "test_least", "test_mean"),
         ("snow_layers",),

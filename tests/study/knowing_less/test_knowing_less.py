@@ -65,10 +65,13 @@ def list_improvements(before, after):
         if RANK[now.verdict] > RANK[row.verdict]:
             found.append((name, "row", row.verdict, now.verdict))
         checks = {one.id: one for one in now.checks}
-        is_covered = checks["geometry.cover"].verdict is Verdict.PASS
         for check in row.checks:
-            if check.mode == "wedge" and check.id not in checks and not is_covered:
-                continue  # nobody says what its ground bears: the cover tells so
+            pulled = checks.get(check.id.replace("wedge", "pull_out"))
+            is_open = pulled is None or not pulled.resistance_type
+            if check.mode == "wedge" and check.id not in checks and is_open:
+                continue  # of no type: nobody says what its ground bears
+            if check.id == "geometry.cover" and check.id not in checks:
+                continue  # nobody says what it has to be: a condition
             # the net of a row that goes on is checked at its end, once it has one
             at_end = checks.get(f"{check.id}.end") if check.member in PARTS else None
             beside = [checks.get(one) for one in list_alike(check)]

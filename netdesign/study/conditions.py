@@ -1,0 +1,172 @@
+"""What has to hold beside the numbers: statements that nobody typed.
+
+A statement is no number that could be searched. What a workbook says of it is a check;
+what it does not say is a condition, which somebody sees to: each stands once for all
+net rows, with the number that the worst of them needs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Literal
+
+from netdesign.checks.schema import ANCHOR_DISTANCE, MAX_GAP
+from netdesign.edge.json_text import Items
+from netdesign.resistance.steel import Wear
+from netdesign.site.bearing import Resistance
+from netdesign.site.model import NetRow
+from netdesign.study.bores import list_bonds
+from netdesign.study.member_force import RowForces
+from netdesign.study.pulls import USUAL_DIP
+from netdesign.units import given_degree_from_radian
+from netdesign.words.message import Text, say
+
+Who = Literal["office", "supplier", "ground", "site"]
+
+# Who sees to each condition, in the order of the reports.
+_WHO: Mapping[str, Who] = {
+    "snow_height": "office",
+    "glide_factor": "office",
+    "ground": "ground",
+    "cover": "ground",
+    "natural_ground": "ground",
+    "protected": "supplier",
+    "sleeve": "supplier",
+    "rectangular": "supplier",
+    "axes": "site",
+    "depth": "site",
+    "edge": "site",
+    "apart": "site",
+    "gap": "site",
+}
+_LEAST_COUNTS = ("cover", "gap")  # of all others the largest number
+
+
+@dataclass(frozen=True, kw_only=True)
+class Condition:
+    """One statement that has to hold.
+
+    Attributes
+    ----------
+    key : str
+        Which one it is, as in "cover".
+    who : str
+        Who sees to it: ``office``, ``supplier``, ``ground`` (the geotechnical
+        engineer) or ``site``.
+    message : Message
+        The statement, with its number.
+    value : float or None
+        That number, in the unit of the message; None of a statement without one.
+    rows : list of str
+        Ids of the net rows that need it.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("value",)
+
+    key: str
+    who: Who
+    message: Text
+    value: float | None = None
+    rows: Items[str] = field(default_factory=list)
+
+
+def list_conditions(known: RowForces) -> list[Condition]:
+    """Conditions of one net row, each once."""
+    return merge_conditions(
+        replace(one, rows=[known.row.id])
+        for part in (_list_of_snow, _list_of_types, _list_of_ground, _list_of_bores)
+        for one in part(known)
+    )
+
+
+def merge_conditions(conditions: Iterable[Condition]) -> list[Condition]:
+    """Conditions by key, each with the number of the row that needs most."""
+    found: dict[str, Condition] = {}
+    for one in conditions:
+        before = found.setdefault(one.key, one)
+        rows = [*dict.fromkeys([*before.rows, *one.rows])]
+        worse = one if _is_worse(one, before) else before
+        found[one.key] = replace(worse, rows=rows)
+    return sorted(found.values(), key=lambda one: list(_WHO).index(one.key))
+
+
+def _is_worse(one: Condition, other: Condition) -> bool:
+    if one.value is None or other.value is None:
+        return other.value is None and one.value is not None
+    is_less = one.value < other.value
+    return is_less if one.key in _LEAST_COUNTS else one.value > other.value
+
+
+def _state(key: str, value: float | None = None) -> Condition:
+    text = say(f"condition.{key}")
+    if value is not None:
+        text = say(f"condition.{key}_of", value=value)
+    return Condition(key=key, who=_WHO[key], message=text, value=value)
+
+
+def _list_of_snow(known: RowForces) -> Iterator[Condition]:
+    """Heights and glide factors, which a document or an authority confirms."""
+    row, ranges = known.row, known.site.ranges
+    yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
+    glide = row.glide_factor
+    if "glide_factor" in ranges.further:
+        glide = ranges["glide_factor"].high
+    if glide is not None and row.find_assumed("glide_factor") is None:
+        yield _state("glide_factor", glide)
+
+
+def _list_of_types(known: RowForces) -> Iterator[Condition]:
+    """What the types of a row do not say of corrosion, grounds and sleeves."""
+    row, left_out = known.row, known.standard.not_checked
+    for one in _list_resistances(row):
+        if one.wear is not None and "corrosion" not in left_out:
+            yield from _list_of_wear(one.wear, row.design_life)
+        if one.mode == "pull_out" and (one.value is not None or one.tests):
+            if not (row.ground_type and one.ground):
+                yield _state("ground")
+            if one.may_be_sleeved and one.basis != "tested":
+                yield _state("sleeve")
+    if row.find_assumed("panel_system"):
+        yield _state("rectangular")
+
+
+def _list_resistances(row: NetRow) -> Iterator[Resistance]:
+    yield from row.resistances
+    yield from row.end_resistances or ()
+    yield from row.row_end.resistances if row.row_end else ()
+    yield from row.net_parts
+
+
+def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
+    if wear.is_bare:
+        yield from () if wear.soil else (_state("natural_ground"),)
+    elif wear.protected_years is None:
+        yield _state("protected", float(life))
+
+
+def _list_of_ground(known: RowForces) -> Iterator[Condition]:
+    """Ground above and beside the bonds of which nobody says what it has to be."""
+    if "anchor_ground" in known.standard.not_checked:
+        return
+    for bond in list_bonds(known.row, known.pulls):
+        if bond.least_cover is None and not bond.has_soil:
+            yield _state("cover", bond.cover)
+        elif bond.least_cover is not None and bond.cover is None:
+            yield _state("depth", bond.least_cover)
+        if bond.edge is None:
+            yield _state("edge", bond.least_edge or bond.length)
+
+
+def _list_of_bores(known: RowForces) -> Iterator[Condition]:
+    """Ways and places of the bores, and what stands beside the row."""
+    row, standard = known.row, known.standard
+    if any(not one.is_axis_given for one in known.pulls):
+        yield _state("axes", given_degree_from_radian(USUAL_DIP))
+    apart, gap = standard.find(ANCHOR_DISTANCE), standard.find(MAX_GAP)
+    end = row.row_end
+    if apart is not None and end is not None and end.lateral_distance is None:
+        yield _state("apart", apart.value)
+    if gap is not None and math.isinf(row.gap):
+        yield _state("gap", gap.value)

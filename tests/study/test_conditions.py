@@ -1,0 +1,180 @@
+"""Conditions: what nobody typed and no number can say, once for all rows."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.checks.check import OpenKind
+from netdesign.outcome import Verdict
+from netdesign.study.conditions import Condition, merge_conditions
+from netdesign.words.message import say
+from tests.study.test_chain import NF, WORST, judge, solved
+
+__all__ = ["solved"]
+
+
+def state(study):
+    return {one.key: one for one in study.rows[0].conditions}
+
+
+def leave_out(row, **asked):
+    """Changes of the row whose anchors lack what is None."""
+    return {
+        "anchors": tuple((m, replace(kind, **asked)) for m, kind in row.anchors),
+        "end_anchors": None,
+    }
+
+
+def test_with_typed_cells_only_documents_and_bores_are_left(solved):
+    study, _ = judge(solved)
+    assert set(state(study)) <= {"snow_height", "glide_factor", "axes"}
+    assert study.conditions == study.rows[0].conditions
+
+
+def test_an_edge_that_nobody_gives_is_a_condition_with_the_number_asked(solved):
+    row = solved[0].rows[0]
+    study, _ = judge(solved, edge_distance=None)
+    least = max(kind.least_edge for _, kind in row.anchors)
+    of_end = [kind.least_edge for _, kind in row.row_end.anchors]
+    assert state(study)["edge"].value == max(least, *of_end)
+    assert state(study)["edge"].who == "site"
+
+
+def test_a_cover_that_nobody_asks_for_is_told_as_it_is_calculated(solved):
+    row = solved[0].rows[0]
+    study, checks = judge(solved, **leave_out(row, least_cover=None))
+    found = state(study)["cover"]
+    kinds = dict(row.anchors)
+    depths = [
+        (kind.drilled - 0.5 * (kind.bond or kind.drilled)) * math.sin(pull.axis)
+        for pull in study.rows[0].pulls
+        if (kind := kinds.get(pull.anchor))
+    ]
+    assert found.value == pytest.approx(min(depths))
+    assert found.who == "ground"
+    assert checks["geometry.cover"].verdict is Verdict.PASS  # what is typed of the end
+
+
+@pytest.mark.parametrize(
+    ("wear", "key"),
+    [
+        ({"protected_years": None}, "protected"),
+        ({"protection": "none", "kind": "bar", "soil": ""}, "natural_ground"),
+    ],
+)
+def test_steel_that_nobody_protects_has_a_condition_and_is_proven(solved, wear, key):
+    given = solved[0].rows[0].resistances
+    worn = tuple(
+        replace(one, wear=replace(one.wear, outer=0.05, inner=0.0, **wear))
+        if one.wear
+        else one
+        for one in given
+    )
+    study, checks = judge(solved, resistances=worn, end_resistances=None)
+    assert key in state(study)
+    assert not checks["uphill_anchor.tendon"].open
+    left_out = replace(NF, not_checked=("corrosion",))
+    study, _ = judge(solved, left_out, resistances=worn, end_resistances=None)
+    assert key not in state(study)
+
+
+def test_the_place_of_a_lateral_anchor_is_a_condition_of_the_profile_s_distance(solved):
+    end = replace(solved[0].rows[0].row_end, lateral_distance=None)
+    study, checks = judge(solved, row_end=end)
+    assert state(study)["apart"].value == NF.find("anchor.distance.min").value
+    assert checks["geometry.anchors"].verdict is Verdict.PASS
+
+
+def test_ground_that_nobody_names_is_a_condition(solved):
+    study, checks = judge(solved, ground_type="")
+    assert state(study)["ground"].who == "ground"
+    assert checks["foot_anchor.pull_out"].verdict is Verdict.PASS
+
+
+def test_of_several_rows_the_number_of_the_worst_counts():
+    draw = random.Random(5)
+    values = [draw.uniform(0.5, 9.0) for _ in range(7)]
+    for key, pick in (("cover", min), ("edge", max), ("gap", min), ("apart", max)):
+        stated = [
+            Condition(
+                key=key,
+                who="site",
+                message=say(f"condition.{key}_of", value=value),
+                value=value,
+                rows=[f"R{number}"],
+            )
+            for number, value in enumerate(values)
+        ]
+        (found,) = merge_conditions(draw.sample(stated, len(stated)))
+        assert found.value == pick(values) == found.message.arguments["value"]
+        assert sorted(found.rows) == [f"R{number}" for number in range(7)]
+
+
+MISSING = ("pull_out", "tendon", "rope", "compression", "bearing", "mesh")
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_missing_resistance_leaves_its_own_check_open_and_no_other(solved, seed):
+    draw = random.Random(seed)
+    row, before = solved[0].rows[0], judge(solved)[1]
+    member, mode = draw.choice(
+        [(x.member, x.mode) for x in row.resistances if x.mode in MISSING and x.value]
+    )
+
+    def drop(found):
+        return found and tuple(
+            replace(one, value=None, tests=None, basis="")
+            if (one.member, one.mode) == (member, mode)
+            else one
+            for one in found
+        )
+
+    changes = {
+        key: drop(getattr(row, key)) for key in ("resistances", "end_resistances")
+    }
+    after = judge(solved, **changes)[1]
+    assert after.keys() == before.keys()
+    for name, check in after.items():
+        is_own = (check.member, check.mode) == (member, mode)
+        if check.mode != "connection":  # a usual link is as strong as its rope
+            kept = before[name]
+            assert (check.verdict is kept.verdict) or is_own, name
+        if is_own:
+            assert check.verdict is Verdict.NOT_PROVEN
+            assert [x.kind for x in check.open] == [OpenKind.RESISTANCE_MISSING]
+            assert check.demand_kN == pytest.approx(before[name].demand_kN)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_reason_more_never_makes_a_verdict_better(solved, seed):
+    draw = random.Random(f"reason {seed}")
+    for check in judge(solved)[1].values():
+        kind = draw.choice([one for one in OpenKind if one != "proven_elsewhere"])
+        worse = check.with_open(kind, say("check.no_case_solved"))
+        assert WORST.index(worse.verdict) <= WORST.index(check.verdict)
+        assert WORST.index(worse.verdict) <= WORST.index(Verdict.NOT_PROVEN)
+
+
+@pytest.mark.parametrize("profile", ["nf-p-95-304-style", "eurocode"])
+def test_a_pull_out_of_which_nobody_says_how_it_was_found_is_the_worse(solved, profile):
+    standard, row = load_standard(profile), solved[0].rows[0]
+
+    def use(basis):
+        value = {"value": 900e3, "tests": None, "basis": basis, "bond": None}
+        found = tuple(
+            replace(x, **value)
+            if (x.member, x.mode) == ("foot_anchor", "pull_out")
+            else x
+            for x in row.resistances
+        )
+        return judge(solved, standard, resistances=found)[1]["foot_anchor.pull_out"]
+
+    unsaid, computed = use(""), use("computed")
+    assert unsaid.utilisation is not None
+    if computed.utilisation is not None:
+        assert unsaid.utilisation >= computed.utilisation
+    else:
+        assert unsaid.verdict is not Verdict.PASS
