@@ -121,16 +121,20 @@ def _add_push(
         return sqrt(force * force + along * along)
     if load.across is not None and load.splay is not None:
         return _pull_shared(force, load.across, load.splay, support, push)
-    return force + push
+    return force + 2 * push if support.has_both else force + push
 
 
 def _pull_shared(
     force: Quantity, across: Quantity, splay: Quantity, at: Support, push: Quantity
 ) -> Quantity:
-    """Pull of two guys on one anchor, to one of which the ropes add a force."""
+    """Pull of two guys on one anchor, to one of which the ropes add a force.
+
+    Or to both, each away from the other: square to the section no more than one counts.
+    """
     if at.width is not None and at.spacing is not None:
         across = across * at.width / at.spacing
-    in_section, square = force + push * cos(splay), across + push * sin(splay)
+    guys = 2 * push if at.has_both else push
+    in_section, square = force + guys * cos(splay), across + push * sin(splay)
     return sqrt(in_section * in_section + square * square)
 
 
@@ -383,9 +387,10 @@ def _find_support(leaves: Leaves) -> Support:
         return Support(end_factor=leaves["f_R"])
     effect = (leaves["b"], leaves["f_R"], leaves["Δl"])
     is_shared = any(one in leaves for one in _SHARED)
-    if "s_2" in leaves:
-        return place_second_support(*effect, leaves["s_2"], is_shared=is_shared)
     other, beside = leaves.get("s_e"), leaves.get("s_n")
+    if "s_2" in leaves:
+        part = leaves["s_2"]
+        return place_second_support(*effect, part, beside=beside, is_shared=is_shared)
     return place_end_support(*effect, other=other, beside=beside, is_shared=is_shared)
 
 

@@ -24,6 +24,8 @@ class Support:
         It stands beside the end.
     reaching : int
         End effects that reach the last bay.
+    has_both : bool
+        An anchor of two posts, each beside an end: ropes add a force to both guys.
     """
 
     spacing: Quantity | None = None
@@ -32,6 +34,7 @@ class Support:
     end_length: Quantity | None = None
     is_second: bool = False
     reaching: int = 1
+    has_both: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,14 +100,19 @@ def place_second_support(
     length: Quantity,
     part: Quantity,
     *,
+    beside: Quantity | None = None,
     is_shared: bool = False,
 ) -> Support:
     """Support beside an end: a bay, and a part of the end effect by the lever rule.
 
-    An anchor that it shares with the one after it holds a guy of that, too.
+    An anchor that it shares with the one after it holds a guy of that, too, of which
+    ``beside`` is the part. In a row of four that one stands beside the other end.
     """
-    width = _widen(spacing, factor, part)
-    if is_shared:
+    width, has_both = _widen(spacing, factor, part), False
+    if is_shared and beside is not None:
+        has_both = (beside.value or 0.0) >= (part.value or 0.0)
+        width = (width + _widen(spacing, factor, beside)) / 2
+    elif is_shared:
         width = (width + spacing) / 2
     return Support(
         spacing=spacing,
@@ -112,6 +120,7 @@ def place_second_support(
         end_factor=factor,
         end_length=length,
         is_second=True,
+        has_both=has_both,
     )
 
 

@@ -63,7 +63,7 @@ class LoadedWidth:
         Part of a bay by which end effects load it that begin at another support, over
         f_R [-].
     beside : float
-        The same of the support beside an end [-].
+        The same of the next support, away from the end, of one at or beside it [-].
     other_width : float or None
         Width on the other side of a threshold that the gap lies close to; at most
         ``width``. None away from a threshold [m].
@@ -188,7 +188,7 @@ def list_supports(
     """Supports of a row that differ in their load: inside, beside the end, at the end.
 
     Both ends have the same effect, and one of them may reach the other's supports. Of a
-    number of posts that is not given the worse of two and three counts.
+    number of posts that is not given the worst of two, three and four counts.
 
     Parameters
     ----------
@@ -218,9 +218,18 @@ def list_supports(
     )
     if not beside:
         return inside, wide
-    width = post_spacing + bay * beside
-    second = replace(edge, position="second", width=width, share=beside)
-    return inside, replace(second, other_width=None), wide
+    third = beside  # in a row of four the next one stands beside an end, too
+    if post_count is not None and post_count != 4:
+        third = sum(share_end_effect(reach, one) for one in (2, last - 2) if one > 1)
+    second = replace(
+        edge,
+        position="second",
+        width=post_spacing + bay * beside,
+        share=beside,
+        beside=third,
+        other_width=None,
+    )
+    return inside, second, wide
 
 
 _LONG = 60.0  # of an anchor whose length is not given [m]

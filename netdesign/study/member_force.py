@@ -364,7 +364,7 @@ def _list_support_leaves(
         return [factor]
     parts = {"s_2" if width.position == "second" else "s_e": width.share}
     if is_shared(row, member):
-        parts["s_n"] = width.beside if width.position == "edge" else 0.0
+        parts["s_n"] = width.beside
     return [
         given("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
         factor,

@@ -120,6 +120,7 @@ def test_no_number_of_posts_is_worse_than_an_unknown_one(row, gap):
             assert one.width <= at.width
             assert one.share <= at.share
             assert one.beside <= at.beside
+            assert one.position != "second" or one.beside <= one.share
 
 
 UNITS = {"β": "deg", "γ": "deg", "b": "m", "Δl": "m"}
@@ -181,6 +182,42 @@ def test_splayed_guy_post_foot_and_anchor_beside_the_end():
     along = 0.1 * 300.0 * 1.0062 + 463.470 * 0.124
     expected = math.hypot(300.0 * 1.0062, along)
     assert foot.action.value == pytest.approx(expected, abs=0.02)
+
+
+@pytest.mark.parametrize(("count", "guys"), [(4, 2.0), (None, 2.0), (5, 1.0)])
+def test_an_anchor_between_two_posts_beside_the_ends_holds_both(count, guys):
+    """Four posts, free ends: 100 (3 + 12 s_1) / 3 kN, and 2 * 50 kN along the guys.
+
+    Each head is pulled towards its own end: across the section the two cancel, and no
+    more than one is counted there.
+    """
+    edge = find_edge("R5", math.inf)
+    _, second, _ = list_supports(3.0, edge, count)
+    told = {"E_s": 100.0, "c": 0.5, "k": 0.0, "P": 1.0, "β": 25.0}
+    effect = {"b": 3.0, "f_R": 4.0, "Δl": second.end_length, "s_2": second.share}
+    spread = 0.5 / math.sin(math.radians(25.0))
+    growth = 4.0 * second.end_length / 3.0  # (P10), up to half a bay
+    rope = 50.0 / (spread * growth)
+    in_section = (
+        100.0 * (second.width if guys > 1.0 else 0.5 * (second.width + 3.0)) / 3.0
+    )
+    both = guys * 50.0
+    for symbol, expected in (
+        (
+            "n_g",
+            math.hypot(
+                in_section + both * math.cos(math.radians(25.0)),
+                50.0 * math.sin(math.radians(25.0)),
+            ),
+        ),
+        ("n_h", in_section / math.cos(math.radians(25.0)) + both),
+    ):
+        leaves = leaves_of(**told, **effect, T_r=rope, s_n=second.beside)
+        leaves[symbol] = leaves_of(**{symbol: 2.0})[symbol]
+        found = calculate_force(
+            {k: x for k, x in leaves.items() if k != "s_n" or x.value}
+        )
+        assert found.action.value == pytest.approx(expected, rel=1e-9)
 
 
 def test_what_the_guys_hold_anyway_holds_the_unbalanced_pull_too():

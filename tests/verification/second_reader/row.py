@@ -182,12 +182,21 @@ class Row:
 
     @property
     def shared_widths(self):
-        """Widths of anchors that two supports share: 0|1, 1|2, inside [m]."""
+        """Widths of anchors that two supports share: 0|1, 1|2, inside [m].
+
+        In a row of four 1|2 stands between the two supports beside an end, and so it
+        may where nobody gives the number.
+        """
         last, inside = (self.widths[one] for one in ("edge", "intermediate"))
         second = self.widths.get("second", last)
+        extra = [*spread_end_effect(*self.end_effect, inside), *[0.0] * 100]
+        third = second
+        if 4 not in self.posts:
+            (count,) = self.posts
+            third = inside + extra[2] + (extra[count - 3] if count > 4 else 0.0)
         return {
             "edge": max(last, (last + second) / 2.0),
-            "second": (second + inside) / 2.0,
+            "second": (second + third) / 2.0,
             "intermediate": inside,
         }
 
@@ -422,12 +431,13 @@ class Row:
         width = self.grow(self.shared_widths[position])
         part = 2.0 * self.share(side) / math.sin(splay) * self.values["lateral.share"]
         besides = self.unbalance_guy(side, position)
+        guys = 2.0 if 4 in self.posts else 1.0  # each of the two is beside an end
 
         def law(force, pull, pushed):
-            guy = besides + pushed
+            guy, both = besides + pushed, guys * besides + pushed
             if self.is_scalar:  # the two guys' forces as numbers
-                return (force / math.cos(splay) + part * pull) * width + guy
-            in_section = force * width + guy * math.cos(splay)
+                return (force / math.cos(splay) + part * pull) * width + both
+            in_section = force * width + both * math.cos(splay)
             return np.hypot(in_section, part * pull * width + guy * math.sin(splay))
 
         found = self.demand(f"{side}_anchor", law, self.push_guy(side, position))
