@@ -232,10 +232,14 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     netdesign map list.xlsx              a list of your own
     netdesign map liste.csv --language fr
     netdesign map list.xlsx --force      again, with the answers given so far
+    netdesign map old.xlsx --out new.xlsx
 
     Every heading has the program's guess, or a question mark with what it may mean and
     its first cells behind it. Change what is wrong, replace each question mark by a
     column of the workbook, or by "ignore". Later runs read the file by themselves.
+
+    With --out a workbook with a sheet Nets is written again with Rows and Net types;
+    what was done with its cells is listed.
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.site.lists.ask import is_own_list, write_list_map
@@ -243,6 +247,9 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     from netdesign.site.titles import name_map
 
     refuse_delimiter(site_file)
+    if asked["out"] is not None:
+        _rewrite(site_file, asked["out"], asked)
+        return
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
     form = build_text_format(asked)
@@ -253,3 +260,25 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     tell(
         say("map.missing", count=missing) if missing else say("map.complete"), err=True
     )
+
+
+def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
+    """Write a workbook with sheet Nets again, as one with Rows and Net types."""
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.site.office.rewrite import rewrite
+    from netdesign.site.office.sheets import is_office
+    from netdesign.site.reader import read_cells
+    from netdesign.site.template.office_workbook import render_input
+
+    if new.suffix.lower() != ".xlsx" or new.absolute() == old.absolute():
+        raise UsageRefusal(say("usage.map_out", file=str(new)))
+    require_free([new], overwrite=asked["force"])
+    workbook = read_cells(old, build_text_format(asked))
+    if is_office(workbook):
+        raise UsageRefusal(say("usage.map_new", file=str(old)))
+    made = rewrite(workbook, asked["language"])
+    content = render_input(made.tables, asked["language"], made.sheets, made.measures)
+    write_files({new: content}, overwrite=asked["force"])
+    for one in made.done:
+        tell(one)
+    tell(say("cli.wrote", path=str(new)), err=True)

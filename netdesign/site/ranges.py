@@ -100,7 +100,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     found: dict[str, _Range | None] = {}
     names: dict[str, Reading] = {}
     for row in table.rows:
-        _read_line(table, row, found, names, findings)
+        read_line(table, row, found, names, findings)
     refuse_unused_answers(table, findings)
     for one in USUAL_QUANTITIES:
         if one.key in found:
@@ -194,13 +194,14 @@ def _refuse_crowd(
     return True
 
 
-def _read_line(
+def read_line(
     table: Table,
     row: int,
     found: dict[str, _Range | None],
     names: dict[str, Reading],
     findings: list[Finding],
 ) -> None:
+    """Read one line of sheet Ranges into the ranges and names found so far."""
     name = read_field(table, "quantity", row, findings)
     unit = read_field(table, "unit", row, findings)
     counted = read_field(table, "samples", row, findings)

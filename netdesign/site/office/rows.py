@@ -163,9 +163,9 @@ def find_joined(lines: Sequence[Row]) -> Mapping[str, tuple[str, ...]]:
     ids = {fold_id(line["id"].word): line["id"].word for line in lines}
     found: dict[str, dict[str, None]] = {line["id"].word: {} for line in lines}
     for line in lines:
-        own, typed = line["id"].word, line["gap"].word
-        other = ids.get(fold_id(typed), typed)
-        if typed:
+        own = line["id"].word
+        for typed in filter(None, map(str.strip, line["gap"].word.split(","))):
+            other = ids.get(fold_id(typed), typed)
             found[own][other] = None
             found.setdefault(other, {})[own] = None
     return {own: tuple(others) for own, others in found.items()}
