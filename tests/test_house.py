@@ -10,8 +10,13 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
+<<<<<<< HEAD
 MODULES, LINES = 391, 47_444
 CORE_MODULES, CORE_LINES = 289, 35_632
+=======
+MODULES, LINES = 395, 47_941
+CORE_MODULES, CORE_LINES = 293, 36_129
+>>>>>>> d3c8090d (map --out: what has no place is named; texts)
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef

@@ -34,7 +34,7 @@ FAMILIES: tuple[str, ...] = (
         "why_more.",
         "diff_part.",
     ),
-    "beside.",
+    *("beside.", "rewrite.of_"),
     *("assumed_word.", "assumed_source.", "assumed_effect."),
     *(
         "floor.profile_",

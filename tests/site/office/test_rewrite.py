@@ -31,7 +31,7 @@ def list_resistances(row, sites_ends=False):
     return {
         (one.member, one.mode): (
             one.type_id.split(" (")[0],
-            one.value and float(f"{one.value:.4g}"),
+            one.value and float(f"{one.value:.3g}"),
             one.tests and one.tests.least,
         )
         for one in given
