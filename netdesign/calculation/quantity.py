@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
@@ -231,6 +231,79 @@ class Quantity:
 Operand = Quantity | float
 
 
+class Bare:
+    """Band of a quantity alone: no unit, no way, a tenth of the time.
+
+    It stands in a formula where only the size is asked for; what it gives is the band
+    that the quantity would have. An operation outside its range is refused.
+    """
+
+    __slots__ = ("high", "low", "value")
+    is_known, lacks = True, ()
+
+    def __init__(self, low: float, value: float, high: float) -> None:
+        """Take the ends of the band."""
+        self.low, self.value, self.high = low, value, high
+
+    def __add__(self, other: Bare | float) -> Bare:
+        one = _bare(other)
+        return Bare(self.low + one.low, self.value + one.value, self.high + one.high)
+
+    def __radd__(self, other: float) -> Bare:
+        return self + other
+
+    def __sub__(self, other: Bare | float) -> Bare:
+        one = _bare(other)
+        return Bare(self.low - one.high, self.value - one.value, self.high - one.low)
+
+    def __rsub__(self, other: float) -> Bare:
+        return _bare(other) - self
+
+    def __mul__(self, other: Bare | float) -> Bare:
+        one = _bare(other)
+        if not (self.low >= 0.0 and one.low >= 0.0):
+            raise _outside("*")
+        return Bare(self.low * one.low, self.value * one.value, self.high * one.high)
+
+    def __rmul__(self, other: float) -> Bare:
+        return self * other
+
+    def __truediv__(self, other: Bare | float) -> Bare:
+        one = _bare(other)
+        if not (self.low >= 0.0 and one.low > 0.0):
+            raise _outside("/")
+        return Bare(self.low / one.high, self.value / one.value, self.high / one.low)
+
+    def __rtruediv__(self, other: float) -> Bare:
+        return _bare(other) / self
+
+    def named(self, *_: str) -> Bare:
+        """Itself: it has no symbol."""
+        return self
+
+    def take(self, end: int) -> float:
+        """Low end (-1), value (0) or high end (1)."""
+        return (self.value, self.high, self.low)[end]
+
+
+def _bare(one: Bare | float) -> Bare:
+    return one if isinstance(one, Bare) else Bare(one, one, one)
+
+
+def _outside(operation: str) -> ModelError:
+    return ModelError(say("calculation.outside", operation=operation, symbol=""))
+
+
+def strip(one: Quantity) -> Quantity:
+    """Band of a quantity, for a formula of which only the size is asked for; `Bare`.
+
+    One that is missing stays itself.
+    """
+    if one.low is None or one.value is None or one.high is None:
+        return one
+    return cast(Quantity, Bare(one.low, one.value, one.high))
+
+
 def given(
     symbol: str,
     value: float | None,
@@ -290,6 +363,9 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     ModelError
         If units do not fit.
     """
+    first: object = operands[0]
+    if isinstance(first, Bare):
+        return _apply_bare(operation, operands)
     known = OPERATIONS[operation]
     of = tuple(one if isinstance(one, Quantity) else constant(one) for one in operands)
     if known.dimension is _keep:  # zero has any unit
@@ -315,6 +391,31 @@ def apply(operation: str, *operands: Operand) -> Quantity:
         of=of,
         lacks=lacks,
     )
+
+
+def _apply_bare(operation: str, operands: Sequence[Operand]) -> Quantity:
+    """Band of an operation on bare ones and numbers.
+
+    Raises
+    ------
+    ModelError
+        Where one lies outside the range of the operation.
+    """
+    known, of = OPERATIONS[operation], [_bare(cast(Bare, one)) for one in operands]
+    if any(one.low < known.least or one.high > known.most for one in of):
+        raise _outside(operation)
+    if known.ways == (1,):
+        low, value, high = (
+            known.of(*ends)
+            for ends in zip(*((x.low, x.value, x.high) for x in of), strict=True)
+        )
+    else:
+        ways = [known.way(place) for place in range(len(of))]
+        low, value, high = (
+            known.of(*(x.take(end * way) for x, way in zip(of, ways, strict=True)))
+            for end in (-1, 0, 1)
+        )
+    return cast(Quantity, Bare(low, value, high))
 
 
 def _name(quantity: Quantity) -> str:

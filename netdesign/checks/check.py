@@ -26,6 +26,7 @@ class OpenKind(StrEnum):
     RESISTANCE_MISSING = "resistance_missing"
     RESISTANCE_IN_DOUBT = "resistance_in_doubt"  # it may not last, or not hold there
     VALUE_ASKED = "value_asked"  # a value that somebody has to confirm
+    ASSUMED_DECIDES = "assumed_decides"  # met at the best ends of what is assumed
     PROVEN_ELSEWHERE = "proven_elsewhere"  # by a document
 
 
@@ -136,6 +137,23 @@ class CasePoint:
 
 
 @dataclass(frozen=True, kw_only=True)
+class AssumedPoint:
+    """What is assumed of a row's statics where one check is worst; given ones are None.
+
+    The document leaves these out.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
+
+    post_tilt_deg: float | None = None
+    uphill_anchor_distance_m: float | None = None
+    downhill_anchor_distance_m: float | None = None
+    guy_count: float | None = None
+    guy_splay_deg: float | None = None
+    end_guy_angle_deg: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Change:
     """The smallest change of one quantity that flips a check."""
 
@@ -181,6 +199,7 @@ class Check:
     utilisation, verdict and its reason.
     """
 
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("assumed", "eased")  # all is given
     WRITTEN: ClassVar = (
         *("demand_kN", "resistance_kN", "utilisation"),
         *("utilisation_by_model", "utilisation_by_guideline"),
@@ -209,6 +228,9 @@ class Check:
     tests: TestSeries | None = None  # of a pull-out resistance that is from them
     proof_limit_kN: float | None = None  # of a test's load, by the tendon that it pulls
     changes: Items[Change] = field(default_factory=list)
+    assumed: AssumedPoint | None = None  # where it is worst
+    # Low end of the utilisation at the best ends of what is assumed [-].
+    eased: float | None = None
 
     @cached_property
     def known(self) -> dict[str, Step]:
@@ -242,8 +264,14 @@ class Check:
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:
-        """Utilisation at the low and at the high end of the demand [-]."""
-        return self.read_band("μ")
+        """Utilisation at the low and at the high end of the demand [-].
+
+        The low end is that at the best ends of what is assumed.
+        """
+        low, high = self.read_band("μ")
+        if low is None or self.eased is None:
+            return low, high
+        return min(low, self.eased), high
 
     @property
     def utilisation_by_model(self) -> float | None:
@@ -342,6 +370,22 @@ class Check:
         """The sentence of its own comparison is its reason."""
         is_open = self._met is not Verdict.PASS or not self._open_messages
         return self.finding is not None and is_open
+
+    def ease(self, least: float) -> Check:
+        """Check that is used that much at the best ends of what is assumed [-].
+
+        What leaves nothing to resist where it is worst, but not there, fails no longer.
+        """
+        if self.is_unbounded and least < math.inf:
+            points = [
+                replace(one, kind=OpenKind.ASSUMED_DECIDES)
+                if one.kind is OpenKind.FAILS
+                else one
+                for one in self.open
+            ]
+            return replace(self, open=points, eased=least)
+        low, _ = self.utilisation_band
+        return self if low is None or least >= low else replace(self, eased=least)
 
     def with_open(self, kind: OpenKind, *messages: Message) -> Check:
         """Check with further open points of a kind."""

@@ -163,19 +163,24 @@ class RowEnvelope:
         """
         if not self.task.other_layouts:
             return self
-        results = tuple(one.at_layout(place) for one in self.results)
         layout = self.task.layouts[place]
+        return self._move(layout, lambda one: one.at_layout(place))
+
+    def on_layout(self, layout: SupportLayout) -> RowEnvelope:
+        """The envelope on a layout between those of the task, as ``at_layout``."""
+        return self._move(layout, lambda one: one.on_layout(layout))
+
+    def _move(
+        self, layout: SupportLayout, move: Callable[[CaseResult], CaseResult]
+    ) -> RowEnvelope:
+        results = tuple(map(move, self.results))
         return replace(
             self,
             task=replace(self.task, layout=layout, other_layouts=()),
             results=results,
             maxima=self._bound_on_layout(results),
             confirmations=tuple(
-                replace(
-                    one,
-                    screened=one.screened.at_layout(place),
-                    confirmed=one.confirmed.at_layout(place),
-                )
+                replace(one, screened=move(one.screened), confirmed=move(one.confirmed))
                 for one in self.confirmations
             ),
         )

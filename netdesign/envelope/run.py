@@ -110,9 +110,34 @@ class CaseResult:
         if not self.of_layouts:
             return self
         layout, forces = self.of_layouts[place]
-        of_one = replace(self, member_forces=forces, of_layouts=())
-        if place == 0 or self.solution is None:
-            return of_one
+        if place == 0:
+            return replace(self, member_forces=forces, of_layouts=())
+        return self._stand_on(layout, forces)
+
+    def on_layout(self, layout: SupportLayout) -> CaseResult:
+        """The case on another layout, between those that it has.
+
+        Raises
+        ------
+        ValueError
+            Where that cannot hold what they hold.
+        """
+        if not self.is_converged or self.solution is None:
+            return self
+        solution = self.solution
+        found = resolve_layouts(
+            [place_support(layout, solution.head_point)],
+            layout.post_spacing,
+            (solution.foot, solution.head),
+            self.panel if isinstance(self.panel, PanelForces) else None,
+        )
+        if isinstance(found, FailedSupport):
+            raise ValueError("a case that another layout holds")
+        return self._stand_on(layout, {**self.member_forces, **found[0]})
+
+    def _stand_on(self, layout: SupportLayout, forces: dict[str, Band]) -> CaseResult:
+        if self.solution is None:
+            raise ValueError("a case without a solution")
         foot, head = self.solution.foot, self.solution.head
         anchors = compute_anchor_forces(
             place_support(layout, self.solution.head_point),
@@ -122,7 +147,7 @@ class CaseResult:
         )
         if isinstance(anchors, FailedSupport):
             raise ValueError("a case that another way holds")
-        return replace(of_one, anchors=anchors)
+        return replace(self, member_forces=forces, of_layouts=(), anchors=anchors)
 
 
 def run_cases(

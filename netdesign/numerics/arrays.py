@@ -7,6 +7,7 @@ array gives an array.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -137,6 +138,25 @@ def find_none(first: Truth, *others: Truth) -> Truth:
 def as_mask(condition: Truth) -> Mask:
     """Condition of many as what it is, an array of any shape."""
     return np.asarray(condition)
+
+
+def spread_over(values: Iterable[float], like: Floats) -> Floats:
+    """Numbers along a new first axis, each over an array of its own.
+
+    Parameters
+    ----------
+    values : iterable of float
+        n of them, any unit.
+    like : ndarray, any shape
+        Its shape is that of each array.
+
+    Returns
+    -------
+    ndarray, shape (n, ...)
+        In the unit of the values.
+    """
+    given = np.array(list(values)).reshape((-1, *(1,) * like.ndim))
+    return np.broadcast_to(given, (len(given), *like.shape))
 
 
 def require_all_within(

@@ -9,8 +9,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from netdesign.numerics.arrays import (
     Floats,
     Mask,
@@ -18,6 +16,7 @@ from netdesign.numerics.arrays import (
     as_mask,
     measure_length,
     measure_turn,
+    spread_over,
     take_larger,
 )
 from netdesign.outcome import Outcome, require_positive, require_within
@@ -360,14 +359,13 @@ def compute_forces_of_layouts(
     Parameters
     ----------
     places : sequence of SupportPoints
-        Supports, n of them; net and uphill guy share an anchor in all of them or in
-        none.
-        The rest is as there.
+        Supports; net and uphill guy share an anchor in all or in none of them. The
+        rest is as there.
 
     Returns
     -------
     dict of str to ndarray, ndarray of bool
-        As there, of shape (n, ...) for pulls of shape (...).
+        As there, of shape (supports, ...) for pulls of shape (...).
 
     Verified by
     -----------
@@ -375,10 +373,12 @@ def compute_forces_of_layouts(
     """
     foot = _scale(foot_pull_per_m, post_spacing)
     still = 0.0 * foot[0]
-    shape = (-1, *(1,) * still.ndim)
     post, uphill, downhill = (
-        (x.reshape(shape) + still, y.reshape(shape) + still)
-        for x, y in map(np.transpose, zip(*map(_list_ways, places), strict=True))
+        (spread_over(x, still) + still, spread_over(y, still) + still)
+        for x, y in (
+            zip(*ways, strict=True)
+            for ways in zip(*map(_list_ways, places), strict=True)
+        )
     )
     held = hold_head(_scale(head_pull_per_m, post_spacing), post, uphill, downhill)
     of_members = _list_forces(

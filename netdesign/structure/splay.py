@@ -18,7 +18,9 @@ from netdesign.outcome import Outcome, require_within
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
+    Vector,
     compute_head_forces,
+    hold_head,
 )
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import say
@@ -203,6 +205,51 @@ def compute_splayed_head(
             is_one_sided=False,
         )
     return _share_on_loaded_side(pull, points, held, splay)
+
+
+def is_held_sideways(
+    pulls: Sequence[Point],
+    places: Sequence[SupportPoints],
+    *,
+    share: float,
+    splay: float,
+) -> bool:
+    """Whether `compute_splayed_head` holds all of some heads, and `weigh_splay` each.
+
+    Parameters
+    ----------
+    pulls : sequence of tuple of float, shape (2,)
+        Force of the net on each head in the section [N].
+    places : sequence of SupportPoints
+        Of each head [m].
+    share : float
+        Load on a head along the row, over its pull [-].
+    splay : float
+        beta [rad].
+
+    Verified by
+    -----------
+    tests/structure/test_splay.py
+    """
+    known: dict[int, tuple[Point, Point, Point]] = {}
+    for one in places:  # many states stand on one support
+        if id(one) not in known:
+            known[id(one)] = _list_directions(one)
+    ways = np.array([known[id(one)] for one in places]).transpose(1, 2, 0)
+    x, y = np.array(pulls).T
+    (post, uphill, downhill) = ((way[0], way[1]) for way in ways)
+    head = hold_head((x, y), post, uphill, downhill)
+    held = share * np.hypot(x, y) / math.tan(splay)
+    above, below = _cross_all(uphill, post), _cross_all(downhill, post)
+    in_uphill = (-_cross_all((x, y), post) - held * below) / (above - below)
+    tension = head.uphill_guy_tension + head.downhill_guy_tension
+    is_loaded = (in_uphill >= 0.0) & (held - in_uphill >= 0.0)
+    is_between = above * below < 0.0
+    return bool((head.is_held & is_between & ((tension >= held) | is_loaded)).all())
+
+
+def _cross_all(a: Vector[Floats], b: Vector[Floats]) -> Floats:
+    return a[0] * b[1] - a[1] * b[0]
 
 
 def weigh_splay(points: SupportPoints) -> SplayWeights | None:

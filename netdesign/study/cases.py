@@ -20,6 +20,7 @@ from netdesign.solving.runner import Runner
 from netdesign.structure.members import CONNECTED
 from netdesign.study.check_run import CheckRun
 from netdesign.study.row_to_check import build_scene
+from netdesign.study.variants import list_layouts
 from netdesign.words.message import Message, group_reasons, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. Beside the
@@ -138,10 +139,12 @@ def _count_most_cases(ranges: Ranges) -> int:
 
 def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
     is_own = bool(row.layers or ranges.further)
+    layout, *others = list_layouts(row)
     return RowTask(
         scene=_find_scene(row, ranges, run.creep_law),
         ranges=ranges,
-        layout=row.layout,
+        layout=layout,
+        other_layouts=tuple(others),
         settings=run.settings,
         search=SearchSettings(
             gap=max(run.settings.accuracy, CLOSEST_GAP),
@@ -183,6 +186,7 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         row_end=None,
         panel_lack=None,
         unsaid=(),
+        assumed=(),
         questions=(),
         approval=None,
     )

@@ -11,34 +11,22 @@ from netdesign.checks.check import Check
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.floor import Floor
-from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.check_run import CheckRun
-from netdesign.study.conditions import list_conditions
-from netdesign.study.effects import find_effects
+from netdesign.study.conditions import list_conditions, merge_conditions
 from netdesign.study.governing import find_worst
-from netdesign.study.member_force import (
-    RowForces,
-    find_end_pull,
-    find_one_way_pull,
-)
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_judged_notes,
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
-from netdesign.study.pulls import list_pulls
 from netdesign.study.record_envelope import (
     record_case,
     record_envelope,
-    record_largest,
 )
 from netdesign.study.record_guideline import (
-    find_row_floor,
-    record_floor,
     record_guideline,
 )
 from netdesign.study.record_independent import record_independent
@@ -60,15 +48,8 @@ from netdesign.study.row_checks import (
     check_row,
     distrust,
 )
+from netdesign.study.row_knowledge import Variant, know_variants
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
-from netdesign.study.sideways import (
-    EndShare,
-    find_end_guy,
-    find_held_sideways,
-    find_rope_factors,
-    find_tilt,
-)
-from netdesign.words.message import Message, say
 
 
 def judge_site(
@@ -147,25 +128,26 @@ def judge_row(
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
-    row, solved, extremes = task.row, task.solved, task.extremes
-    floor = find_row_floor(row, task.site.ranges, task.standard)
-    known = know_row(task, floor)
-    found, model_form = _check_row(task, known)
-    checks = found.checks
-    cases = [record_case(result, run.creep_law, row) for result in solved.results]
+    row, variants = task.row, know_variants(task)
+    found = check_row(task, [one.known for one in variants])
+    worst = _find_worst_variant(found, variants)
+    found, model_form = _ask_other_models(worst.task, found)
+    checks, known, extremes = found.checks, worst.known, worst.task.extremes
+    results = worst.task.solved.results
+    cases = [record_case(one, run.creep_law, row) for one in task.solved.results]
     governing = _governing_result(find_worst(checks), extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
     share = known.effects.lateral_share
-    drawing, anchors, head = record_drawn(row, governing, share)
+    drawing, anchors, head = record_drawn(known.row, governing, share)
     independent = record_independent(governing, head)
-    panel = record_panel(row, solved.results, extremes, governing)
+    panel = record_panel(row, results, extremes, governing)
     notes = list_judged_notes(known, checks, cases, panel)
     return RowStudy(
         id=row.id,
         checks=checks,
         cases=cases,
         inputs=list(row.inputs),
-        parts=list_parts(row, task.site.ranges["inclination"]),
+        parts=list_parts(known.row, task.site.ranges["inclination"]),
         drawing=drawing,
         unsaid=list(row.unsaid),
         questions=list(row.questions),
@@ -175,7 +157,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         forces=list(known.largest.values()),
-        guideline=record_guideline(row, foot, task.standard),
+        guideline=record_guideline(known.row, foot, task.standard),
         floor=known.floor,
         model_form=model_form,
         panel=panel,
@@ -183,35 +165,44 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         held_sideways=known.along_row,
         tilt=known.tilt,
         end_guy=known.at_end,
-        envelope=record_envelope(solved),
-        reliability=_find_reliability(task, known, found, run),
-        conditions=list_conditions(known),
+        envelope=record_envelope(task.solved),
+        reliability=_find_reliability(worst, found, run),
+        conditions=merge_conditions(
+            one for each in variants for one in list_conditions(each.known)
+        ),
     )
 
 
+def _find_worst_variant(found: RowChecks, variants: Sequence[Variant]) -> Variant:
+    """Variant of the most used check: its forces and its drawing are those shown."""
+    worst = find_worst(found.checks)
+    if worst is None:
+        return variants[0]
+    known = found.judged[worst.id].known
+    return next(one for one in variants if one.known is known)
+
+
 def _find_reliability(
-    task: RowToCheck, known: RowForces, found: RowChecks, run: CheckRun
+    at: Variant, found: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
     solver = CaseSolver(run.settings, run.creep_law)
     record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
-    made: ReliabilityRecord = record(task, known, found, solver)
+    made: ReliabilityRecord = record(at.task, at.known, found, solver)
     return made
 
 
-def _check_row(
-    task: RowToCheck, known: RowForces
+def _ask_other_models(
+    task: RowToCheck, found: RowChecks
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of those, it is not trusted in the checks either.
     """
-    found = check_row(task, known)
-    worst = find_worst(found.checks)
     before = task.count_faults()
-    form = _find_model_form(task, worst)
+    form = _find_model_form(task, find_worst(found.checks))
     if task.count_faults() > before:
         found = replace(found, checks=[distrust(one) for one in found.checks])
     return found, form
@@ -240,44 +231,3 @@ def _find_model_form(task: RowToCheck, worst: Check | None) -> ModelFormRecord |
     member = _name_largest(worst)
     governing = task.extremes[member].governing
     return record_model_form(task.solver, task.row, governing, member, worst)
-
-
-def know_row(task: RowToCheck, floor: Floor | None) -> RowForces:
-    """Knowledge of a row by its cases and the guideline's load."""
-    site, row, standard = task.site, task.row, task.standard
-    results, extremes = task.solved.results, task.extremes
-    effects = find_effects(row, standard, site.ranges)
-    head = floor.head if floor else None
-    held, factors = find_held_sideways(task, head), (1.0, 1.0)
-    if floor is not None:
-        factors = find_rope_factors(results, floor)
-    known = RowForces(
-        site=site,
-        row=row,
-        standard=standard,
-        law=task.law,
-        effects=effects,
-        largest={k: record_largest(one, task.solved) for k, one in extremes.items()},
-        floor=record_floor(floor, row, factors),
-        held=held,
-        tilt=find_tilt(
-            row, (one.case.inclination for one in results if one.is_converged)
-        ),
-        gap=task.solved.gap,
-        panel_gap=_find_failed_panel(row, results),
-    )
-    share, one_way = effects.lateral_share, find_one_way_pull(known)
-    known = replace(known, pulls=tuple(list_pulls(task, share, head, one_way)))
-    along = find_end_pull(known)
-    if along is None:
-        return known
-    load = EndShare(end=effects.supports[-1], along=along, factor=factors[1])
-    return replace(known, end_guy=find_end_guy(task, load))
-
-
-def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
-    """Reason why an assumed panel fails, so that nothing is known of the row."""
-    failed = [one for one in results if isinstance(one.panel, FailedPanel)]
-    if not failed or not row.panel_assumed:
-        return None
-    return say("panel.assumed_fails", reason=failed[0].lack or "")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
@@ -10,11 +10,10 @@ from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
 from netdesign.checks.comparison import find_missing_force
 from netdesign.checks.schema import BY_REPORT
 from netdesign.checks.tested import find_proof_factor
-from netdesign.outcome import Verdict
+from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.pull_out import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
-    CONNECTED,
     ROPE_OF,
     EndMember,
     Member,
@@ -23,10 +22,8 @@ from netdesign.structure.members import (
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.bores import check_anchor_distance, check_cover
 from netdesign.study.dependent import (
-    connect,
     corrode,
     find_resistance_for_force,
-    may_bend,
     resist,
     settle_basis,
     shorten_bond,
@@ -37,11 +34,10 @@ from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
-    lifts,
+    size_force,
 )
 from netdesign.study.posts import ask_efficiency, find_short_post
 from netdesign.study.pulls import (
-    check_direction,
     doubt_mortar,
     find_pull,
 )
@@ -61,6 +57,7 @@ UNBOUNDED = (
 )
 
 
+WORSE = (Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL)
 # What stands behind the id of a check, by the support that it is of.
 AT_SUPPORT: Mapping[Position, str] = {
     "intermediate": "",
@@ -73,14 +70,19 @@ AT_SUPPORT: Mapping[Position, str] = {
 class MemberCheck:
     """Check of one member of one support in one mode, with what it was judged from.
 
-    ``force`` is None where it is not known at all.
+    ``force`` is None where it is not known at all; ``known`` is the variant of the row
+    on which the check is worst, ``best`` that on which it is least used, ``again``
+    judges the same on another one.
     """
 
+    known: RowForces
     given: Resistance
     width: LoadedWidth
     check: Check
     force: MemberForce | None = None
     pull: PullRecord | None = None  # on an anchor, where one is known
+    best: RowForces | None = None  # None where there is one variant
+    again: Callable[[RowForces], MemberCheck] | None = None
 
     @property
     def name(self) -> tuple[str, str]:
@@ -110,154 +112,35 @@ class MemberCheck:
         return -1.0 if high is None else high
 
 
-def judge_members(known: RowForces) -> list[MemberCheck]:
-    """Checks of both supports' members, then of the net and what holds its ropes."""
-    effects, row = known.effects, known.row
-    at_end, not_checked = effects.find_support("edge"), known.standard.not_checked
-    held = row.row_end.resistances if row.row_end else ()
-    parts = () if "mesh" in not_checked else row.net_parts
-    of_supports: dict[str, list[MemberCheck]] = {
-        width.position: list(
-            _judge_at(known, width, row.resistances_at(width.position))
-        )
-        for width in effects.supports
-    }
-    judged = [
-        *_place_second(known, of_supports),
-        *_judge_at(known, at_end, (*parts, *held)),
-    ]
-    gap = find_open(row, judged)
-    turned: dict[str, list[MemberCheck]] = {
-        width.position: _judge_directions(
-            known, row.resistances_at(width.position), width, gap
-        )
-        for width in effects.supports
-    }
-    of_end = _judge_directions(known, held, at_end, gap)
-    return [*judged, *_place_second(known, turned), *of_end]
-
-
-def _judge_at(
-    known: RowForces, width: LoadedWidth, resistances: Iterable[Resistance]
-) -> Iterator[MemberCheck]:
-    """Checks of the members of one support, each rope's with those of its links.
-
-    Those of the directions come once these are known.
-    """
-    for given in resistances:
-        if given.mode == "direction" or not _concerns(known, given):
-            continue
-        yield _judge_member(known, given, width)
-        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
-        if is_rope and "connections" not in known.standard.not_checked:
-            chain = _find_chain(known, given, width)
-            yield _judge_member(known, chain, width)
-
-
-def _judge_directions(
-    known: RowForces,
-    resistances: Iterable[Resistance],
-    width: LoadedWidth,
-    gap: Message | None,
-) -> list[MemberCheck]:
-    """Checks of the angles of rope anchors of one support, and of blocks that hold."""
-    turns = (given for given in resistances if given.mode == "direction")
-    judged = (_judge_direction(known, given, width, gap) for given in turns)
-    return [
-        one
-        for one in judged
-        if one.check.verdict is Verdict.PASS or not may_bend(one.given)
-    ]
-
-
-def _judge_direction(
-    known: RowForces, given: Resistance, width: LoadedWidth, gap: Message | None
-) -> MemberCheck:
-    """Check of a rope anchor's angle; beyond what it turns by, of its head."""
-    pull = find_pull(known.pulls, given.member, width.position)
-    check = check_direction(pull, known.standard, gap) if pull else None
-    if check is None:
-        return _judge_member(known, given, width)
-    check = replace(
-        check, id=check.id + AT_SUPPORT[width.position], position=width.position
-    )
-    return MemberCheck(given=given, width=width, check=check, pull=pull)
-
-
-_AS_INSIDE = 1.01  # times the utilisation inside the row: the second support is alike
-_WORSE = (Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL)
-
-
-def _place_second(
-    known: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
-) -> list[MemberCheck]:
-    """Checks of all supports, those of the second one where they can govern.
-
-    It has the types inside and no less load. Where that is alike, its check is the one
-    inside; where the end has the same type with more load, that check says all.
-    """
-    inside, at_end = of_supports["intermediate"], of_supports.get("edge", ())
-    kept, ends = ({one.name: one for one in each} for each in (inside, at_end))
-    beside = []
-    for one in of_supports.get("second", ()):
-        within = kept.get(one.name, one)  # none of a block that does not hold inside
-        if _is_no_worse(one, within) or _is_covered(known, one, ends.get(one.name)):
-            continue
-        if 0.0 < _rate_load(one) <= _AS_INSIDE * _rate_load(within):
-            as_inside = replace(one.check, id=within.check.id, position="intermediate")
-            kept[one.name] = replace(one, check=as_inside)
-        else:
-            beside.append(one)
-    return [*kept.values(), *beside, *at_end]
-
-
-def _rate_load(one: MemberCheck) -> float:
-    """Upper end of the utilisation, or of the force where no resistance is known."""
-    return one.ratio if one.ratio >= 0.0 else one.check.read_band("E_d")[1] or 0.0
-
-
-def _is_no_worse(one: MemberCheck, other: MemberCheck) -> bool:
-    """Neither more used nor loaded nor of a worse verdict."""
-    verdicts = [_WORSE.index(each.check.verdict) for each in (one, other)]
-    loads = [each.check.read_band("E_d")[1] or 0.0 for each in (one, other)]
-    is_less = one.ratio <= other.ratio and loads[0] <= loads[1]
-    return is_less and verdicts[0] <= verdicts[1]
-
-
-def _is_covered(known: RowForces, one: MemberCheck, end: MemberCheck | None) -> bool:
-    """The end's check of the same type is worse; no document for it alone."""
-    if end is None or not end.given.type_id or end.given.type_id != one.given.type_id:
-        return False
-    at_end, here = (
-        known.site.find_declaration(known.row, *one.name, place)
-        for place in ("edge", "second")
-    )
-    return at_end == here and _is_no_worse(one, end)
-
-
-def _concerns(known: RowForces, given: Resistance) -> bool:
-    """The check is one of this row and profile: some case lifts a foot that is held."""
-    if given.member == Member.POST_FOOT:
-        return lifts(known.largest.values(), known.floor)
-    return given.mode != "wedge" or "anchor_ground" not in known.standard.not_checked
-
-
-def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resistance:
-    """Resistance of the links between a rope and its anchor."""
-    anchor = CONNECTED[given.member]
-    pull = find_pull(known.pulls, anchor, width.position) if anchor else None
-    return connect(given, known.site.links, pull, known.standard)
-
-
-def _judge_member(
+def judge_member(
     known: RowForces, given: Resistance, width: LoadedWidth
 ) -> MemberCheck:
+    """Check of a member of one support, on one variant of the row."""
     unsaid = _find_unsaid(known, given, width)
     if unsaid:  # whatever else is missing
         points = [Open(kind=OpenKind.UNSOLVED, message=unsaid)]
         check = replace(judge_force(known, given, None, width, points), open=points)
-        return MemberCheck(given=given, width=width, check=check)
+        return MemberCheck(known=known, given=given, width=width, check=check)
     force = find_force(known, given, width)
+    pull = find_pull(known.pulls, given.member, width.position)
+    given, points = _resist_and_ask(known, given, width, force)
+    check = judge_force(known, given, force, width, points)
+    short = find_short_post(given, known)
+    if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
+        given = replace(given, value=None, lack=short)
+        check = judge_force(known, given, force, width, points)
+    met = rate_utilisation(*check.utilisation_band)
+    if given.doubt and (given.best is None or met is Verdict.NOT_PROVEN):
+        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, given.doubt)
+    return MemberCheck(
+        known=known, given=given, width=width, force=force, check=check, pull=pull
+    )
+
+
+def _resist_and_ask(
+    known: RowForces, given: Resistance, width: LoadedWidth, force: MemberForce | None
+) -> tuple[Resistance, list[Open]]:
+    """Resistance of a member to a force, and all that is open of both."""
     pull = find_pull(known.pulls, given.member, width.position)
     given, unsure = find_lasting(known, given, pull)
     if force is not None:
@@ -267,15 +150,59 @@ def _judge_member(
         points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
     if unsure:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
-    check = judge_force(known, given, force, width, points)
-    short = find_short_post(given, known)
-    if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
-        given = replace(given, value=None, lack=short)
-        check = judge_force(known, given, force, width, points)
-    met = rate_utilisation(*check.utilisation_band)
-    if given.doubt and (given.best is None or met is Verdict.NOT_PROVEN):
-        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, given.doubt)
-    return MemberCheck(given=given, width=width, force=force, check=check, pull=pull)
+    return given, points
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rating:
+    """What decides how grave a member's check is, before its calculation is made.
+
+    Attributes
+    ----------
+    group : tuple
+        What is open of it: of two checks with the same that of the larger use is the
+        graver one.
+    low, high : float
+        Force over resistance, ends of its band [kN/N]; over 1 without a resistance.
+    """
+
+    group: tuple[object, ...]
+    low: float
+    high: float
+
+
+def rate_member(
+    known: RowForces, given: Resistance, width: LoadedWidth
+) -> Rating | None:
+    """Rating of a member's check; None where only the check itself tells it."""
+    if _find_unsaid(known, given, width):
+        return Rating(group=(), low=0.0, high=0.0)
+    try:
+        force = size_force(known, given, width)
+    except ModelError:  # outside the range of an operation
+        return None
+    if force is None:
+        return None
+    lasting, points = _resist_and_ask(known, given, width, force)
+    least, most = _find_resistance_ends(lasting, force)
+    action, short = force.action, find_short_post(lasting, known)
+    if action.low is None or action.high is None:
+        return None
+    lack = lasting.lack.key if lasting.lack else ""
+    kinds = [(one.kind, one.message.key) for one in points]
+    is_known = (lasting.value is None, lasting.doubt is None, lasting.best is None)
+    group = (*kinds, lack, short is None, *is_known, action.low > 0.0)
+    return Rating(group=group, low=action.low / most, high=action.high / least)
+
+
+def _find_resistance_ends(given: Resistance, force: MemberForce) -> tuple[float, float]:
+    """Least and largest resistance to a force, [N] or of any unit; 1 where unknown."""
+    pressing = force.on.pressing
+    if isinstance(given.dimensions, float) and pressing is not None:
+        found = given.dimensions * (pressing.value or 0.0)
+        return found or 1.0, found or 1.0
+    least = given.value or 1.0
+    return least, max(least, given.best or 0.0)
 
 
 def _list_open(
@@ -455,14 +382,31 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     return next(points, None)
 
 
-def check_others(known: RowForces, judged: Sequence[MemberCheck]) -> Iterator[Check]:
-    """Checks that compare no force: load along the row, geometry."""
+def check_others(
+    variants: Sequence[RowForces], judged: Sequence[MemberCheck]
+) -> Iterator[Check]:
+    """Checks that compare no force: load along the row, geometry; each at its worst."""
+    known = variants[0]
     gap = find_open(known.row, judged)
-    yield check_sideways(known.row, known.held, known.standard, gap)
-    for found in (check_anchor_distance(known, gap), check_cover(known, gap)):
-        if found is not None:
-            yield found
+    yield _take_gravest(
+        check_sideways(one.row, one.held, one.standard, gap) for one in variants
+    )
+    for check in (check_anchor_distance, check_cover):
+        found = [check(one, gap) for one in variants]
+        if known_ones := [one for one in found if one is not None]:
+            yield _take_gravest(known_ones)
     yield from check_row_geometry(known)
+
+
+def _take_gravest(checks: Iterable[Check]) -> Check:
+    """Check of the gravest verdict; one that does not fail everywhere is not proven."""
+    every = list(checks)
+    gravest = max(every, key=lambda one: WORSE.index(one.verdict))
+    if gravest.verdict is Verdict.FAIL and any(
+        one.verdict is not Verdict.FAIL for one in every
+    ):
+        return replace(gravest, met=Verdict.NOT_PROVEN)
+    return gravest
 
 
 def apply_declaration(basis: Basis, check: Check) -> Check:

@@ -6,10 +6,9 @@ forces, the guideline's, cells of the workbook, values of the profile.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 
-from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.quantity import Kind, Quantity, given, strip
 from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
@@ -30,18 +29,17 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
-from netdesign.study.effects import RowEffects
+from netdesign.study.case_records import FloorRecord, LargestForce
 from netdesign.study.maker import list_maker_leaves
 from netdesign.study.pulls import GUY_ANCHORS, may_share
-from netdesign.study.row_to_check import Basis
+from netdesign.study.row_forces import MemberForce as MemberForce
+from netdesign.study.row_forces import RowForces as RowForces
+from netdesign.study.row_forces import high_of
 from netdesign.study.support_records import (
-    EndGuyRecord,
     HeldSidewaysRecord,
-    PullRecord,
 )
 from netdesign.units import degree_from_radian, newton_from_kilonewton
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 # What the end guy's pull on the head loads, by the part of it in each.
 PUSHED: Mapping[str, str] = {
@@ -69,158 +67,6 @@ PARTS: Mapping[str, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowForces(Basis):
-    """Knowledge of a row by its solved cases, or by its study, in engineer's units.
-
-    Attributes
-    ----------
-    effects : RowEffects
-        Supports that differ in their load.
-    largest : mapping of str to LargestForce
-        Largest solved forces by their keys, with what may hide.
-    floor : FloorRecord or None
-        Forces by the guideline's load; None where it is no floor.
-    held : HeldSidewaysRecord or Message
-        Load along the row at the head, or why nothing holds it.
-    tilt : float
-        Largest force along the slope at a post's base over that across, (S19) [-].
-    end_guy : EndGuyRecord, Message or None
-        What the end guy does to the end's support, or why nothing holds that; None
-        without a guy whose angle is given.
-    pulls : tuple of PullRecord
-        Directions at the anchors.
-    gap : Message or None
-        Why the forces do not cover every case.
-    panel_gap : Message or None
-        Why an assumed panel fails, so that nothing is known of the row.
-    """
-
-    effects: RowEffects
-    largest: Mapping[str, LargestForce]
-    floor: FloorRecord | None
-    held: HeldSidewaysRecord | Message
-    tilt: float
-    end_guy: EndGuyRecord | Message | None = None
-    pulls: tuple[PullRecord, ...] = ()
-    gap: Message | None = None
-    panel_gap: Message | None = None
-
-    @property
-    def along_row(self) -> HeldSidewaysRecord | None:
-        """Load along the row at the head; None where nothing holds it."""
-        return self.held if isinstance(self.held, HeldSidewaysRecord) else None
-
-    @property
-    def at_end(self) -> EndGuyRecord | None:
-        """What the end guy does to the end's support; None where it is not known."""
-        return self.end_guy if isinstance(self.end_guy, EndGuyRecord) else None
-
-    @property
-    def floor_gap(self) -> Message | None:
-        """Reason why the guideline's load is not known."""
-        return self.floor.reason if self.floor else None
-
-    def find_least(self, member: str) -> FloorForceRecord | None:
-        """Force of a member by the guideline's load; None where there is none."""
-        forces = self.floor.forces if self.floor else ()
-        return next((one for one in forces if one.member == member), None)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MemberForce:
-    """Characteristic force on one member of one support, with where it comes from.
-
-    Attributes
-    ----------
-    on : SupportForce
-        The force, step by step.
-    solved : tuple of LargestForce
-        By section, and by the panel between posts where there is one.
-    largest : LargestForce
-        Larger one of them, which the check names its case by.
-    pull, rise : float
-        Largest pull on a head, which brings what is added, 0 without any; and what that
-        grows by at most where the pull doubles [kN].
-    """
-
-    on: SupportForce
-    solved: tuple[LargestForce, ...]
-    largest: LargestForce
-    pull: float = 0.0
-    rise: float = 0.0
-
-    @property
-    def action(self) -> Quantity:
-        """E_k [kN]."""
-        return self.on.action
-
-    @property
-    def is_by_panel(self) -> bool:
-        """The force by the panel between posts is larger than that of the section."""
-        return _high(self.on.by_panel) > _high(self.on.coupled)
-
-    @property
-    def is_by_truss(self) -> bool:
-        """The truss of post, guys and end guy has the largest force."""
-        loads = (self.on.coupled, self.on.by_panel, self.on.guideline)
-        shared = self.on.shared
-        return shared is not None and _high(shared) >= max(map(_high, loads))
-
-    @property
-    def is_post_beside(self) -> bool:
-        """A post beside the end: what presses it is worked out together, (P11)."""
-        on, posts = self.on, (Member.POST, Member.POST_BASE)
-        is_post = self.largest.quantity in (*posts, *map(name_in_panel, posts))
-        return is_post and on.support.is_second and on.push is not None
-
-    @property
-    def on_support(self) -> float:
-        """Force on the support over that inside the row, lateral load included [-]."""
-        support, lateral = self.on.support, self.on.load.lateral
-        if self.largest.quantity in tuple(RopeForce):
-            return _high(self.action) / (self.largest.high_kN or 1.0)
-        if support.end_factor is not None and support.width is None:  # of the mesh
-            return 1.0 + (support.end_factor.value or 0.0)
-        ratio = 1.0
-        if support.width is not None and support.spacing is not None:
-            ratio = (support.width / support.spacing).value or 1.0
-        return ratio * ((lateral.value if lateral else None) or 1.0)
-
-    @property
-    def share(self) -> float:
-        """Part of the section's force in the member [-]."""
-        share = self.on.load.share
-        return self._tilt * ((share.value if share else None) or 1.0)
-
-    @property
-    def _tilt(self) -> float:
-        return (self.on.tilt.value if self.on.tilt else None) or 1.0
-
-    @property
-    def added(self) -> float:
-        """Force that the load along the row adds, inside the row [kN]."""
-        added = self.on.load.added
-        return self._tilt * ((added.value if added else None) or 0.0)
-
-    @property
-    def added_high(self) -> float:
-        """Upper end of what the load along the row adds, inside the row [kN]."""
-        return self._tilt * (_high(self.on.load.added) + _high(self.on.load.across))
-
-    def compare_load(self, other: MemberForce) -> float:
-        """Load of its support over that of another [-].
-
-        The larger growth of width and of what the end guy brings counts for both.
-        """
-        growth, push = self.on_support / other.on_support, _high(other.on.push)
-        return max(growth, _high(self.on.push) / push) if push else growth
-
-
-def _high(quantity: Quantity | None) -> float:
-    return (quantity.high if quantity else None) or 0.0
-
-
 def find_cell(row: NetRow, column: str, sheet: str = "Nets") -> str:
     """Cell of a row's input; "" where it has none."""
     label = say(f"column.{sheet}.{column}")
@@ -236,13 +82,45 @@ def solve_for(record: LargestForce, symbol: str) -> Quantity:
     )
 
 
-def find_force(
+def size_force(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
+) -> MemberForce | None:
+    """The force that `find_force` finds, by its size alone.
+
+    Raises
+    ------
+    ModelError
+        Where an operation of its formula lies outside its range.
+    """
+    key = (resistance.member, resistance.mode == "sliding", width.position)
+    if key not in forces.sizes:
+        forces.sizes[key] = find_force(forces, resistance, width, is_size=True)
+    return forces.sizes[key]
+
+
+def _calculate(
+    forces: RowForces, leaves: Sequence[Quantity], *, is_size: bool
+) -> SupportForce:
+    """Force from its leaves, with its way unless its size alone is asked for."""
+    kept = map(strip, leaves) if is_size else leaves
+    symbols = (one.symbol for one in leaves)
+    return calculate_force(
+        dict(zip(symbols, kept, strict=True)),
+        by_guideline=forces.standard.is_by_guideline,
+    )
+
+
+def find_force(
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    *,
+    is_size: bool = False,
 ) -> MemberForce | None:
     """Force on a member of the support of that width; None without a solved case."""
     member = resistance.member
     if member in ROPE_OF:
-        return _find_end_force(forces, member, width)
+        return _find_end_force(forces, member, width, is_size=is_size)
     section = forces.largest.get(member)
     if section is None:
         return None
@@ -263,21 +141,16 @@ def find_force(
         leaves += _list_rope_leaves(forces, member, width)
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
-    force = calculate_force(
-        {one.symbol: one for one in leaves},
-        by_guideline=forces.standard.is_by_guideline,
-    )
-    is_by_panel, held = _high(force.by_panel) > _high(force.coupled), forces.along_row
-    has_no_pull = member in (
-        Member.FOOT_ANCHOR,
-        NetPart.MESH,
-        *forces.row.layout.anchors_at_foot,
-    )
+    force = _calculate(forces, leaves, is_size=is_size)
+    is_by_panel, held = high_of(force.by_panel) > high_of(force.coupled), None
+    at_foot = (Member.FOOT_ANCHOR, *forces.row.layout.anchors_at_foot)
+    if member not in (NetPart.MESH, *at_foot):
+        held = forces.along_row
     return MemberForce(
         on=force,
         solved=(section,) if panel is None else (section, panel),
         largest=panel if panel is not None and is_by_panel else section,
-        pull=held.pull_kN if held and not has_no_pull else 0.0,
+        pull=held.pull_kN if held else 0.0,
         rise=rise,
     )
 
@@ -303,7 +176,7 @@ def find_guideline_force(
 
 
 def _find_end_force(
-    forces: RowForces, member: str, width: LoadedWidth
+    forces: RowForces, member: str, width: LoadedWidth, *, is_size: bool
 ) -> MemberForce | None:
     """Force of a border rope, or on a member that holds its pull at the row's end.
 
@@ -318,7 +191,7 @@ def _find_end_force(
     leaves += _list_floor_factor(forces, ROPE_OF[member])
     if member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
         leaves += _list_guy_angle(forces.row)
-    force = calculate_force({one.symbol: one for one in leaves})
+    force = _calculate(forces, leaves, is_size=is_size)
     return MemberForce(on=force, solved=(rope,), largest=rope)
 
 
@@ -331,7 +204,7 @@ def find_end_pull(forces: RowForces) -> float | None:
     leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
     leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
     pull = calculate_force({one.symbol: one for one in leaves}).action
-    return newton_from_kilonewton(_high(pull))
+    return newton_from_kilonewton(high_of(pull))
 
 
 def find_one_way_pull(forces: RowForces) -> float:
@@ -342,7 +215,7 @@ def find_one_way_pull(forces: RowForces) -> float:
     leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
     leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
     found = calculate_force({one.symbol: one for one in leaves})
-    return _high(found.push)
+    return high_of(found.push)
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
@@ -393,7 +266,7 @@ def _list_load_leaves(
     if member in PARTS:
         part: float = getattr(held, PARTS[member])
         leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
-        rise = _high(load_guy(*leaves).added)
+        rise = high_of(load_guy(*map(strip, leaves)).added)
         leaves += by_floor[:1]
         if not is_shared(forces.row, member):
             return leaves, rise
@@ -406,13 +279,15 @@ def _list_load_leaves(
         for force in (0.0, held.least_tension_kN)
     )
     # the least tension does not grow
-    rise = _high(load_post(weight, share, pull, splay, nothing).added)
-    leaves = [weight, share, pull, splay, least]
-    added = [load_post(*leaves).added]
+    of_post = [weight, share, pull, splay]
+    rise = high_of(load_post(*map(strip, (*of_post, nothing))).added)
+    leaves = [*of_post, least]
+    added = [load_post(*map(strip, leaves)).added]
     if by_floor:
         of_floor, own = by_floor
-        added.append(load_post(weight, share, of_floor, splay, own).added)
-    is_loaded = any(map(_high, added)) or width.position == "second"
+        alike = (weight, share, of_floor, splay, own)
+        added.append(load_post(*map(strip, alike)).added)
+    is_loaded = any(map(high_of, added)) or width.position == "second"
     return ([*leaves, *by_floor] if is_loaded else []), rise
 
 

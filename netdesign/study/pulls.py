@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -31,7 +32,7 @@ from netdesign.structure.row_position import (
 )
 from netdesign.structure.splay import Guys
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import SupportState, list_states, place_row
+from netdesign.study.sideways import SupportState, place_row
 from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
@@ -44,27 +45,62 @@ USUAL_DIP = math.radians(15.0)
 _CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FootPulls:
+    """Pulls of the net on foot anchors over the states of a row.
+
+    Attributes
+    ----------
+    turns : tuple of float
+        Least and largest inclination, as `measure_pull` has it [rad]; empty without
+        any state.
+    along : float
+        Largest pull of the lower rope along the row over that of the net on a foot [-].
+    """
+
+    turns: tuple[float, ...]
+    along: float
+
+
+def measure_feet(states: Sequence[SupportState]) -> FootPulls:
+    """Pulls on the foot anchors: they are the same on every layout of a support."""
+    turns = [
+        measure_pull(x, y, Member.FOOT_ANCHOR)
+        for state in states
+        for x, y in state.feet
+    ]
+    shares = (
+        one.panel.solution.lower.along / one.anchors.foot_anchor.size
+        for one in states
+        if one.panel is not None and one.anchors.foot_anchor.size > 0.0
+    )
+    return FootPulls(
+        turns=(min(turns), max(turns)) if turns else (), along=max(shares, default=0.0)
+    )
+
+
 def list_pulls(
-    task: RowToCheck, share: float, floor: HeadSpan | None, one_way: float = 0.0
+    task: RowToCheck,
+    feet: FootPulls,
+    share: float,
+    floor: HeadSpan | None,
+    one_way: float = 0.0,
 ) -> list[PullRecord]:
     """Pull on every anchor over the converged cases and under the floor's load.
 
-    ``share`` acts along the row. Behind those inside comes the foot beside the end,
-    which holds ``one_way`` of the lower rope's pull along the row; last the anchors of
-    the row's end: those of types of their own, then those that hold the row along it.
+    ``feet`` is what these cases bring to the foot, ``share`` acts along the row. Behind
+    those inside comes the foot beside the end, which holds ``one_way`` of the lower
+    rope's pull along the row; last the anchors of the row's end: those of types of
+    their own, then those that hold the row along it.
     """
     row, solved = task.row, [one for one in task.solved.results if one.is_converged]
     points = [place_row(row, one.case.inclination) for one in solved]
-    states = [state for one in solved for state in list_states(row, one)]
-    feet = [force for state in states for force in state.feet]
     directions = {
         anchor: [_measure_guy(place, anchor, row.guys) for place in points]
         for anchor in ANCHORS
     }
-    directions[Member.FOOT_ANCHOR] = [
-        measure_pull(x, y, Member.FOOT_ANCHOR) for x, y in feet
-    ]
-    if floor is not None and feet:
+    directions[Member.FOOT_ANCHOR] = list(feet.turns)
+    if floor is not None and feet.turns:
         directions[Member.FOOT_ANCHOR] += [floor.foot_least, floor.foot_largest]
     if row.layout.is_foot_shared:  # one anchor, pulled both ways
         both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
@@ -76,21 +112,11 @@ def list_pulls(
         for anchor, pulls in ranges.items()
         if pulls is not None
     ]
-    at_foot, turn = ranges[Member.FOOT_ANCHOR], one_way * _find_along(states)
+    at_foot, turn = ranges[Member.FOOT_ANCHOR], one_way * feet.along
     if at_foot is not None and turn > 0.0:
         foot = (row, Member.FOOT_ANCHOR, at_foot, share + turn)
         of_supports.insert(len(ANCHORS), build_pull(*foot, position="second"))
     return [*of_supports, *_list_end_pulls(row, points)]
-
-
-def _find_along(states: Sequence[SupportState]) -> float:
-    """Largest pull of the lower rope along the row over that of the net on a foot."""
-    shares = (
-        one.panel.solution.lower.along / one.anchors.foot_anchor.size
-        for one in states
-        if one.panel is not None and one.anchors.foot_anchor.size > 0.0
-    )
-    return max(shares, default=0.0)
 
 
 def _list_end_pulls(

@@ -17,6 +17,7 @@ from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.study.effects import find_solved_ground
+from netdesign.study.variants import list_layouts
 from netdesign.words.message import Message, say
 
 
@@ -87,12 +88,14 @@ def build_row_task(
     settings: SolverSettings,
 ) -> CaseTask:
     """Task of one case of a net row; a refused scene is a named refusal."""
+    layout, *others = list_layouts(row)
     return build_task(
         case,
         lambda one: build_scene(row, one, law),
-        row.layout,
+        layout,
         settings,
         row.solved_panels,
+        tuple(others),
     )
 
 

@@ -33,11 +33,13 @@ from netdesign.structure.splay import (
     EndHead,
     compute_splayed_head,
     hold_end_guy,
+    is_held_sideways,
     share_with_end_guy,
     weigh_splay,
 )
 from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.support_records import EndGuyRecord, HeldSidewaysRecord
+from netdesign.study.variants import is_layout_assumed
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
@@ -49,7 +51,7 @@ GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 
 
 def find_held_sideways(
-    task: RowToCheck, floor: HeadSpan | None
+    task: RowToCheck, heads: Sequence[SupportState], floor: HeadSpan | None
 ) -> HeldSidewaysRecord | Message:
     """Load along the row at its heads over the solved cases, or why it is not held.
 
@@ -58,6 +60,8 @@ def find_held_sideways(
     task : RowToCheck
         Row with its guys, cases and largest forces; the profile gives the share of the
         load.
+    heads : sequence of SupportState
+        States of all its cases.
     floor : HeadSpan or None
         What the guideline's load brings at the head; None without a floor.
     """
@@ -68,12 +72,14 @@ def find_held_sideways(
     lack = find_lack(row)
     if lack is not None or splay is None:
         return lack or say("sideways.no_splay")
-    heads = [head for one in results for head in list_states(row, one)]
     if not heads:
         return describe_gap(results) or say("check.no_case_solved")
-    failed = (_fail(head, value.value, splay) for head in heads)
-    reason = next((one for one in failed if one is not None), None)
-    return reason or _record(task, heads, floor, (value.value, splay))
+    pulls, places = zip(*((one.head_pull, one.points) for one in heads), strict=True)
+    if not is_held_sideways(pulls, places, share=value.value, splay=splay):
+        failed = (_fail(head, value.value, splay) for head in heads)
+        reason = next((one for one in failed if one is not None), None)
+        return reason or say("support.not_held_sideways")
+    return _record(task, heads, floor, (value.value, splay))
 
 
 def _record(
@@ -91,11 +97,13 @@ def _record(
     in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
     solved = min(head.tension for head in heads)
     pull = _widen(row, heads, sum(hidden.values()))
-    of_floor = _find_floor_tension(row, floor)
-    # Between two panels as they may be built, the guy of one side can give way to that
-    # of the other: then none is counted on.
-    least = 0.0 if row.panel_assumed else max(0.0, solved - in_guys)
-    uphill, downhill, post = weigh_places([one.points for one in heads])
+    of_floor = 0.0 if is_layout_assumed(row) else _find_floor_tension(row, floor)
+    # Between two panels or two layouts as they may be built, the guy of one side can
+    # give way to that of the other: then none is counted on.
+    is_assumed = row.panel_assumed or is_layout_assumed(row)
+    least = 0.0 if is_assumed else max(0.0, solved - in_guys)
+    places = {id(one.points): one.points for one in heads}
+    uphill, downhill, post = weigh_places(places.values())
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -124,7 +132,7 @@ def weigh_places(places: Iterable[SupportPoints]) -> tuple[float, float, float]:
 def _fail(head: SupportState, share: float, splay: float) -> Message | None:
     """Reason why the load along the row is not held in a state."""
     found = compute_splayed_head(
-        head.anchors.head_pull, head.points, sideways=share * head.pull, splay=splay
+        head.head_pull, head.points, sideways=share * head.pull, splay=splay
     )
     if isinstance(found, FailedSupport):
         return found.reason
@@ -230,7 +238,7 @@ def _share_end(
     heads = [
         EndHead(points=one.points, pull=(scale * x, scale * y), along=load.along)
         for one in states
-        for x, y in (one.anchors.head_pull,)
+        for x, y in (one.head_pull,)
     ]
     if all(one.panel is None for one in states):
         return None
@@ -298,7 +306,9 @@ class SupportState:
     points : SupportPoints
         Geometry [m].
     anchors : AnchorForces
-        On the ground [N].
+        On the ground; those of a panel on the row's first layout [N].
+    head_pull : tuple of float, shape (2,)
+        Of the net on the head [N].
     foot, head : EndPull or None
         Pulls of the net with their errors [N/m]; None without a solution.
     tension : float
@@ -309,6 +319,7 @@ class SupportState:
     panel: PanelForces | None = None
     points: SupportPoints
     anchors: AnchorForces
+    head_pull: Point
     foot: EndPull | None
     head: EndPull | None
     tension: float = 0.0
@@ -316,7 +327,7 @@ class SupportState:
     @property
     def pull(self) -> float:
         """Size of the pull on the post head [N]."""
-        return math.hypot(*self.anchors.head_pull)
+        return math.hypot(*self.head_pull)
 
     @property
     def mid_foot(self) -> Point:
@@ -339,6 +350,7 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
         result=result,
         points=points,
         anchors=result.anchors,
+        head_pull=result.anchors.head_pull,
         foot=solution.foot if solution else None,
         head=solution.head if solution else None,
         tension=_add_guys(result.member_forces, GUYS),
@@ -351,6 +363,7 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
                 of_section,
                 panel=one,
                 anchors=one.anchors,
+                head_pull=one.anchors.head_pull,
                 foot=one.foot,
                 head=one.head,
                 tension=_add_guys(one.bands, GUYS_BY_PANEL),

@@ -1,0 +1,313 @@
+"""Checks beyond 1 at the best ends of what is assumed, and the value that decides them.
+
+Density, friction and inclination are design ranges: a row must hold over all of them.
+What is assumed of the product or the geometry has one true value that nobody has said.
+A check fails where it does at the best ends of that, too; else it is not proven, and
+says from which value on it passes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from itertools import product
+
+from netdesign.checks import Check, OpenKind
+from netdesign.envelope.ranges import Case
+from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import Verdict
+from netdesign.site.assumed import Assumed
+from netdesign.site.model import NetRow
+from netdesign.study.judgement import MemberCheck
+from netdesign.study.member_force import RowForces
+from netdesign.study.record_envelope import read_point
+from netdesign.study.row_knowledge import know_alone
+from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.variants import list_layouts, place_variant, read_values
+from netdesign.words.message import Message, say
+
+# What is searched with the cases, but is no design range.
+SEARCHED = ("slack", "net_stiffness")
+_STEPS = 4  # in which the value from which on a check passes is closed in
+_CLOSE = 0.03  # a share of the range: closer is no use to who types the value
+_BETTER = 0.99  # a utilisation below this share of the worst one is told
+
+
+def settle(task: RowToCheck, judged: Sequence[MemberCheck]) -> list[MemberCheck]:
+    """Checks of a row as they are at the best ends of what is assumed of it.
+
+    Parameters
+    ----------
+    task : RowToCheck
+        The row with what is assumed of it, and what solves its cases.
+    judged : sequence of MemberCheck
+        Each where it is worst, eased to the best end of the row's statics.
+
+    Verified by
+    -----------
+    tests/study/test_best_ends.py
+    """
+    ends = _BestEnds(task=task)
+    return [ends.settle(one) for one in judged]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Option:
+    """An assumed value: what a check is at its other end, and between.
+
+    ``worst`` and ``other`` are the ends in SI units, ``rate`` the upper end of the
+    utilisation at a share of the way from the one to the other [-].
+    """
+
+    assumed: Assumed
+    worst: float
+    other: float
+    rate: Callable[[float], float]
+
+    def place(self, share: float) -> float:
+        """Value at a share of the way to the other end."""
+        return self.worst + share * (self.other - self.worst)
+
+    def show(self, value: float) -> Message:
+        """Value in words, with its unit."""
+        return replace(self.assumed, low=value, high=value).text
+
+
+@dataclass(slots=True, kw_only=True)
+class _BestEnds:
+    """Row at other values of what is assumed of it; each is worked out once."""
+
+    task: RowToCheck
+    known: dict[object, RowForces | None] = field(default_factory=dict)
+
+    @property
+    def searched(self) -> list[Assumed]:
+        """What is assumed of the net, and searched with its cases."""
+        found = (self.task.row.find_assumed(key) for key in SEARCHED)
+        return [one for one in found if one is not None and one.is_range]
+
+    def settle(self, one: MemberCheck) -> MemberCheck:
+        """Check at the best ends, with the value that decides it."""
+        check = one.check
+        high = check.utilisation_band[1]
+        is_beyond = check.is_unbounded or (high is not None and high > 1.0)
+        if one.again is None or not is_beyond:
+            return one
+        if check.verdict is Verdict.FAIL and self.searched:
+            check = check.ease(self._find_least(one))
+        if check.verdict is not Verdict.FAIL and (told := self._tell(one)):
+            check = check.with_open(OpenKind.ASSUMED_DECIDES, told)
+        return replace(one, check=check)
+
+    def _find_least(self, one: MemberCheck) -> float:
+        """Low end of the utilisation at the best corner of what is searched [-].
+
+        In the case that governs the check, at its density, friction and inclination:
+        over all cases it is no less. 0 where that cannot be calculated.
+        """
+        ends = product(*((each.low, each.high) for each in self.searched))
+        least = math.inf
+        for corner in ends:
+            names = (each.key for each in self.searched)
+            known = self._know_at(
+                (one.best or one.known).row, one, dict(zip(names, corner, strict=True))
+            )
+            found = self._judge(one, known)
+            low = found.utilisation_band[0] if found else None
+            if found is None or not found.is_unbounded:
+                least = min(least, low or 0.0)
+        return least
+
+    def _judge(self, one: MemberCheck, known: RowForces | None) -> Check | None:
+        if known is None or one.again is None:
+            return None
+        return one.again(known).check
+
+    def _tell(self, one: MemberCheck) -> Message | None:
+        """What is decided by the value that lowers a check most; None of none."""
+        worst = _rate(one.check)
+        options = [*self._vary_statics(one), *self._vary_searched(one)]
+        rated = [(each.rate(1.0), each) for each in options]
+        least, option = min(rated, key=lambda x: x[0], default=(math.inf, None))
+        if option is None or not least < _BETTER * worst:
+            return None
+        told: dict[str, Message | float] = {
+            "name": option.assumed.name,
+            "at": option.show(option.worst),
+            "used": least if math.isinf(worst) else worst,
+        }
+        if least > 1.0:
+            return say(
+                "check.assumed_lowers",
+                **told,
+                other=option.show(option.other),
+                least=least,
+            )
+        bound = option.show(_round(option, _find_share(option.rate, worst, least)))
+        return say("check.assumed_decides", **told, bound=bound)
+
+    def _vary_statics(self, one: MemberCheck) -> Iterator[_Option]:
+        """Other ends of what is assumed of the row's statics, each alone."""
+        values = read_values(one.known.row)
+        for key, worst in values.items():
+            assumed = self.task.row.find_assumed(key)
+            if assumed is None or not assumed.is_range:
+                continue
+            if key == "guy_count" and worst == assumed.high:
+                continue  # a single guy holds nothing along the row
+            other = assumed.low if worst == assumed.high else assumed.high
+            option = _Option(
+                assumed=assumed,
+                worst=worst,
+                other=other,
+                rate=partial(self._rate_statics, one, key, worst, other),
+            )
+            yield option
+
+    def _rate_statics(
+        self, one: MemberCheck, key: str, worst: float, other: float, share: float
+    ) -> float:
+        values = read_values(one.known.row)
+        values[key] = worst + share * (other - worst)
+        if key == "guy_count":
+            if 0.0 < share < 1.0:
+                return math.inf
+            splay = self.task.row.find_assumed("guy_splay")
+            if splay is not None:
+                values["guy_splay"] = splay.high
+        row = place_variant(self.task.row, values)
+        return _rate(self._judge(one, self._know_on(row)))
+
+    def _vary_searched(self, one: MemberCheck) -> Iterator[_Option]:
+        """Other ends of what is searched with the cases, each alone."""
+        if one.check.case is None:
+            return
+        values = read_point(one.check.case).values
+        for assumed in self.searched:
+            worst = values.get(assumed.key)
+            if worst is None:
+                continue
+            middle = 0.5 * (assumed.low + assumed.high)
+            other = assumed.low if worst > middle else assumed.high
+            yield _Option(
+                assumed=assumed,
+                worst=worst,
+                other=other,
+                rate=partial(self._rate_searched, one, assumed.key, worst, other),
+            )
+
+    def _rate_searched(
+        self, one: MemberCheck, key: str, worst: float, other: float, share: float
+    ) -> float:
+        """Utilisation at another value, in proportion to that of the governing case."""
+        row = one.known.row
+        at = {key: worst + share * (other - worst)}
+        rated = (
+            _rate(self._judge(one, self._know_at(row, one, values)))
+            for values in ({key: worst}, at)
+        )
+        here, there = rated
+        whole = _rate(one.check)
+        return there * whole / here if 0.0 < here < math.inf > whole else there
+
+    def _know_on(self, row: NetRow) -> RowForces | None:
+        """Knowledge of a variant of the row, by all its cases."""
+        key = tuple(read_values(row).items())
+        if key not in self.known:
+            task, layouts = self.task, list_layouts(self.task.row)
+            if row.layout in layouts:
+                solved = task.solved.at_layout(layouts.index(row.layout))
+            else:
+                solved = task.solved.on_layout(row.layout)
+            self.known[key] = know_alone(task, row, solved)
+        return self.known[key]
+
+    def _know_at(
+        self, row: NetRow, one: MemberCheck, values: Mapping[str, float]
+    ) -> RowForces | None:
+        """Knowledge of a variant by the governing case of a check, at other values."""
+        task = self.task
+        if task.solver is None or one.check.case is None:
+            return None
+        case = read_point(one.check.case)
+        for name, value in values.items():
+            case = case.with_value(name, value)
+        key = (tuple(read_values(row).items()), case)
+        if key not in self.known:
+            self.known[key] = self._know_case(row, case, values)
+        return self.known[key]
+
+    def _know_case(
+        self, row: NetRow, case: Case, values: Mapping[str, float]
+    ) -> RowForces | None:
+        task = self.task
+        if task.solver is None:
+            return None
+        (result,) = task.solver.solve_all([(task.row, case, task.law)])
+        if not result.is_converged:
+            return None
+        ranges = task.site.ranges
+        for name, value in values.items():
+            ranges = ranges.with_value(name, value)
+        at = replace(task, site=replace(task.site, ranges=ranges))
+        solved = _wrap(task.solved, result)
+        place = list_layouts(task.row).index(row.layout)
+        return know_alone(at, row, solved.at_layout(place))
+
+
+def _wrap(solved: RowEnvelope, result: CaseResult) -> RowEnvelope:
+    """Envelope of one case alone: nothing hides beside it."""
+    forces = [result.member_forces.get(one) for one in solved.members]
+    sizes = tuple(one.value if one else 0.0 for one in forces)
+    maxima = replace(solved.maxima, maximum=sizes, upper_bound=sizes, is_closed=True)
+    return replace(
+        solved, results=(result,), maxima=maxima, confirmations=(), lifted={}
+    )
+
+
+def _rate(check: Check | None) -> float:
+    """Upper end of a utilisation [-]; endless where there is none."""
+    if check is None or check.is_unbounded:
+        return math.inf
+    high = check.utilisation_band[1]
+    return math.inf if high is None else high
+
+
+def _find_share(rate: Callable[[float], float], worst: float, least: float) -> float:
+    """Share of the way to a passing end from which on a check passes; it passes there.
+
+    Between a value beyond 1 and one within, closed in by the line through both.
+    """
+    low, high = 0.0, 1.0
+    for _ in range(_STEPS):
+        if high - low < _CLOSE:
+            break
+        middle = 0.5
+        if worst < math.inf:
+            middle = min(max((worst - 1.0) / (worst - least), 0.1), 0.9)
+        tried = low + (high - low) * middle
+        found = rate(tried)
+        if found <= 1.0:
+            high, least = tried, found
+        else:
+            low, worst = tried, found
+    return high
+
+
+def _round(option: _Option, share: float) -> float:
+    """Value of a share, to three digits and no nearer to the worst end."""
+    low, _ = replace(option.assumed, low=option.place(share), high=0.0).shown
+    end, _ = replace(option.assumed, low=option.other, high=0.0).shown
+    if share >= 1.0 or low == 0.0:
+        return option.place(share)
+    step = 10.0 ** (math.floor(math.log10(abs(low))) - 1)
+    up = math.ceil if end > low else math.floor
+    rounded = (
+        min(up(low / step) * step, end)
+        if end > low
+        else max(up(low / step) * step, end)
+    )
+    return option.place(share) * rounded / low

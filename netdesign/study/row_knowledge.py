@@ -1,0 +1,149 @@
+"""What the solved cases of a row tell of its forces, at each corner of its statics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+from operator import attrgetter
+
+from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import Floor
+from netdesign.panel.solution import FailedPanel
+from netdesign.site.model import NetRow
+from netdesign.study.effects import find_effects
+from netdesign.study.member_force import (
+    RowForces,
+    find_end_pull,
+    find_one_way_pull,
+)
+from netdesign.study.pulls import FootPulls, list_pulls, measure_feet
+from netdesign.study.record_envelope import record_largest
+from netdesign.study.record_guideline import find_row_floor, record_floor
+from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.sideways import (
+    EndShare,
+    SupportState,
+    find_end_guy,
+    find_held_sideways,
+    find_rope_factors,
+    find_tilt,
+    list_states,
+)
+from netdesign.study.variants import list_variants
+from netdesign.words.message import Message, say
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variant:
+    """A corner of what is assumed of a row's statics, and what its cases tell there."""
+
+    task: RowToCheck
+    known: RowForces
+
+
+def know_variants(task: RowToCheck) -> list[Variant]:
+    """All variants of a row; those of one layout share what its cases tell there."""
+    found: list[Variant] = []
+    rows = groupby(list_variants(task.row), key=attrgetter("layout"))
+    feet: FootPulls | None = None
+    for place, (_, of_layout) in enumerate(rows):
+        solved, (first, *others) = task.solved.at_layout(place), of_layout
+        cases = gather_cases(task, first, solved, feet)
+        feet, base = cases.feet, know_cases(cases)
+        for row in (first, *others):
+            of_row = replace(cases.task, row=row)
+            known = know_row(replace(cases, task=of_row), base)
+            found.append(Variant(task=of_row, known=known))
+    return found
+
+
+def know_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
+    """Knowledge of a variant of a row by its envelope on that one's layout."""
+    cases = gather_cases(task, row, solved)
+    return know_row(cases, know_cases(cases))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowCases:
+    """Solved cases of a row on one layout of its support.
+
+    Attributes
+    ----------
+    task : RowToCheck
+        The row with its envelope there.
+    heads : sequence of SupportState
+        States of all its cases.
+    feet : FootPulls
+        What they bring to the foot.
+    floor : Floor or None
+        Forces by the guideline's load.
+    """
+
+    task: RowToCheck
+    heads: Sequence[SupportState]
+    feet: FootPulls
+    floor: Floor | None
+
+
+def gather_cases(
+    task: RowToCheck, row: NetRow, solved: RowEnvelope, feet: FootPulls | None = None
+) -> RowCases:
+    """Solved cases of a variant of a row; ``feet`` where they are known already."""
+    at = replace(task, row=row, solved=solved, extremes=solved.extremes)
+    heads = [head for one in solved.results for head in list_states(row, one)]
+    return RowCases(
+        task=at,
+        heads=heads,
+        feet=feet or measure_feet(heads),
+        floor=find_row_floor(row, task.site.ranges, task.standard),
+    )
+
+
+def know_cases(cases: RowCases) -> RowForces:
+    """Knowledge of a row by its cases, whatever guys hold its posts along the row."""
+    task, floor = cases.task, cases.floor
+    site, row, standard = task.site, task.row, task.standard
+    results, extremes = task.solved.results, task.extremes
+    factors = find_rope_factors(results, floor) if floor else (1.0, 1.0)
+    return RowForces(
+        site=site,
+        row=row,
+        standard=standard,
+        law=task.law,
+        effects=find_effects(row, standard, site.ranges),
+        largest={k: record_largest(one, task.solved) for k, one in extremes.items()},
+        floor=record_floor(floor, row, factors),
+        held=say("check.no_case_solved"),
+        tilt=find_tilt(
+            row, (one.case.inclination for one in results if one.is_converged)
+        ),
+        gap=task.solved.gap,
+        panel_gap=_find_failed_panel(row, results),
+    )
+
+
+def know_row(cases: RowCases, base: RowForces) -> RowForces:
+    """Knowledge of a row with its guys; ``base`` is what its cases tell without."""
+    task, floor = cases.task, cases.floor
+    head = floor.head if floor else None
+    held = find_held_sideways(task, cases.heads, head)
+    known = replace(base, row=task.row, held=held, sizes={})
+    share, one_way = known.effects.lateral_share, find_one_way_pull(known)
+    pulls = list_pulls(task, cases.feet, share, head, one_way)
+    known = replace(known, pulls=tuple(pulls))
+    along = find_end_pull(known)
+    if along is None:
+        return known
+    factor = known.floor.ridge_rope if known.floor else 1.0
+    load = EndShare(end=known.effects.supports[-1], along=along, factor=factor)
+    return replace(known, end_guy=find_end_guy(task, load))
+
+
+def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
+    """Reason why an assumed panel fails, so that nothing is known of the row."""
+    failed = [one for one in results if isinstance(one.panel, FailedPanel)]
+    if not failed or not row.panel_assumed:
+        return None
+    return say("panel.assumed_fails", reason=failed[0].lack or "")

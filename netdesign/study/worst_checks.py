@@ -1,0 +1,295 @@
+"""Checks of all supports of a row, each on the variant of it on which it is worst.
+
+A variant is a corner of what is assumed of the row's statics. Which of them a check is
+worst on is found by its force and resistance alone; there its calculation is made.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import Check
+from netdesign.outcome import Verdict
+from netdesign.site.model import Resistance
+from netdesign.structure.members import CONNECTED, EndMember, Member, NetPart
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.dependent import connect, may_bend
+from netdesign.study.judgement import (
+    AT_SUPPORT,
+    WORSE,
+    MemberCheck,
+    Rating,
+    find_open,
+    judge_member,
+    rate_member,
+)
+from netdesign.study.member_force import PUSHED, RowForces, lifts
+from netdesign.study.pulls import check_direction, find_pull
+from netdesign.study.variants import describe_variant
+from netdesign.words.message import Message
+
+
+def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
+    """Checks of both supports' members, then of the net and what holds its ropes.
+
+    Each is that of the variant of the row on which it is worst.
+    """
+    known = variants[0]
+    effects, row = known.effects, known.row
+    at_end, not_checked = effects.find_support("edge"), known.standard.not_checked
+    held = row.row_end.resistances if row.row_end else ()
+    parts = () if "mesh" in not_checked else row.net_parts
+    of_supports: dict[str, list[MemberCheck]] = {
+        width.position: list(
+            _judge_at(variants, width, row.resistances_at(width.position))
+        )
+        for width in effects.supports
+    }
+    judged = [
+        *_place_second(known, of_supports),
+        *_judge_at(variants, at_end, (*parts, *held)),
+    ]
+    gap = find_open(row, judged)
+    turned: dict[str, list[MemberCheck]] = {
+        width.position: _judge_directions(
+            variants, row.resistances_at(width.position), width, gap
+        )
+        for width in effects.supports
+    }
+    of_end = _judge_directions(variants, held, at_end, gap)
+    return [*judged, *_place_second(known, turned), *of_end]
+
+
+def _judge_at(
+    variants: Sequence[RowForces],
+    width: LoadedWidth,
+    resistances: Iterable[Resistance],
+) -> Iterator[MemberCheck]:
+    """Checks of the members of one support, each rope's with those of its links.
+
+    Those of the directions come once these are known.
+    """
+    for given in resistances:
+        if given.mode == "direction" or not _concerns(variants, given):
+            continue
+        yield _judge_worst(variants, width, given)
+        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
+        if is_rope and "connections" not in variants[0].standard.not_checked:
+            yield _judge_worst(variants, width, given, _find_chain)
+
+
+# Members whose forces and resistances are the same on every variant.
+_ALIKE = (
+    *(Member.FOOT_ANCHOR, NetPart.MESH, NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE),
+    EndMember.LATERAL_ANCHOR,
+)
+_OF_END_GUY = (EndMember.END_GUY, EndMember.END_GUY_ANCHOR)
+
+
+def list_apart(
+    variants: Sequence[RowForces], member: str, width: LoadedWidth
+) -> Sequence[RowForces]:
+    """Variants of which a member's checks may differ, one of those that are alike."""
+    if member in _ALIKE and not variants[0].row.layout.is_foot_shared:
+        return variants[:1]
+    if member in _OF_END_GUY or (member in PUSHED and width.position == "edge"):
+        return variants
+    apart = {(one.row.layout, one.row.guys): one for one in reversed(variants)}
+    return [*apart.values()]
+
+
+_Judge = Callable[[RowForces], MemberCheck]
+_Find = Callable[[RowForces, Resistance, LoadedWidth], Resistance]
+
+
+def _keep(_: RowForces, given: Resistance, __: LoadedWidth) -> Resistance:
+    return given
+
+
+def _judge_worst(
+    variants: Sequence[RowForces],
+    width: LoadedWidth,
+    given: Resistance,
+    find: _Find = _keep,
+) -> MemberCheck:
+    """Check of a member where it is worst; ``find`` its resistance on a variant."""
+
+    def judge(known: RowForces) -> MemberCheck:
+        return judge_member(known, find(known, given, width), width)
+
+    apart = list_apart(variants, given.member, width)
+    if len(apart) == 1:
+        return replace(judge(apart[0]), again=judge)
+    groups: dict[object, _Group] = {}
+    for known in apart:
+        rating = rate_member(known, find(known, given, width), width)
+        key = rating.group if rating else id(known)
+        one = _Group(known=known, best=known, rating=rating)
+        groups[key] = groups[key].add(one) if key in groups else one
+    judged = [(one.ease(judge(one.known)), one.best) for one in groups.values()]
+    return _compare(judged, judge)
+
+
+def _compare(
+    judged: Sequence[tuple[MemberCheck, RowForces]], judge: _Judge
+) -> MemberCheck:
+    """Worst of some checks, each with its best variant; eased to the best of all."""
+    worst = take_worst(one for one, _ in judged)
+    least, best = min(
+        ((_find_least(one.check), known) for one, known in judged),
+        key=lambda one: one[0],
+    )
+    check = replace(worst.check.ease(least), assumed=describe_variant(worst.known.row))
+    return replace(worst, check=check, best=best, again=judge)
+
+
+def _find_least(check: Check) -> float:
+    """Low end of a utilisation; 0 where there is none, endless where nothing bounds."""
+    if check.is_unbounded:
+        return math.inf
+    return check.utilisation_band[0] or 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Group:
+    """Variants of which the same is open in a check: the most and the least used one.
+
+    ``low`` is the least force over resistance of any of them.
+    """
+
+    known: RowForces
+    best: RowForces
+    rating: Rating | None
+    low: float = math.inf
+
+    def add(self, other: _Group) -> _Group:
+        """The group with another variant."""
+        if self.rating is None or other.rating is None:
+            return self
+        most = max(self, other, key=lambda one: one.rating.high if one.rating else 0.0)
+        low = min(self.low, self.rating.low)
+        best = other.known if other.rating.low < low else self.best
+        return replace(most, best=best, low=min(low, other.rating.low))
+
+    def ease(self, judged: MemberCheck) -> MemberCheck:
+        """Check of the most used variant, with the utilisation on the least used."""
+        low = judged.check.utilisation_band[0]
+        if low is None or self.rating is None or not self.rating.low:
+            return judged
+        least = low * min(self.low / self.rating.low, 1.0)
+        return replace(judged, check=judged.check.ease(least))
+
+
+def take_worst(judged: Iterable[MemberCheck]) -> MemberCheck:
+    """Check of the gravest verdict, then the most used, then the most loaded one."""
+    return max(judged, key=_weigh)
+
+
+def _weigh(one: MemberCheck) -> tuple[int, float, float]:
+    check = one.check
+    used = math.inf if check.is_unbounded else one.ratio
+    return WORSE.index(check.verdict), used, check.read_band("E_d")[1] or 0.0
+
+
+def _judge_directions(
+    variants: Sequence[RowForces],
+    resistances: Iterable[Resistance],
+    width: LoadedWidth,
+    gap: Message | None,
+) -> list[MemberCheck]:
+    """Checks of the angles of rope anchors of one support, and of blocks that hold."""
+    found = []
+    for given in resistances:
+        if given.mode == "direction":
+
+            def judge(known: RowForces, given: Resistance = given) -> MemberCheck:
+                return _judge_direction(known, given, width, gap)
+
+            apart = list_apart(variants, given.member, width)
+            judged = [(judge(one), one) for one in apart]
+            if may_bend(given):  # where its block does not hold, it bends
+                judged = [x for x in judged if x[0].check.verdict is Verdict.PASS]
+            if judged:
+                found.append(_compare(judged, judge))
+    return found
+
+
+def _judge_direction(
+    known: RowForces, given: Resistance, width: LoadedWidth, gap: Message | None
+) -> MemberCheck:
+    """Check of a rope anchor's angle; beyond what it turns by, of its head."""
+    pull = find_pull(known.pulls, given.member, width.position)
+    check = check_direction(pull, known.standard, gap) if pull else None
+    if check is None:
+        return judge_member(known, given, width)
+    check = replace(
+        check, id=check.id + AT_SUPPORT[width.position], position=width.position
+    )
+    return MemberCheck(known=known, given=given, width=width, check=check, pull=pull)
+
+
+_AS_INSIDE = 1.01  # times the utilisation inside the row: the second support is alike
+
+
+def _place_second(
+    known: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
+) -> list[MemberCheck]:
+    """Checks of all supports, those of the second one where they can govern.
+
+    It has the types inside and no less load. Where that is alike, its check is the one
+    inside; where the end has the same type with more load, that check says all.
+    """
+    inside, at_end = of_supports["intermediate"], of_supports.get("edge", ())
+    kept, ends = ({one.name: one for one in each} for each in (inside, at_end))
+    beside = []
+    for one in of_supports.get("second", ()):
+        within = kept.get(one.name, one)  # none of a block that does not hold inside
+        if _is_no_worse(one, within) or _is_covered(known, one, ends.get(one.name)):
+            continue
+        if 0.0 < _rate_load(one) <= _AS_INSIDE * _rate_load(within):
+            as_inside = replace(one.check, id=within.check.id, position="intermediate")
+            kept[one.name] = replace(one, check=as_inside)
+        else:
+            beside.append(one)
+    return [*kept.values(), *beside, *at_end]
+
+
+def _rate_load(one: MemberCheck) -> float:
+    """Upper end of the utilisation, or of the force where no resistance is known."""
+    return one.ratio if one.ratio >= 0.0 else one.check.read_band("E_d")[1] or 0.0
+
+
+def _is_no_worse(one: MemberCheck, other: MemberCheck) -> bool:
+    """Neither more used nor loaded nor of a worse verdict."""
+    verdicts = [WORSE.index(each.check.verdict) for each in (one, other)]
+    loads = [each.check.read_band("E_d")[1] or 0.0 for each in (one, other)]
+    is_less = one.ratio <= other.ratio and loads[0] <= loads[1]
+    return is_less and verdicts[0] <= verdicts[1]
+
+
+def _is_covered(known: RowForces, one: MemberCheck, end: MemberCheck | None) -> bool:
+    """The end's check of the same type is worse; no document for it alone."""
+    if end is None or not end.given.type_id or end.given.type_id != one.given.type_id:
+        return False
+    at_end, here = (
+        known.site.find_declaration(known.row, *one.name, place)
+        for place in ("edge", "second")
+    )
+    return at_end == here and _is_no_worse(one, end)
+
+
+def _concerns(variants: Sequence[RowForces], given: Resistance) -> bool:
+    """The check is one of this row and profile: some case lifts a foot that is held."""
+    if given.member == Member.POST_FOOT:
+        return any(lifts(one.largest.values(), one.floor) for one in variants)
+    not_checked = variants[0].standard.not_checked
+    return given.mode != "wedge" or "anchor_ground" not in not_checked
+
+
+def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resistance:
+    """Resistance of the links between a rope and its anchor."""
+    anchor = CONNECTED[given.member]
+    pull = find_pull(known.pulls, anchor, width.position) if anchor else None
+    return connect(given, known.site.links, pull, known.standard)

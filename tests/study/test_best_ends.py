@@ -1,0 +1,161 @@
+"""Checks beyond 1: they fail where they do at the best ends of what is assumed, too."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from netdesign.calculation.quantity import Kind
+from netdesign.calculation.steps import Step
+from netdesign.checks import Check, OpenKind, load_standard
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.outcome import Verdict
+from netdesign.site.assumed import assume
+from netdesign.study.cases import search_site
+from netdesign.study.judge import judge_row
+from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.variants import place_variant
+from netdesign.words.message import say
+from tests.small_site import RANGES, RUN, build_row, build_site, resist
+from tests.study.test_variants import KEYS, assume_all
+
+STANDARD = load_standard("swiss-guideline-2007")
+SLACK = assume("slack")
+ROW = build_row("R1", resistances=resist(1.1e5))
+OF_SLACK = replace(ROW, assumed=(SLACK,))
+WORSE = (Verdict.PASS, Verdict.NOT_PROVEN, Verdict.FAIL)
+
+
+def judge(row, slack):
+    """Study of a row over a range of its slack, or at one value of it."""
+    low, high = slack
+    span = ("slack", Interval(low=low, high=high))
+    site = build_site(row, ranges=Ranges(intervals=(*RANGES.intervals, span)))
+    (solved,) = search_site(site, RUN)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    return judge_row(site, row, solved, STANDARD, RUN, solver)
+
+
+def index(study):
+    return {one.id: one for one in study.checks}
+
+
+@pytest.fixture(scope="module")
+def of_slack():
+    return index(judge(OF_SLACK, (SLACK.low, SLACK.high)))
+
+
+@pytest.fixture(scope="module")
+def typed():
+    """Checks at some values of the slack."""
+    return [index(judge(ROW, (x, x))) for x in (SLACK.low, 0.035, 0.07, SLACK.high)]
+
+
+def list_decided(checks):
+    """What decides, by check: the text with its numbers."""
+    found = {
+        check.id: point.message.arguments
+        for check in checks.values()
+        for point in check.open
+        if point.kind is OpenKind.ASSUMED_DECIDES
+        and point.message.key == "check.assumed_decides"
+    }
+    return {key: (one["at"], one["bound"]) for key, one in found.items()}
+
+
+def test_what_fails_fails_whatever_the_value_is(of_slack, typed):
+    failing = [one.id for one in of_slack.values() if one.verdict is Verdict.FAIL]
+    assert len(failing) > 4
+    for one in failing:
+        assert {checks[one].verdict for checks in typed} == {Verdict.FAIL}, one
+
+
+def test_no_check_is_better_than_with_a_value(of_slack, typed):
+    for checks in typed:
+        for one in checks.values():
+            worst = of_slack[one.id]
+            assert WORSE.index(one.verdict) <= WORSE.index(worst.verdict) or (
+                one.verdict is Verdict.FAIL and worst.verdict is Verdict.NOT_PROVEN
+            )
+            high = one.utilisation_band[1]
+            if high is not None:
+                assert high <= 1.003 * worst.utilisation_band[1], one.id
+
+
+def test_the_value_that_decides_is_told_and_does(of_slack):
+    decided = list_decided(of_slack)
+    assert len(decided) > 1
+    for key, (at, bound) in list(decided.items())[:3]:
+        check = of_slack[key]
+        assert check.verdict is Verdict.NOT_PROVEN
+        low, high = check.utilisation_band
+        assert low < 1.0 < high
+        assert at.arguments["value"] in (SLACK.low, SLACK.high)
+        value = bound.arguments["value"]
+        assert SLACK.low < value < SLACK.high
+        found = index(judge(ROW, (value, value)))[key]
+        assert found.utilisation_band[1] <= 1.03  # of the case that governs
+
+
+def test_statics_that_decide_are_told_by_all_cases():
+    row = build_row("R1", resistances=resist(2.2e5))
+    row = assume_all(row, KEYS[:3])
+    checks = index(judge(row, (0.05, 0.05)))
+    decided = list_decided(checks)
+    assert decided
+    for key, (_, bound) in decided.items():
+        point = checks[key].assumed
+        values = {
+            "post_tilt": math.radians(point.post_tilt_deg),
+            "uphill_anchor_distance": point.uphill_anchor_distance_m,
+            "downhill_anchor_distance": point.downhill_anchor_distance_m,
+        }
+        name = next(
+            point.message.arguments["name"]
+            for point in checks[key].open
+            if point.kind is OpenKind.ASSUMED_DECIDES
+        )
+        column = name.key.rpartition(".")[2]
+        value = bound.arguments["value"]
+        values[column] = math.radians(value) if "tilt" in column else value
+        alone = index(judge(place_variant(row, values), (0.05, 0.05)))[key]
+        assert alone.utilisation_band[1] <= 1.0 + 1e-3, key
+
+
+def use(low, high, *points):
+    """Check of a utilisation between two ends."""
+    step = Step(symbol="μ", unit="-", value=high, low=low, high=high, kind=Kind.WORKED)
+    check = Check(id="post.compression", clause="-", member="post", mode="compression")
+    return replace(check, steps=[step], open=list(points))
+
+
+ENDS = st.tuples(st.floats(0.01, 3.0), st.floats(0.01, 3.0)).map(sorted)
+
+
+@given(ENDS, st.floats(0.0, 3.0))
+def test_the_best_ends_turn_a_fail_only(ends, least):
+    check = use(*ends)
+    eased = check.ease(least)
+    if check.verdict is Verdict.FAIL and least <= 1.0:
+        assert eased.verdict is Verdict.NOT_PROVEN
+    else:
+        assert eased.verdict is check.verdict
+    assert eased.utilisation_band[1] == check.utilisation_band[1]
+
+
+@given(ENDS, st.sampled_from(OpenKind), st.floats(0.0, 3.0))
+def test_a_point_more_makes_no_eased_check_better(ends, kind, least):
+    if kind is OpenKind.PROVEN_ELSEWHERE:
+        return
+    eased = use(*ends).ease(least)
+    more = eased.with_open(kind, say("check.fails"))
+    assert WORSE.index(more.verdict) >= WORSE.index(eased.verdict)
+
+
+def test_what_has_no_bound_where_it_is_worst_is_not_proven_where_it_has_one():
+    unbounded = use(0.5, 0.6).with_open(OpenKind.FAILS, say("check.fails"))
+    assert unbounded.verdict is Verdict.FAIL
+    assert unbounded.ease(math.inf).verdict is Verdict.FAIL
+    assert unbounded.ease(0.7).verdict is Verdict.NOT_PROVEN
