@@ -81,7 +81,6 @@ THIRD_PARTY = {
             "envelope.*",
             "guideline.*",
             "resistance.wedge",
-            "structure.anchors",
             "structure.splay",
             "search.*",
             "addons.reliability.*",
