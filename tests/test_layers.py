@@ -141,7 +141,8 @@ THIRD_PARTY = {
     "rapidfuzz": ("site.questions",),
     "click": ("cli", "commands.*", "addons.*command"),
     "rich": (
-        *("edge.progress", "report.terminal", "report.anchor_table"),
+        *("edge.progress", "report.terminal", "report.console"),
+        "report.anchor_table",
         "addons.evidence.*",
     ),
 }

@@ -110,7 +110,8 @@ def _write_documents(studies: Sequence[Study]) -> str:
 
 def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
     """Print what each study says, of several below the name of its profile."""
-    from netdesign.report.terminal import open_console, print_lines, print_summary
+    from netdesign.report.console import open_console, print_lines
+    from netdesign.report.terminal import print_summary
     from netdesign.report.words import Words
 
     console, words = open_console(), Words(speak())
@@ -124,7 +125,7 @@ def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
 
 def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     """Print what ``--size`` found for each profile, and what its study says."""
-    from netdesign.report.terminal import open_console, print_lines
+    from netdesign.report.console import open_console, print_lines
     from netdesign.report.what_if import describe_overall, describe_sized
     from netdesign.report.words import Words
 

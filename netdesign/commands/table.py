@@ -57,7 +57,7 @@ def table(site_file: Path | None, **asked: Any) -> None:
         print_document(write_anchor_table(rows, words))
         return
     from netdesign.report.anchor_table import print_anchor_table
-    from netdesign.report.terminal import open_console
+    from netdesign.report.console import open_console
 
     for question in site.questions:
         tell(say("cli.question", text=question), err=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from netdesign.report.terminal import print_lines
+from netdesign.report.console import print_lines
 from netdesign.report.words import MISSING, Words, show_text
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.guideline_anchors import AnchorForce, RowAnchors

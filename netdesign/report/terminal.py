@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
 from netdesign.outcome import SEVERITY, Verdict
+from netdesign.report.console import print_lines
 from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-_PIPE = 160  # columns of an output that is no terminal, where no line is folded
 _FEW_IDS = 3  # net rows that one line names
 _STYLES = {
     "pass": "green",
@@ -58,16 +57,6 @@ _STYLES = {
 }
 # Id of a net row, verdict, governing check, utilisation, reason.
 RowLine = tuple[str, VerdictWords, str, str, str]
-
-
-def open_console() -> Console:
-    """Standard output, as wide as the terminal; wide in a pipe or a file."""
-    from rich.console import Console
-
-    console = Console()
-    if not console.is_terminal and "COLUMNS" not in os.environ:
-        console.width = _PIPE
-    return console
 
 
 def print_summary(
@@ -107,14 +96,6 @@ def print_summary(
     print_lines(lines, console)
     if explain:
         print_lines(_explain(study, words), console)
-
-
-def print_lines(lines: Iterable[str], console: Console) -> None:
-    """Print lines of text, which the terminal may wrap."""
-    from rich.text import Text
-
-    for line in lines:
-        console.print(Text(line), soft_wrap=True)
 
 
 def _build_table(study: Study, words: Words) -> Table:
