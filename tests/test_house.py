@@ -10,12 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 1, 1
-CORE_MODULES, CORE_LINES = 1, 1
-=======
-MODULES, LINES = 396, 48_120
-CORE_MODULES, CORE_LINES = 294, 36_310
->>>>>>> 9d56fe32 (Statics that nobody gives: a row is judged at their corners, a check counts where it is worst, and fails only where it does at the best ends)
+MODULES, LINES = 400, 48_603
+CORE_MODULES, CORE_LINES = 298, 36_791
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef
