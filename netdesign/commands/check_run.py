@@ -83,20 +83,22 @@ def carry_out(
         begun = begin_outputs(outputs, studies, runner)
         if not asked["as_json"]:  # known before the reports are
             progress.clear()
-            _print_summaries(studies, asked["explain"])
+            _print_summaries(studies, asked["explain"], asked["scopes"])
         progress.enter("reports")
         files = render_outputs(outputs, studies, sized, begun)
     failed = print_faults(runner.faults)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     if asked["as_json"]:
         print_json(_write_documents(studies))
-        return failed or find_exit_code(studies)
+        return failed or find_exit_code(studies, asked["scopes"])
     _print_sizes(sized, studies)
     report_places(files, asked)
     if not asked["quiet"]:
-        verdicts = frozenset(row.verdict for study in studies for row in study.rows)
+        verdicts = frozenset(
+            row.find_verdict(asked["scopes"]) for study in studies for row in study.rows
+        )
         print_next_steps(verdicts, site_name, is_sized=is_sized)
-    return failed or find_exit_code(studies)
+    return failed or find_exit_code(studies, asked["scopes"])
 
 
 def _write_documents(studies: Sequence[Study]) -> str:
@@ -108,7 +110,9 @@ def _write_documents(studies: Sequence[Study]) -> str:
     return f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}'
 
 
-def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
+def _print_summaries(
+    studies: Sequence[Study], explain: bool, scopes: Sequence[str] = ()
+) -> None:
     """Print what each study says, of several below the name of its profile."""
     from netdesign.report.console import open_console, print_lines
     from netdesign.report.terminal import print_summary
@@ -119,7 +123,7 @@ def _print_summaries(studies: Sequence[Study], explain: bool) -> None:
         if len(studies) > 1:
             profile = words("show.label", label=study.profile.id, text="")
             print_lines((profile.rstrip(),), console)
-        print_summary(study, console, speak(), explain=explain)
+        print_summary(study, console, speak(), explain=explain, scopes=scopes)
     sys.stdout.flush()
 
 

@@ -61,6 +61,28 @@ def read_instead(
     return instead
 
 
+def read_scopes(
+    context: click.Context | None,
+    option: click.Parameter | None,
+    texts: Sequence[str],
+) -> tuple[str, ...]:
+    """Scopes of a study, of texts such as ``anchors,siting``.
+
+    Raises
+    ------
+    ValueRefusal
+        If one is none of them.
+    """
+    from netdesign.study.scopes import SCOPES
+
+    named = [one.strip() for text in texts for one in text.split(",")]
+    for one in named:
+        if one not in tuple(SCOPES):
+            told = say("usage.scope", text=one, accepted=tuple(map(str, SCOPES)))
+            raise ValueRefusal(told, context, option)
+    return tuple(dict.fromkeys(named))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenRange:
     """A range as typed, in the engineer's unit; ``count`` is None where not given."""
@@ -115,7 +137,9 @@ _KINDS = {
     "range": RANGE,
 }
 _NUMBERS = {"number": click.FloatRange, "count": click.IntRange}
-_READERS = {reader.__name__: reader for reader in (check_delimiter, read_instead)}
+_READERS = {
+    reader.__name__: reader for reader in (check_delimiter, read_instead, read_scopes)
+}
 
 
 def take_options(command: str) -> Callable[[Any], Any]:

@@ -41,9 +41,12 @@ EXIT_CODES = {
 }
 
 
-def find_exit_code(studies: Sequence[Study]) -> int:
-    """Exit code of the worst verdict; a what-if that passes proves nothing: 4."""
-    verdict = merge_verdicts(study.verdict for study in studies)
+def find_exit_code(studies: Sequence[Study], scopes: Sequence[str] = ()) -> int:
+    """Exit code of the worst verdict; a what-if that passes proves nothing: 4.
+
+    Of some ``scopes`` alone where they are named.
+    """
+    verdict = merge_verdicts(study.find_verdict(scopes) for study in studies)
     if verdict is not Verdict.FAIL and any(study.what_if for study in studies):
         verdict = Verdict.NOT_PROVEN
     return EXIT_CODES[verdict]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -28,17 +29,22 @@ from netdesign.report.sections.decision import (
     list_open_points,
     show_line,
 )
+from netdesign.report.sections.scopes import (
+    describe_study_scopes,
+    list_exceeding,
+    list_headings,
+    show_scope,
+)
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import (
-    MISSING,
     VerdictWords,
     Words,
     show_check,
     show_text,
-    show_verdict,
 )
 from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.scopes import SCOPES
 from netdesign.study.to_do import WHO, list_to_do
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name
@@ -48,6 +54,7 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
+_NUMBER = re.compile(r"\d")
 _FEW_IDS = 3  # net rows that one line names
 _STYLES = {
     "pass": "green",
@@ -55,8 +62,8 @@ _STYLES = {
     "not-proven": "yellow",
     "declared": "cyan",
 }
-# Id of a net row, verdict, governing check, utilisation, reason.
-RowLine = tuple[str, VerdictWords, str, str, str]
+# Id of a net row, scopes with their styles, governing check, reason.
+RowLine = tuple[str, tuple[tuple[str, str], ...], str, str]
 
 
 def print_summary(
@@ -65,6 +72,7 @@ def print_summary(
     language: Language = "en",
     *,
     explain: bool = False,
+    scopes: Collection[str] = (),
 ) -> None:
     """Print one line per net row, the verdict, what is open, and explanations.
 
@@ -81,6 +89,8 @@ def print_summary(
         Of the summary.
     explain : bool
         Whether to say all that is open, the loads, and what would turn each check.
+    scopes : collection of str
+        Those that are asked for; none for all.
     """
     from rich.text import Text
 
@@ -92,6 +102,8 @@ def print_summary(
         console.print(_build_table(study, words))
     overall = Text(words("show.overall", verdict="")).append_text(_word(verdict))
     console.print(overall.append(f" - {verdict.meaning}"), soft_wrap=True)
+    if study.rows:
+        print_lines(_list_scopes(study, words, scopes), console)
     lines = _list_lines(study, words, is_short=not explain)
     print_lines(lines, console)
     if explain:
@@ -104,13 +116,25 @@ def _build_table(study: Study, words: Words) -> Table:
 
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
-    table.add_column(words("heading.verdict"), no_wrap=True)
+    for heading in list_headings(words):
+        table.add_column(heading, no_wrap=True)
     table.add_column(words("heading.governing_check"), overflow="fold", min_width=13)
-    table.add_column(words("heading.utilisation"), justify="right", no_wrap=True)
     table.add_column(words("heading.reason"), overflow="fold")
-    for row, verdict, *texts in list_rows(study, words):
-        table.add_row(Text(row), _word(verdict), *map(Text, texts))
+    for row, scopes, *texts in list_rows(study, words):
+        cells = [Text(text, style=_STYLES[style]) for text, style in scopes]
+        table.add_row(Text(row), *cells, *map(Text, texts))
     return table
+
+
+def _list_scopes(study: Study, words: Words, asked: Collection[str]) -> Iterator[str]:
+    """Anchors, structure and siting of all rows; what the symbols are."""
+    yield words("scopes.legend")
+    yield describe_study_scopes(study, words)
+    if asked:
+        named = tuple(words(f"of_scope.{one}") for one in asked)
+        verdict = words(f"verdict.{study.find_verdict(asked)}")
+        yield words("scopes.asked", scopes=named, verdict=verdict)
+    yield from list_exceeding(study, words)
 
 
 def _word(verdict: VerdictWords) -> Text:
@@ -132,18 +156,17 @@ def list_rows(study: Study, words: Words) -> Iterator[RowLine]:
 
 def _tell_alike(line: RowLine) -> tuple[object, ...]:
     """Things that lines in one must share; of one with a number its own name."""
-    name, verdict, check, utilisation, reason = line
-    own = "" if utilisation == MISSING and reason else name
-    return own, verdict, check, reason
+    name, scopes, check, reason = line
+    has_number = any(_NUMBER.search(text) for text, _ in scopes)
+    return "" if reason and not has_number else name, scopes, check, reason
 
 
 def _show_row(row: RowStudy, words: Words) -> RowLine:
     check = find_governing(row.checks)
     return (
         show_text(row.id),
-        show_verdict(row.verdict, words),
+        tuple(show_scope(row, scope, words) for scope in SCOPES),
         show_check(words, check) if check else words("heading.no_check"),
-        words.show_number("utilisation", check.used) if check else MISSING,
         describe_briefly(row, words),
     )
 

@@ -6,6 +6,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -32,7 +33,13 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.study.parts import PartRecord
-from netdesign.study.scopes import Scope, ScopeRecord, sum_up_row, sum_up_study
+from netdesign.study.scopes import (
+    Scope,
+    ScopeRecord,
+    merge_scopes,
+    sum_up_row,
+    sum_up_study,
+)
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -194,6 +201,10 @@ class RowStudy:
         """Verdicts of anchors, structure and siting, each of its own checks alone."""
         return sum_up_row(self.checks, has_unmet=bool(self.unmet))
 
+    def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
+        """Verdict of some scopes; of the whole row where none is named."""
+        return merge_scopes(self.scopes, scopes) if scopes else self.verdict
+
     @property
     def unmet(self) -> list[Message]:
         """Laws that its drawn case does not obey."""
@@ -301,6 +312,10 @@ class Study:
         """Of all its net rows; those that were left out are not proven."""
         missing = [Verdict.NOT_PROVEN] if self.left_out else []
         return merge_verdicts([*(row.verdict for row in self.rows), *missing])
+
+    def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
+        """Verdict of some scopes; of the whole study where none is named."""
+        return merge_scopes(self.scopes, scopes) if scopes else self.verdict
 
     @cached_property
     def scopes(self) -> dict[Scope, ScopeRecord]:

@@ -6,7 +6,7 @@ stands. Every check belongs to one of them; what bears on all belongs to each.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar
@@ -151,6 +151,15 @@ def sum_up_study(
             row=worst,
         )
     return found
+
+
+def merge_scopes(
+    records: Mapping[Scope, ScopeRecord], asked: Collection[str] = ()
+) -> Verdict:
+    """Worst verdict of the scopes that are asked for; of all where none is named."""
+    return merge_verdicts(
+        one.verdict for scope, one in records.items() if not asked or scope in asked
+    )
 
 
 def sum_up_row(

@@ -15,11 +15,13 @@ from netdesign.report.sections.checks import (
     part_lines,
 )
 from netdesign.report.sections.quality import build_bounds
+from netdesign.report.sections.scopes import describe_scopes, show_scope
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import write_document
 from netdesign.study.governing import find_governing
+from netdesign.study.scopes import SCOPES
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader, read_checks, read_rows, read_workbook
 
@@ -153,9 +155,12 @@ def test_verdicts_agree(page, book):
         word = ENGLISH(f"verdict.{row.verdict}")
         assert shown[index][1] == f"{VERDICTS[row.verdict].symbol} {word}"
         assert summary[index]["Verdict"] == word
-        assert word in lines[1 + index]
+        scopes = [show_scope(row, scope, ENGLISH)[0] for scope in SCOPES]
+        assert shown[index][2:5] == scopes
+        assert all(one in lines[1 + index] for one in scopes)
+        assert describe_scopes(row, ENGLISH) in summary[index]["Reasons"]
         used = ENGLISH.show_number("utilisation", find_governing(row.checks).used)
-        assert shown[index][3].split()[0] == used
+        assert shown[index][6].split()[0] == used
         assert used in lines[1 + index]
     overall = ENGLISH(f"verdict.{STUDY.verdict}")
     assert book["Decision"]["C3"].value == overall

@@ -3,6 +3,7 @@ import io
 from rich.console import Console
 
 from netdesign.commands.check_run import _print_summaries
+from netdesign.report.sections.scopes import describe_study_scopes
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.governing import find_governing
@@ -24,9 +25,10 @@ def test_one_line_for_each_net_row_then_the_verdict_and_what_is_open():
         f"Ridge {SCRIPT}",
     ]
     assert lines[4].startswith("Verdict: FAIL - ")
-    assert lines[5].startswith("Checks: 2 FAIL, 1 NOT PROVEN, ")
-    assert lines[5].endswith("Cases: 80 solved, 1 without a result.")
-    assert [line.split("  ")[0] for line in lines[6:]] == [
+    assert lines[6] == describe_study_scopes(build_study(), ENGLISH)
+    assert lines[7].startswith("Checks: 2 FAIL, 1 NOT PROVEN, ")
+    assert lines[7].endswith("Cases: 80 solved, 1 without a result.")
+    assert [line.split("  ")[0] for line in lines[8:]] == [
         "Office",
         "Geotechnical engineer",
     ]
@@ -47,7 +49,7 @@ def test_a_narrow_terminal_breaks_no_number_and_no_word():
         used = ENGLISH.show_number("utilisation", check.used)
         for part in (*show_check(ENGLISH, check).split(", end")[0].split(), used):
             assert part in text
-    assert "Utilisation" in text
+    assert "Structure" in text
 
 
 def test_of_several_studies_each_stands_below_its_profile(capsys):

@@ -126,7 +126,8 @@ def test_terminal_shows_infinity_and_explains_it_first(study):
 def test_page_has_infinity_on_its_first_page_and_in_the_worked_check(study, language):
     reader = PageReader(render_html(study, language))
     rows, *_ = reader.tables["decision"]
-    assert rows[1][3] == "∞"
+    assert rows[1][3] == "✗ ∞"  # of its structure
+    assert rows[1][6] == "∞"
     (worked,) = reader.tables["row-1-worked"]
     assert worked[-1][-1] == "∞"
     page = " ".join(" ".join(reader.text).split())

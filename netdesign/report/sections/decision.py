@@ -49,6 +49,7 @@ from netdesign.report.sections.checks import (
     name_few,
     show_used,
 )
+from netdesign.report.sections.scopes import list_exceeding, show_scope
 from netdesign.report.what_if import build_what_if, mark_verdict, name_kind, name_study
 from netdesign.report.words import (
     MISSING,
@@ -63,6 +64,7 @@ from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
 from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.scopes import SCOPES
 from netdesign.study.to_do import ToDo
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -157,7 +159,10 @@ def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
 def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
     if not study.rows:
         return Paragraph(text=words("heading.no_rows"), look="none")
-    keys = ("net_row", "verdict", "governing_check", "utilisation", "reason")
+    keys = (
+        *("net_row", "verdict", *(f"scope_{one}" for one in SCOPES)),
+        *("governing_check", "utilisation", "reason"),
+    )
     anchors = anchor_rows(study)
     return Table(
         caption=words("caption.decision"),
@@ -177,6 +182,7 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     return (
         Cell(content=(Piece(show_text(row.id), "name", link=anchor),)),
         badge_cell(row.verdict, words),
+        *(text_cell(show_scope(row, scope, words)[0]) for scope in SCOPES),
         text_cell(named),
         used,
         text_cell(describe_briefly(row, words)),
@@ -232,6 +238,7 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     yield from _list_open_checks(study, Verdict.FAIL, words)
     yield from _list_unsaid(study, words)
     yield from _list_open_checks(study, Verdict.NOT_PROVEN, words)
+    yield from list_exceeding(study, words)
     yield from _list_open_rows(study, words)
     yield from _list_declared(study, words)
     if has_other_floor(study):

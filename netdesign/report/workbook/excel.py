@@ -43,6 +43,7 @@ from netdesign.report.sections.quality import (
     stack_tables,
 )
 from netdesign.report.sections.schedule import build_quantities, build_schedule
+from netdesign.report.sections.scopes import describe_scopes, describe_study_scopes
 from netdesign.report.sections.whole import list_properties, title_pages
 from netdesign.report.what_if import build_what_if, mark_title, name_kind
 from netdesign.report.words import (
@@ -158,6 +159,9 @@ def _write_overall(book: Book, sheet: Any, study: Study) -> None:
     small = book.text(bold=True, font_size=12, shrink=True)
     sheet.write_string(2, 2, shown.word, small)
     sheet.write_string(2, 3, shown.meaning, book.text())
+    if study.rows:
+        scopes = describe_study_scopes(study, book.words)
+        sheet.write_string(3, 0, scopes, book.text())
 
 
 def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
@@ -167,6 +171,7 @@ def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
     ends = [check.used_band[1] for check in row.checks]
     known = [end for end in ends if end is not None]
     check = find_governing(row.checks)
+    told = (describe_scopes(row, words), describe_briefly(row, words))
     cells = (
         given_cell(words, number),
         text_cell(row.id),
@@ -176,7 +181,7 @@ def _write_row(book: Book, sheet: Any, number: int, row: RowStudy) -> None:
         number_cell(words, "utilisation", max(known, default=None)),
         text_cell(show_check(words, check) if check else words("heading.no_check")),
         text_cell(name_case(check, words) if check else MISSING),
-        text_cell(describe_briefly(row, words)),
+        text_cell(words.join(filter(None, told))),
     )
     line = _HEAD_ROW + number
     for place, (column, cell) in enumerate(zip(columns, cells, strict=True)):

@@ -1,0 +1,91 @@
+"""Anchors, structure and siting in words: each with what decides it."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks.approval import Approval
+from netdesign.outcome import Verdict
+from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.scopes import (
+    describe_scopes,
+    describe_study_scopes,
+    list_exceeding,
+    show_scope,
+)
+from netdesign.report.words import ENGLISH, Words
+from netdesign.study.scopes import SCOPES, Scope
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import build_study
+from tests.turn import turn
+
+STUDY = build_study()
+DOCUMENT = "EX-TA 12-3"
+
+
+def approve(row):
+    """Row whose structure an approval proves."""
+    of_structure = replace(
+        row.checks[0], id="structure.approval", member="structure", mode="approval"
+    )
+    bare = replace(of_structure, steps=[], finding=None)
+    proof = Approval(document=DOCUMENT, cell="Net types!C4").prove()
+    line = turn(bare, Verdict.DECLARED, proof=proof)
+    anchors = [one for one in row.checks if one.member.endswith("anchor")]
+    return replace(row, checks=[*anchors, line], independent=[])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_document_of_an_approval_is_named(language):
+    words, row = Words(language), approve(STUDY.rows[0])
+    assert f"{words('of_scope.structure')} " in describe_scopes(row, words)
+    assert DOCUMENT in describe_scopes(row, words)
+    assert show_scope(row, Scope.STRUCTURE, words) == (f"† {DOCUMENT}", "declared")
+
+
+def test_every_scope_stands_with_its_verdict_and_utilisation():
+    for row in STUDY.rows:
+        told = describe_scopes(row, ENGLISH).split(" · ")
+        assert len(told) == len(SCOPES)
+        for scope, text in zip(SCOPES, told, strict=True):
+            record = row.scopes[scope]
+            assert ENGLISH(f"verdict.{record.verdict}") in text
+            if record.utilisation is not None:
+                used = ENGLISH.show_number("utilisation", record.utilisation)
+                assert used in text
+                assert used in show_scope(row, scope, ENGLISH)[0]
+
+
+def test_the_whole_study_names_the_row_that_decides():
+    told = describe_study_scopes(STUDY, ENGLISH).split(" · ")
+    for record, text in zip(STUDY.scopes.values(), told, strict=True):
+        assert (record.verdict is not Verdict.PASS) == text.endswith(record.row)
+
+
+def test_what_the_coupled_force_exceeds_is_named_with_its_factor():
+    """Only where the guideline's load decides: else the check fails by itself."""
+    assert not list(list_exceeding(STUDY, ENGLISH))
+    row = STUDY.rows[0]
+    check = next(one for one in row.checks if one.utilisation)
+    steps = {one.symbol: one for one in check.steps}
+    factor, design = steps["γ_E"].value, steps["R_d"].value
+    force = replace(steps["E_k"], symbol="E_g", value=0.5 * design / factor, formula="")
+    beside = replace(force, symbol="E_c", value=1.37 * design / factor)
+    guided = replace(
+        check,
+        steps=[
+            *(replace(one, low=None, high=None) for one in (force, beside)),
+            replace(
+                steps["E_k"], value=force.value, formula="E_g", low=None, high=None
+            ),
+            *(steps[one] for one in ("γ_E", "γ_R", "R_k", "R_d") if one in steps),
+        ],
+        open=[],
+    )
+    assert guided.exceeds_by_model
+    others = [one for one in row.checks if one is not check]
+    study = replace(STUDY, rows=[replace(row, checks=[guided, *others])])
+    (told,) = list_exceeding(study, ENGLISH)
+    assert "1.37" in told
+    assert told.startswith(row.id)
+    assert told in list(list_open_points(study, ENGLISH))
