@@ -60,7 +60,8 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
     """
     limits = next((one for one in checks if one.mode == MODE), None)
     if limits is None:
-        if any(map(_is_given, filter(is_of_structure, checks))):
+        mine = list(filter(is_of_structure, checks))
+        if any(map(_is_given, mine)) or all(map(_has_result, mine)):
             return list(checks)
         line = _leave_structure_open("resistances", say("approval.nothing_given"))
         return _replace_structure(checks, apply_declaration(basis, line))
@@ -95,16 +96,17 @@ def _is_given(check: Check) -> bool:
     """
     has_type = bool(check.resistance_type) and check.mode != CONNECTION
     is_rated = check.resistance_kN is not None or check.is_unbounded
-    return has_type or is_rated or check.declared is not None
+    return has_type or is_rated
+
+
+def _has_result(check: Check) -> bool:
+    """Its numbers, or a document, say something of it."""
+    return check.used is not None or check.verdict is not Verdict.NOT_PROVEN
 
 
 def _replace_structure(checks: Sequence[Check], line: Check) -> list[Check]:
     """Checks of which a line stands for those of the structure without a result."""
-    kept: list[Check] = []
-    for one in checks:
-        has_result = one.used is not None or one.verdict is not Verdict.NOT_PROVEN
-        if has_result or not is_of_structure(one):
-            kept.append(one)
+    kept = [one for one in checks if _has_result(one) or not is_of_structure(one)]
     return [*kept, line]
 
 

@@ -157,6 +157,9 @@ def test_without_approval_and_resistances_there_is_one_line(judge):
     assert row.scopes[Scope.ANCHORS].verdict is Verdict.PASS
     proof = Proof(document="Report 7", author="A. B.", date="", cell="Declared!B2")
     said = Declaration(row_id="", member="structure", mode="resistances", proof=proof)
+    by_check = replace(said, member="post_base", mode="bearing")
+    listed = list_of_scope(judge(by_check, **BARE).checks, Scope.STRUCTURE)
+    assert {one.member for one in listed} == {"post", "post_base", "structure"}
     declared = judge(said, **BARE)
     assert declared.scopes[Scope.STRUCTURE].verdict is Verdict.DECLARED
 
