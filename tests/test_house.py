@@ -10,8 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 401, 48_604
-CORE_MODULES, CORE_LINES = 299, 36_792
+MODULES, LINES = 402, 48_718
+CORE_MODULES, CORE_LINES = 300, 36_906
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef
