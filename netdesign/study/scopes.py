@@ -54,12 +54,7 @@ _BY_MEMBER: Mapping[str, Scopes] = {
 _ASKED_OF: Mapping[str, Scopes] = {
     "column.Anchors.": _ANCHORS,
     "column.Tests.": _ANCHORS,
-    "column.anchor_types.": _ANCHORS,
-    "column.tests.": _ANCHORS,
     "column.Links.": _STRUCTURE,
-    "column.links.": _STRUCTURE,
-    "column.net_types.mesh_strength": _STRUCTURE,
-    "column.posts.bearing": _STRUCTURE,
     "column.Nets.mesh_strength": _STRUCTURE,
     "column.Posts.bearing": _STRUCTURE,
     "column.Posts.compression": _STRUCTURE,

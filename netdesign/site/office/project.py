@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.site.assumed import load_assumed
 from netdesign.site.cells.cells import Cell
@@ -92,4 +93,7 @@ def build_office_ranges(lines: Row) -> RangesSheet:
             found[field.key] = split_reading(field, reading)
         else:
             found[field.key] = make_default(field, load_assumed()[field.key].shown)
-    return collect_ranges(found)
+    documents = (lines[key] for key in _DOCUMENTS if lines[key].state == "given")
+    ranges = collect_ranges(found)
+    echoes = tuple(one.echo() for one in documents)
+    return replace(ranges, inputs=(*ranges.inputs, *echoes))

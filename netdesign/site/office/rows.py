@@ -25,6 +25,11 @@ from netdesign.words.message import say
 
 Dips = Mapping[tuple[str, str], Reading]
 _ENDS = 2  # of a row
+# Columns of a net type that a row shows beside those of sheet Nets.
+_STATED = (
+    *("approval", "glide_most", "altitude_most", "spacing_most"),
+    *("maker_foot", "maker_uphill", "maker_downhill"),
+)
 _AXES = {
     "foot_axis": (Member.FOOT_ANCHOR, "foot_anchor"),
     "uphill_axis": (Member.UPHILL_ANCHOR, "uphill_anchor"),
@@ -145,7 +150,8 @@ def join_rows(
         )
         if not net:  # a finding already
             row["net_height"] = replace(row["net_height"], state="faulty")
-        rows.append(row)
+        stated = {key: net[key] for key in _STATED if key in net}
+        rows.append({**row, "net_type": line["net_type"], **stated})
     return rows
 
 

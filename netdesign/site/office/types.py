@@ -22,10 +22,15 @@ _STEEL = ("bar_diameter", "bar_strength", "inner_diameter")
 
 
 def take(plan: SheetPlan, *lines: Row, **others: Reading) -> dict[str, Reading]:
-    """Line of a plan: what others give under its keys, the rest not given."""
-    given = {key: reading for line in lines for key, reading in line.items()}
+    """Line of a plan: what others give under its keys, the rest not given.
+
+    Its readings are those of the plan's columns: all that follows knows these.
+    """
+    given = {key: reading for line in lines for key, reading in line.items()} | others
     return {
-        one.key: others.get(one.key) or given.get(one.key) or read_nothing(one, None)
+        one.key: rename(given[one.key], one)
+        if one.key in given
+        else read_nothing(one, None)
         for one in plan.fields
     }
 
@@ -36,8 +41,8 @@ def find_field(plan: SheetPlan, key: str) -> Field:
 
 
 def rename(reading: Reading, field: Field) -> Reading:
-    """Reading of another column, by the name that its own has."""
-    return replace(reading, field=replace(field, named=reading.field.name))
+    """Reading as that of another column."""
+    return replace(reading, field=field)
 
 
 def work_out(
