@@ -18,7 +18,12 @@ from netdesign.coupling.solution import Solution
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask
 from netdesign.envelope.search import search_rows
-from netdesign.guideline.load_model import SnowLoad, compute_snow_load, read_load_model
+from netdesign.guideline.load_model import (
+    SnowLoad,
+    compute_snow_load,
+    load_guideline,
+    read_load_model,
+)
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
 from netdesign.site.model import Site
@@ -30,7 +35,6 @@ from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.document import load_study
-from netdesign.study.effects import load_guideline
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say

@@ -256,6 +256,11 @@ class Ranges:
         """Names of the parameters that do range."""
         return tuple(name for name, span in self.intervals if span.low < span.high)
 
+    def replaced_by(self, others: Ranges) -> Ranges:
+        """Ranges with others in the place of those of the same names."""
+        every = {**dict(self.intervals), **dict(others.intervals)}
+        return Ranges(intervals=tuple(every.items()))
+
     def with_value(self, name: str, value: float) -> Ranges:
         """Ranges with one quantity at a single value; another name of it goes."""
         gone = {name, *_list_twins(name)}
@@ -277,6 +282,9 @@ class Ranges:
             return (1.0 - share) * span.low + share * span.high
         mixed = (1.0 - share) * span.low**power + share * span.high**power
         return float(mixed ** (1.0 / power))
+
+
+NO_RANGES = Ranges(intervals=())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)

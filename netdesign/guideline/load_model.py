@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Generic
 
-from netdesign.checks.loader import Standard
+from netdesign.checks.loader import Standard, load_standard
 from netdesign.numerics.arrays import (
     Number,
     find_cosine,
@@ -103,6 +104,12 @@ class SnowLoad(Generic[Number]):
     normal: Number
     prism: Number
     resultant: tuple[Number, Number]
+
+
+@lru_cache(maxsize=1)
+def load_guideline() -> Standard:
+    """Load the guideline's profile that comes with the program, once."""
+    return load_standard("swiss-guideline-2007")
 
 
 def read_load_model(standard: Standard, dimensioning: float | None = None) -> LoadModel:

@@ -38,9 +38,7 @@ class Assumed:
         Ends of the range in SI units; equal where one value is assumed, 0 where it is
         a word.
     unit : str
-        Of the column; "" of a number that has none, and of a word.
-    times : str
-        What the numbers of the file are multiplied with, and these are already.
+        Of the column; "" of a number that has none, and of a word. D_K of a multiple.
     word : str
         Name of the text of what is assumed, where no number says it.
     source, effect : str
@@ -53,7 +51,6 @@ class Assumed:
     low: float = 0.0
     high: float = 0.0
     unit: str = ""
-    times: str = ""
     word: str = ""
     source: str
     effect: str
@@ -98,15 +95,13 @@ class Assumed:
         return _SIGNS.get(self.unit, f" {self.unit}")
 
 
+_MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
 _SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
 
 
 @lru_cache(maxsize=1)
 def load_assumed() -> Mapping[str, Assumed]:
-    """What may be assumed, by key, in the order of the file.
-
-    Where it is a multiple, its numbers are those of the factor 1.
-    """
+    """What may be assumed, by key, in the order of the file."""
     file = find_resource("standards") / "assumed.toml"
     tables = tomllib.loads(file.read_text(encoding="utf-8"))
     return MappingProxyType({key: _build(key, one) for key, one in tables.items()})
@@ -120,12 +115,12 @@ def assume(key: str, factor: float = 1.0) -> Assumed:
     key : str
         Name in ``assumed.toml``.
     factor : float
-        What its numbers are multiplied with, in SI units: D_K of a distance [m].
+        What a multiple is multiplied with: D_K [m].
     """
     table = load_assumed()[key]
-    if factor == 1.0:
+    if table.unit != _MULTIPLE:
         return table
-    return replace(table, low=factor * table.low, high=factor * table.high)
+    return replace(table, low=factor * table.low, high=factor * table.high, unit="m")
 
 
 def assume_ends(key: str, low: float, high: float) -> Assumed:
@@ -136,8 +131,7 @@ def assume_ends(key: str, low: float, high: float) -> Assumed:
 def _build(key: str, table: dict[str, object]) -> Assumed:
     values = dict(table)
     values["column"] = values.pop("id")
-    # a multiple has the unit of what it is multiplied with
-    unit = "" if "times" in values else str(values.get("unit", ""))
+    unit = str(values.get("unit", ""))
     for end in ("low", "high"):
         if end in values:
             values[end] = to_si(float(values[end]), unit)  # type: ignore[arg-type]

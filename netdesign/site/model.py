@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.checks import Approval, Declaration
 from netdesign.coupling.scene import is_overtopped
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import NO_RANGES, Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
 from netdesign.resistance.steel import Link
@@ -114,8 +114,7 @@ class NetRow:
     net_parts: tuple[Resistance, ...] = field(default=(), hash=False)
     # why the pull of its ropes is not known; None also without ropes
     panel_lack: Message | None = None
-    # columns left empty that every force depends on: nothing is proven
-    unsaid: tuple[Message, ...] = field(default=(), hash=False)
+    ranges: Ranges = NO_RANGES  # in the place of those of the site
     assumed: tuple[Assumed, ...] = field(default=(), hash=False)  # of empty columns
     # numbers that can hardly be meant, on which it rests: it is not proven
     questions: tuple[Message, ...] = field(default=(), hash=False)
@@ -161,15 +160,6 @@ class NetRow:
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""
         return next(one for one in self.net_parts if one.member == part)
-
-    @property
-    def solved_panels(self) -> tuple[Panel, ...]:
-        """Panels that its cases are solved with.
-
-        No check of a row rests on forces that something unsaid decides, so that none
-        are assumed for it.
-        """
-        return () if self.unsaid and self.panel_assumed else self.panels
 
     @property
     def has_end(self) -> bool:
@@ -343,6 +333,12 @@ class Site:
         kept = tuple(row for row in self.rows if row.id in ids)
         left_out = tuple(row.id for row in self.rows if row.id not in ids)
         return replace(self, rows=kept, left_out=(*self.left_out, *left_out))
+
+    def at_row(self, row: NetRow) -> Site:
+        """Site with the ranges that count for one of its rows."""
+        if not row.ranges.intervals:
+            return self
+        return replace(self, ranges=self.ranges.replaced_by(row.ranges))
 
     def find_uncertain(self, row_id: str, name: str) -> UncertainQuantity | None:
         """What is known of the scatter of a quantity: of the row, else of all."""

@@ -12,6 +12,14 @@ from netdesign.site.anchor_types import read_anchor_types, read_axes
 from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
+from netdesign.site.empty_cells import (
+    GLIDE,
+    Snow,
+    assume_stiffness,
+    fill_in_assumed,
+    fill_in_snow,
+    find_own_ranges,
+)
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
@@ -44,7 +52,6 @@ from netdesign.site.statements import (
     has_same_types,
     list_assumed,
     list_fixed,
-    list_unsaid,
     replace_types,
 )
 from netdesign.site.support_types import (
@@ -61,15 +68,9 @@ from netdesign.snow.ground import (
     find_glide_step,
 )
 from netdesign.snow.snowpack import Layer
-from netdesign.structure.layout import (
-    DEFAULT_DOWNHILL_RATIO,
-    DEFAULT_UPHILL_RATIO,
-    SupportLayout,
-)
+from netdesign.structure.layout import DEFAULT_POST_TILT, SupportLayout
 from netdesign.structure.members import Member, NetPart
 from netdesign.words.message import Message, say
-
-Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
 
 _CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
@@ -85,7 +86,6 @@ _COMPARED = (
     *("glide_factor", "net_stiffness", "slack", "post_tilt", "guy_count", *_OF_NET),
 )
 _SHARED = ("neighbour", "gap")  # of a row that goes on
-_GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 
 
 def build_net_rows(
@@ -187,16 +187,17 @@ def _judge_count(count: int) -> Refusal | None:
 def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow | None:
     count_before, ranged = len(findings), lines.ranges.ends
     snow, end = lines.snow.get(line["id"].word, ()), lines.ends.get(line["id"].word)
-    line = _fill_in_distances(line)
     row = fill_in_ranges(line, ranged, findings)
     law = {"ground_law": _read_ground_law(row)}
     line, row = {**line, **law}, {**row, **law}
+    row, assumed = fill_in_assumed(row)
     check_statements(row, snow, end, findings)
     _check_length(row, findings)
     layers = build_layers(snow, row["slope_angle"], findings)
     is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
     thickness = _understand_thickness(row, snow, layers, findings, is_ranged=is_ranged)
     ground = _understand_ground(row, thickness, findings)
+    _ask_for_length(row, findings)
     named: list[Row] = [row, end] if end else [row]
     for one in named:
         refuse_unknown_types(one, lines, findings)
@@ -213,7 +214,11 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     echoes = _echo_inputs(line, thickness, ground)
     inputs = (*echoes, *echo_layers(snow), *echo_ends(end))
     held = (thickness, layers, ground)
-    return _compose_net_row(row, end, lines.types, held, inputs)
+    row, further = fill_in_snow(row, held, lines.ranges, snow)
+    built = _compose_net_row(row, end, lines.types, held, inputs)
+    found = (*assumed, *further, *assume_stiffness(row, lines.types["Ropes"]))
+    found = (*found, *built.assumed)
+    return replace(built, assumed=found, ranges=find_own_ranges(found))
 
 
 def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Row:
@@ -265,7 +270,7 @@ def _compose_net_row(
         ground_type=row["ground"].word,
         edge_distance=row["edge_distance"].given_si,
         design_life=row["design_life"].given_count or int(assume("design_life").high),
-        glide_factor=row["glide_factor"].given_si,
+        glide_factor=row["glide_factor"].known_si,
         guys=read_guys(row),
         has_row_above=row["row_above"].word != "none",
         axes=read_axes(row),
@@ -276,7 +281,6 @@ def _compose_net_row(
         row_end=build_row_end(at_end, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
         panel_lack=explain_panel_lack(row),
-        unsaid=list_unsaid(row),
     )
 
 
@@ -312,23 +316,6 @@ def _check_length(row: Row, findings: list[Finding]) -> None:
         refuse(length, rule, say("nets.length_of_posts"), findings)
 
 
-def _fill_in_distances(row: Row) -> Row:
-    """Row whose empty anchor distances have their share of the net height."""
-    height = row["net_height"].value
-    if not isinstance(height, float):
-        return row
-    ratios = {
-        "uphill_anchor_distance": DEFAULT_UPHILL_RATIO,
-        "downhill_anchor_distance": DEFAULT_DOWNHILL_RATIO,
-    }
-    filled = {
-        key: replace(row[key], state="default", value=ratio * height)
-        for key, ratio in ratios.items()
-        if row[key].state == "blank"
-    }
-    return {**row, **filled}
-
-
 def _understand_thickness(
     row: Row,
     lines: Sequence[Row],
@@ -362,7 +349,7 @@ def _understand_thickness(
 def _read_ground_law(row: Row) -> Reading:
     """Ground law as typed; where nobody types one beside a glide, the ground slides."""
     law = row["ground_law"]
-    given = [row[key] for key in _GLIDE if row[key].state == "given"]
+    given = [row[key] for key in GLIDE if row[key].state == "given"]
     if law.state != "blank" or len(given) != 1:
         return law
     (glide,) = given
@@ -377,20 +364,25 @@ def _understand_ground(
     if "faulty" in (law.state, slip.state, glide.state):
         return None
     given = [reading for reading in (slip, glide) if reading.state == "given"]
-    if law.state == "blank":
-        if given:
-            choose_given(row, _GLIDE, findings)
-        else:
-            seen = law if law.cell is not None else glide
-            refuse(seen, say("cell.empty"), law.field.accepted, findings)
+    if law.state == "blank":  # both are given
+        choose_given(row, GLIDE, findings)
         return None
     if law.word != "sliding":
         kind = next(kind for kind in GROUND_KINDS if kind == law.word)
         return None if given else GroundLaw(kind=kind)
-    chosen = choose_given(row, _GLIDE, findings)
+    is_assumed = glide.state == "default"
+    chosen = glide if is_assumed else choose_given(row, GLIDE, findings)
     if chosen is slip:
         return GroundLaw(kind="sliding", slip_length=slip.si)
     return _build_sliding_ground(glide, thickness, findings) if chosen else None
+
+
+def _ask_for_length(row: Row, findings: list[Finding]) -> None:
+    """Refuse a line without an upslope length on ground that holds none of its snow."""
+    law, length = row["ground_law"], row["upslope_length"]
+    if law.word == "free" and length.state == "blank":
+        rule = say("nets.free_without_length", name=length.field.name)
+        refuse(law, rule, say("nets.other_law_or_length"), findings)
 
 
 def _build_sliding_ground(
@@ -406,9 +398,10 @@ def _build_sliding_ground(
 
 
 def _build_layout(row: Row) -> SupportLayout:
+    tilt = row["post_tilt"].known_si  # of no matter beside a base distance
     return SupportLayout(
         post_spacing=row["post_spacing"].si,
-        post_tilt=row["post_tilt"].si,
+        post_tilt=DEFAULT_POST_TILT if tilt is None else tilt,
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=row["post_base_distance"].given_si,

@@ -24,7 +24,6 @@ from netdesign.site.columns.all_tables import (
     UNCERTAINTY,
     WINTER,
 )
-from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.content import Content
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
@@ -35,10 +34,8 @@ from netdesign.site.lines import (
 )
 from netdesign.site.project_sheet import read_project
 from netdesign.site.ranges import (
-    STIFFNESS,
     RangesSheet,
     add_answered_ranges,
-    assume_stiffness,
     build_ranges,
     free_columns,
 )
@@ -83,22 +80,10 @@ def _find_tables(
     table = find_table(workbook, RANGES, told)
     ranges = replace(build_ranges(table, told), findings=told)
     plan = free_columns(NETS, ranges.ends)
-    if table and not _is_stiffness_given(workbook, plan):
-        ranges = assume_stiffness(ranges)
-        plan = free_columns(plan, ranges.ends)
     others = [one for one in SHEETS if one not in (NETS, RANGES, PROJECT)]
     tables = {plan.name: find_table(workbook, plan, findings) for plan in others}
     nets = find_tables(workbook, plan, findings)
     return {RANGES.name: table, **tables}, nets, ranges
-
-
-def _is_stiffness_given(workbook: Workbook, plan: SheetPlan) -> bool:
-    """A stiffness of the net stands somewhere, or no net row is found at all."""
-    if not next(one for one in plan.fields if one.key == STIFFNESS).required:
-        return True
-    tables = find_tables(workbook, plan.free((STIFFNESS,)), [])
-    given = {key for table in tables for key in table.columns}
-    return not tables or STIFFNESS in given
 
 
 def _read_lines(

@@ -35,7 +35,6 @@ from netdesign.site.columns.all_tables import (
     ROPES,
     SHEETS,
     UNANSWERED,
-    USUAL_QUANTITIES,
     has_no_part,
     is_allowable,
 )
@@ -211,12 +210,11 @@ def write_questions(
     found = [table for plan in SHEETS for table in find_tables(workbook, plan, [])]
     asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
     questions = _ask_names(found, findings, language)
-    of_ranges = list(_ask_ranges(workbook, findings, language))
     lines = [*_begin(path, workbook, UNANSWERED if asks_mark else "", language)]
     if answers.sheets or asked:
         lines += [*_list_answers("sheets", answers.sheets, asked, language), ""]
-    if answers.ranges or of_ranges:
-        lines += [*_list_answers("ranges", answers.ranges, of_ranges, language), ""]
+    if answers.ranges:
+        lines += [*_list_answers("ranges", answers.ranges, [], language), ""]
     for table in found:
         name = table.sheet.name
         place, given = f"headings.{_quote(name)}", answers.headings.get(name, {})
@@ -272,23 +270,6 @@ def _ask_sheets(
         if counts[likely] >= _LEAST_KNOWN:
             hints = (say("finding.in_quotes", text=say(f"sheet.{likely}")),)
             yield Question("", sheet.name, UNANSWERED, hints, likely=likely)
-
-
-def _ask_ranges(
-    workbook: Workbook, findings: list[Finding], language: Language
-) -> Iterator[Question]:
-    """Ranges that must be given, where the workbook has no sheet for them."""
-    if list_meant(workbook, RANGES):
-        return
-    no_sheet = say(
-        "table.lacks_sheet", wanted=say("finding.in_quotes", text=RANGES.title)
-    )
-    is_nowhere = any(one.rule == no_sheet for one in findings)
-    for one in USUAL_QUANTITIES:
-        lacks = say("range.lacks", heading=one.title)
-        if one.required and (is_nowhere or any(x.rule == lacks for x in findings)):
-            name = f"{one.label_in(language)} [{one.unit}]"
-            yield Question("", name, UNANSWERED, (say("map.range"),))
 
 
 def _ask_names(

@@ -11,6 +11,7 @@ from dataclasses import field as of_dataclass
 
 from netdesign.envelope.ranges import ONE_QUANTITY, Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
+from netdesign.site.assumed import Assumed, assume
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.cells.numbers import split_range
@@ -34,10 +35,8 @@ from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row, explain_unit, read_cell, refuse
 from netdesign.site.tables import match_item, read_field
 from netdesign.site.titles import list_meant
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
-_DEFAULT_INCLINATION = (25.0, 35.0)  # [deg]
-STIFFNESS = "net_stiffness"
 _Ends = tuple[Cell | None, Cell | None]
 
 
@@ -62,8 +61,8 @@ class RangesSheet:
     ends : mapping of str to tuple of Reading, or None
         Low and high end of what ranges beside the usual three; None where its line
         has a fault.
-    unsaid : tuple of Message
-        Quantities that have no line, and range as they usually do.
+    assumed : tuple of Assumed
+        Of the usual three those that have no line.
     lines : tuple of Row
         Both ends of each range, one a line.
     findings : sequence of Finding
@@ -72,7 +71,7 @@ class RangesSheet:
 
     ranges: Ranges | None = None
     inputs: tuple[InputEcho, ...] = ()
-    unsaid: tuple[Message, ...] = ()  # quantities that nobody gives
+    assumed: tuple[Assumed, ...] = ()
     lines: tuple[Row, ...] = ()
     findings: Sequence[Finding] = ()
     ends: Mapping[str, tuple[Reading, Reading] | None] = of_dataclass(
@@ -95,22 +94,12 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     RangesSheet
         Without ranges where a fault went to ``findings``.
     """
-    if table is None:
-        return RangesSheet()
     found: dict[str, _Range | None] = {}
     names: dict[str, Reading] = {}
-    for row in table.rows:
-        read_line(table, row, found, names, findings)
-    refuse_unused_answers(table, findings)
-    for one in USUAL_QUANTITIES:
-        if one.key in found:
-            continue
-        if one.required:
-            rule = say("range.lacks", heading=one.title)
-            findings.append(table.sheet.finding(rule, one.accepted))
-            found[one.key] = None
-        else:
-            found[one.key] = make_default(one, _DEFAULT_INCLINATION)
+    if table:
+        for row in table.rows:
+            read_line(table, row, found, names, findings)
+        refuse_unused_answers(table, findings)
     for name in _refuse_doubles(names, findings):
         found[name] = None
     complete = {key: value for key, value in found.items() if value is not None}
@@ -122,43 +111,7 @@ def build_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
     }
     if len(complete) < len(found) or is_crowded:
         return RangesSheet(ends=ends)
-    order = [*USUAL_QUANTITIES, *FURTHER_QUANTITIES]
-    inputs = [complete[one.key].inputs for one in order if one.key in complete]
-    return RangesSheet(
-        ranges=Ranges.of(**{key: value.interval for key, value in complete.items()}),
-        inputs=tuple(echo for echoes in inputs for echo in echoes),
-        unsaid=tuple(one.name for one in USUAL_QUANTITIES if one.key not in names),
-        ends=ends,
-        lines=tuple(
-            {one.field.key: one}
-            for value in complete.values()
-            for one in (value.low, value.high)
-        ),
-    )
-
-
-def assume_stiffness(sheet: RangesSheet) -> RangesSheet:
-    """Ranges with all stiffnesses that nets are built with: nobody gives one.
-
-    The worst of them is searched, as of any range that is given: of all that may be
-    typed without a question, so that none that is given is worse.
-    """
-    usual = next(one.usual for one in NETS.fields if one.key == STIFFNESS)
-    if usual is None:
-        return sheet
-    found = make_default(
-        next(one for one in FURTHER_QUANTITIES if one.column == STIFFNESS),
-        (usual.least, usual.most),
-    )
-    ends = {**sheet.ends, STIFFNESS: (found.low, found.high)}
-    if sheet.ranges is None:
-        return replace(sheet, ends=ends)
-    return replace(
-        sheet,
-        ranges=Ranges.of(**dict(sheet.ranges.intervals), **{STIFFNESS: found.interval}),
-        inputs=(*sheet.inputs, *found.inputs),
-        ends=ends,
-    )
+    return replace(collect_ranges(complete), ends=ends)
 
 
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
@@ -185,8 +138,8 @@ def _refuse_crowd(
         for key, one in complete.items()
         if one.interval.low < one.interval.high and key in names
     ]
-    # a default inclination has no line, and ranges
-    most = MOST_PARAMETERS - ("inclination" not in names)
+    # what has no line of the usual three ranges, too
+    most = MOST_PARAMETERS - sum(one.key not in names for one in USUAL_QUANTITIES)
     if len(wide) <= most:
         return False
     accepted = say("range.at_most", most=MOST_PARAMETERS)
@@ -229,10 +182,10 @@ def read_line(
     )
     if low is None or high is None:  # the missing heading is a finding already
         return
-    if field in FURTHER_QUANTITIES and low.state == high.state == "blank":
+    if low.state == high.state == "blank":
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        built = _read_range(field, low, high, settled, findings)
+        built = _read_range(low, high, settled, findings)
         if built and why.state == "given":
             named = say("column.justification_of", name=field.name)
             built = replace(built, inputs=(*built.inputs, why.echo(named)))
@@ -290,7 +243,6 @@ def _settle_unit(
 
 
 def _read_range(
-    field: Field,
     low: Reading,
     high: Reading,
     unit: str,
@@ -298,8 +250,6 @@ def _read_range(
 ) -> _Range | None:
     if "faulty" in (low.state, high.state):
         return None
-    if low.state == high.state == "blank":
-        return make_default(field, _DEFAULT_INCLINATION)
     for reading, other in ((low, high), (high, low)):
         if reading.state == "blank":
             rule = say("range.empty_beside", place=other.place)
@@ -336,19 +286,6 @@ def _name_end(field: Field, key: str) -> Field:
     return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
-def make_default(field: Field, ends: tuple[float, float]) -> _Range:
-    """Range of a quantity that nobody gives, in its first unit."""
-    low, high = (
-        Reading(
-            field=_name_end(field, key),
-            state="default",
-            value=value,
-        )
-        for key, value in zip(("low", "high"), ends, strict=True)
-    )
-    return _build_range(low, high)
-
-
 def split_reading(field: Field, reading: Reading) -> _Range:
     """Range of a quantity that one cell holds, or a single value."""
     ends = reading.span or (reading.number, reading.number)
@@ -360,10 +297,17 @@ def split_reading(field: Field, reading: Reading) -> _Range:
 
 
 def collect_ranges(found: Mapping[str, _Range]) -> RangesSheet:
-    """Ranges of the usual three quantities, each given or assumed."""
+    """Ranges of some quantities; those of the usual three that lack are assumed."""
+    assumed = tuple(assume(x.key) for x in USUAL_QUANTITIES if x.key not in found)
+    order = (*USUAL_QUANTITIES, *FURTHER_QUANTITIES)
+    inputs = (found[one.key].inputs for one in order if one.key in found)
     return RangesSheet(
-        ranges=Ranges.of(**{key: one.interval for key, one in found.items()}),
-        inputs=tuple(echo for one in found.values() for echo in one.inputs),
+        ranges=Ranges.of(
+            **{one.key: Interval(low=one.low, high=one.high) for one in assumed},
+            **{key: one.interval for key, one in found.items()},
+        ),
+        inputs=tuple(echo for echoes in inputs for echo in echoes),
+        assumed=assumed,
         lines=tuple(
             {end.field.key: end}
             for one in found.values()

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
 from netdesign.checks import list_standards
 from netdesign.edge.given_files import is_there
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import SiteDataError
-from netdesign.resistance.steel import Link
 from netdesign.site.cells.cells import (
     UNDECLARED,
     TextFormat,
@@ -50,14 +50,10 @@ from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
 from netdesign.site.office.sheets import is_office, keep_sheets, may_be_office
 from netdesign.site.plausible import ask
-from netdesign.site.ranges import (
-    RangesSheet,
-)
 from netdesign.site.snow_sheets import (
     check_layers,
     read_winter,
 )
-from netdesign.site.statements import list_missing
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.titles import (
     give_answers,
@@ -70,7 +66,7 @@ from netdesign.site.titles import (
 from netdesign.site.type_lines import (
     read_links,
 )
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 # Headings of sheet Nets, at least, on a sheet that holds net rows.
 _LEAST_KNOWN = 4
@@ -159,10 +155,10 @@ def _build_site(
         raise _refuse(content, findings)
     notes = fold_findings(list(map(_shorten, findings)))
     asked = ask(lines, confirmed, findings)
-    rows = (_complete(row, ranges, links, asked[row.id]) for row in net_rows)
+    rows = (replace(row, questions=asked[row.id]) for row in net_rows)
     return Site(
         project=content.project,
-        ranges=ranges.ranges,
+        ranges=_span(ranges.ranges, net_rows),
         rows=tuple(mark_replaced(row, replaced) for row in rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
@@ -183,6 +179,16 @@ def _build_site(
         what_if=replaced,
         uncertain=uncertain,
     )
+
+
+def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
+    """Ranges of a site, the density over all rows where each has its own."""
+    own = [dict(row.ranges.intervals).get("density") for row in rows]
+    spans = [one for one in own if one]
+    if not spans:
+        return ranges
+    low, high = min(one.low for one in spans), max(one.high for one in spans)
+    return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
 
 
 def _refuse(content: Content, findings: list[Finding]) -> SiteDataError:
@@ -243,22 +249,6 @@ def _list_unknown_profiles(
         rule=say("item.no_profile"),
         accepted=say("accepted.words", words=list_standards()),
     )
-
-
-def _complete(
-    row: NetRow,
-    ranges: RangesSheet,
-    links: Mapping[str, tuple[Link, ...]],
-    questions: tuple[Message, ...],
-) -> NetRow:
-    """Net row with its questions and lacks; a row is completed in one go.
-
-    What every force of it lacks would hide what its checks lack besides.
-    """
-    unsaid = row.unsaid + ranges.unsaid
-    missing = list_missing(row, links) if unsaid else ()
-    every = tuple(dict.fromkeys((*unsaid, *missing)))
-    return replace(row, unsaid=every, questions=questions)
 
 
 def _build_rows(content: Content, findings: list[Finding]) -> tuple[NetRow, ...]:

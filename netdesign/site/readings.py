@@ -47,8 +47,8 @@ class Reading:
     field : Field
         What it is.
     state : str
-        ``given``, ``blank`` (nothing typed), ``default`` or ``faulty`` (a finding
-        tells why).
+        ``given``, ``blank`` (nothing typed), ``default`` (assumed) or ``faulty`` (a
+        finding tells why).
     value : float, str or None
         As understood, in the field's first unit; None where there is none.
     text : str
@@ -94,6 +94,11 @@ class Reading:
     def given_si(self) -> float | None:
         """The value in SI units where it was typed; else None, default or not."""
         return self.si if self.state == "given" else None
+
+    @property
+    def known_si(self) -> float | None:
+        """The value in SI units, typed or assumed; None where there is none."""
+        return self.si if self.state in ("given", "default") else None
 
     @property
     def given_count(self) -> int | None:
@@ -218,9 +223,7 @@ def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
 
 def read_nothing(field: Field, cell: Cell | None) -> Reading:
     """Read an optional field where nothing is typed, or no column exists."""
-    if field.default is None:
-        return Reading(field=field, state="blank", cell=cell)
-    return Reading(field=field, state="default", value=field.default, cell=cell)
+    return Reading(field=field, state="blank", cell=cell)
 
 
 def refuse(

@@ -1,9 +1,7 @@
 """Statements of a line of sheet Nets, and of its line of sheet Ends.
 
-Some columns may be empty, but every force of a row depends on their values. No default
-is on the safe side for all members, so a row that lacks one of them is not proven:
-knowing less never makes a verdict better.
-What all its verdicts lack is listed once, `list_missing`.
+What a row leaves empty of net, snow and support is a range: `empty_cells.py`. What its
+verdicts lack besides is listed once, `list_missing`.
 """
 
 from __future__ import annotations
@@ -51,24 +49,6 @@ _OF_PANEL = (
 )
 # Columns of sheets Nets and Ends that name a type of the support.
 _TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
-
-
-def list_unsaid(row: Row) -> tuple[Message, ...]:
-    """Names of those columns of sheet Nets that a line leaves empty.
-
-    Parameters
-    ----------
-    row : mapping of str to Reading
-        Line of sheet Nets, filled in by the ranges.
-    """
-    needed = ["slack", "uphill_anchor_distance", "downhill_anchor_distance"]
-    needed += ["snow_layers", "guy_count"]
-    if row["post_base_distance"].state != "given":
-        needed.append("post_tilt")
-    count = row["guy_count"]
-    if count.state != "given" or count.number > 1:
-        needed.append("guy_splay")
-    return tuple(row[key].field.name for key in needed if row[key].state != "given")
 
 
 def check_statements(
@@ -149,7 +129,7 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
     tuple of Panel
         None of a row without ropes between its posts.
     """
-    if not _has_panel(row):
+    if not has_panel(row):
         return ()
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     mid = row["mid_anchors"].word
@@ -162,21 +142,26 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
     )
 
 
-def _has_panel(row: Row) -> bool:
+def has_panel(row: Row) -> bool:
+    """There are ropes between the posts, or nobody says that there are none."""
     return row["panel_system"].word not in ("none", "triangular")
 
 
 def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
     """Names of what is assumed of the panel of a net row."""
-    if not _has_panel(row):
+    if not has_panel(row):
         return ()
     keys = ("panel_system", *_OF_PANEL)
     lacking = [row[key].field.name for key in keys if row[key].state != "given"]
-    named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
-    open_ropes = (
-        one for one in named if ropes[one]["axial_stiffness"].state != "given"
-    )
+    open_ropes = list_open_ropes(row, ropes)
     return (*lacking, *(say("panel.stiffness_of", id=one) for one in open_ropes))
+
+
+def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
+    """Types of the border ropes of a row whose stiffness nobody gives."""
+    named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
+    lacking = (x for x in named if ropes[x]["axial_stiffness"].state != "given")
+    return tuple(lacking)
 
 
 def list_stiffnesses(
@@ -247,7 +232,7 @@ def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
         Lines of the type sheets.
     """
     keys = [key for key in _FIXED if _is_empty(row, key)]
-    if _has_panel(row):
+    if has_panel(row):
         keys += [key for key in _FIXED_OF_PANEL if _is_empty(row, key)]
     if row["guy_count"].given_count != 1 and _is_empty(row, "guy_anchors"):
         keys.append("guy_anchors")
@@ -257,7 +242,7 @@ def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
         said = (*_TYPES, "support_types")
         is_typed = end is not None and any(not _is_empty(end, one) for one in said)
         keys += [] if is_typed else ["support_types"]
-        if _has_panel(row) and (end is None or _is_empty(end, "end_guy_angle")):
+        if has_panel(row) and (end is None or _is_empty(end, "end_guy_angle")):
             keys.append("end_guy_angle")
     found = [*keys, *_list_fixed_of_types(row, end or {}, types)]
     return tuple(assume(key) for key in dict.fromkeys(found))
@@ -311,7 +296,6 @@ def list_missing(
         Chains of sheet Links, by type.
     """
     found = chain(
-        row.unsaid,
         row.panel_assumed,
         _list_of_types(row),
         _list_chains(row, links),

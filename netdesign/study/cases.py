@@ -8,7 +8,7 @@ from itertools import product
 
 from netdesign.coupling.scene import Scene
 from netdesign.edge.progress import Phase, Wave
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import NO_RANGES, Case, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.search import search_rows
 from netdesign.outcome import ModelError
@@ -34,11 +34,14 @@ _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each 
 
 def count_cases(site: Site) -> int:
     """About the number of cases of a search, which nobody knows yet."""
-    if not site.ranges.axes:
-        return len(site.rows)
-    # a search of many ranges takes its first cases, and some of its own
-    first = len(list_first_design(len(site.ranges.axes)))
-    return len(site.rows) * max(_SEARCH[0], first + _BEYOND_FIRST)
+    return sum(_count_row(site.at_row(row).ranges) for row in site.rows)
+
+
+def _count_row(ranges: Ranges) -> int:
+    """About the number of cases of a row: its first cases, and some of its own."""
+    if not ranges.axes:
+        return 1
+    return max(_SEARCH[0], len(list_first_design(len(ranges.axes))) + _BEYOND_FIRST)
 
 
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
@@ -82,7 +85,7 @@ def _plan_envelope(site: Site, run: CheckRun) -> Phase:
         key="envelope",
         words=say("phase.search_cases"),
         cases=count_cases(site),
-        most=len(site.rows) * (_SEARCH[1] if site.ranges.axes else 1),
+        most=sum(_SEARCH[1] if site.at_row(x).ranges.axes else 1 for x in site.rows),
         cost=1.0 / run.jobs,
     )
 
@@ -137,7 +140,8 @@ def _count_most_cases(ranges: Ranges) -> int:
     return SearchSettings().max_cases + _MORE_CASES * max(0, free - _USUAL_RANGES)
 
 
-def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
+def _build_search(row: NetRow, of_site: Ranges, run: CheckRun) -> RowTask:
+    ranges = of_site.replaced_by(row.ranges)
     is_own = bool(row.layers or ranges.further)
     layout, *others = list_layouts(row)
     return RowTask(
@@ -152,7 +156,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         ),
         confirmed_by=refine_settings(run.settings) if ranges.axes else None,
         build=_build_scenes(row, run.creep_law) if is_own else None,
-        panels=row.solved_panels,
+        panels=row.panels,
         has_end=row.row_end is not None,
     )
 
@@ -185,8 +189,8 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         panel_assumed=(),
         row_end=None,
         panel_lack=None,
-        unsaid=(),
         assumed=(),
+        ranges=NO_RANGES,
         questions=(),
         approval=None,
     )

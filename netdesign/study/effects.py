@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 
-from netdesign.checks import Check, OpenKind, Standard, load_standard
+from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import leave_open
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import (
     compute_altitude_factor,
+    load_guideline,
     read_end_effect,
     read_load_model,
 )
@@ -47,9 +48,6 @@ def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
     ]
 
 
-GUIDELINE = "swiss-guideline-2007"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowEffects:
     """Loaded widths and lateral load of the supports of a row.
@@ -76,12 +74,6 @@ class RowEffects:
         """Support at a position; the one inside the row where it has no other."""
         found = [one for one in self.supports if one.position == position]
         return (found or self.supports)[0]
-
-
-@lru_cache(maxsize=1)
-def load_guideline() -> Standard:
-    """Load the guideline's profile that comes with the program, once."""
-    return load_standard(GUIDELINE)
 
 
 def find_row_glide_factor(row: NetRow) -> float:

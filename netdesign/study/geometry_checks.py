@@ -14,7 +14,7 @@ from netdesign.study.effects import check_ends, find_effects
 from netdesign.study.row_to_check import Basis
 from netdesign.words.message import say
 
-INCLINATION = "column.quantities.inclination"  # name of the net's inclination
+_SPACING, _UPSLOPE = "spacing", "upslope_length"
 
 
 def check_row_geometry(basis: Basis) -> list[Check]:
@@ -23,18 +23,19 @@ def check_row_geometry(basis: Basis) -> list[Check]:
     geometry = check_geometry(read_geometry(row, ranges), standard)
     ends = check_ends(find_effects(row, standard, ranges))
     return [
-        *(_leave_default_open(row, one) for one in geometry),
+        *(_leave_assumed_open(row, one) for one in geometry),
         *([ends] if ends else []),
         *_list_asked(row, standard),
     ]
 
 
-def _leave_default_open(row: NetRow, check: Check) -> Check:
-    """Check of the inclination, not proven where nobody gives its range."""
-    names = tuple(one for one in row.unsaid if one.key == INCLINATION)
-    if check.mode != "inclination" or not names:
+def _leave_assumed_open(row: NetRow, check: Check) -> Check:
+    """Check of the distance of rows, open where nobody says how far the snow goes."""
+    length = row.find_assumed(_UPSLOPE)
+    if check.mode != _SPACING or length is None:
         return check
-    return check.with_open(OpenKind.VALUE_ASKED, say("check.unsaid", names=names))
+    lack = say("check.unsaid", names=(length.name,))
+    return leave_open(_SPACING, OpenKind.VALUE_ASKED, lack)
 
 
 def _list_asked(row: NetRow, standard: Standard) -> Iterator[Check]:

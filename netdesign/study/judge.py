@@ -115,7 +115,7 @@ def judge_row(
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowToCheck(
-        site=site,
+        site=site.at_row(row),
         row=row,
         standard=standard,
         law=run.creep_law,
@@ -149,7 +149,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         parts=list_parts(known.row, task.site.ranges["inclination"]),
         drawing=drawing,
-        unsaid=list(row.unsaid),
         questions=list(row.questions),
         monitoring=record_monitoring(task.site, row),
         anchors=anchors,

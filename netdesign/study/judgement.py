@@ -41,7 +41,7 @@ from netdesign.study.pulls import (
     doubt_mortar,
     find_pull,
 )
-from netdesign.study.row_to_check import Basis, find_doubt, name_unsaid
+from netdesign.study.row_to_check import Basis, find_doubt
 from netdesign.study.sideways import ask_end_guy, check_sideways
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -308,8 +308,6 @@ def _find_unsaid(
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
     row = known.row
-    if row.unsaid:
-        return name_unsaid(row)
     if known.panel_gap is not None:
         return known.panel_gap
     if given.member in ROPE_OF and known.effects.end_lack is not None:
@@ -368,8 +366,6 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 
     What is not known of the row's end alone leaves no other check open.
     """
-    if row.unsaid:
-        return name_unsaid(row)
     members = [one for one in judged if not one.is_of_end]
     of_end = [_find_lack(row, one.given) or row.panel_lack for one in members]
     points = (

@@ -51,7 +51,8 @@ def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]
 
 def _search_notes(site: Site, accuracy: float) -> list[Message]:
     """Say where a search ends before the accuracy that its cases have."""
-    if not site.ranges.axes or accuracy >= CLOSEST_GAP:
+    axes = [one for row in site.rows for one in site.at_row(row).ranges.axes]
+    if not axes or accuracy >= CLOSEST_GAP:
         return []
     asked, closest = 100.0 * accuracy, 100.0 * CLOSEST_GAP
     return [say("note.accuracy_of_cases", asked=asked, closest=closest)]
@@ -156,7 +157,7 @@ def list_row_notes(known: RowForces) -> list[Message]:
     notes += [*_list_end_notes(known), *list_assumed(row)]
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
-    if row.panel_assumed and row.solved_panels:
+    if row.panel_assumed and row.panels:
         notes.append(say("panel.assumed", names=row.panel_assumed))
     return [*notes, *_list_pull_notes(known.pulls)]
 

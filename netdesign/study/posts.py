@@ -21,6 +21,7 @@ from netdesign.guideline.comparison import LoadCase, list_cases
 from netdesign.guideline.load_model import (
     SnowLoad,
     compute_snow_load,
+    load_guideline,
     read_load_model,
 )
 from netdesign.outcome import ModelError
@@ -38,7 +39,6 @@ from netdesign.study.effects import (
     find_glide_factors,
     list_corners,
     load_glide_limits,
-    load_guideline,
 )
 from netdesign.study.record_guideline import build_geometry
 from netdesign.study.row_to_check import Basis

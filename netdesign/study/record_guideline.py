@@ -23,7 +23,7 @@ from netdesign.guideline.floor import (
     NetRanges,
     find_floor,
 )
-from netdesign.guideline.load_model import LoadModel, read_load_model
+from netdesign.guideline.load_model import LoadModel, load_guideline, read_load_model
 from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import GRAVITY
 from netdesign.structure.members import Member
@@ -38,7 +38,6 @@ from netdesign.study.effects import (
     find_glide_factors,
     find_row_glide_factor,
     list_assumed,
-    load_guideline,
 )
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_support import list_pressures

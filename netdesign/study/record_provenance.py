@@ -15,13 +15,14 @@ from netdesign.checks.tested import find_proof_factor
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge.json_text import list_fields
+from netdesign.guideline.load_model import load_guideline
 from netdesign.outcome import StudyError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.cells.numbers import DecimalMark
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.check_run import CheckRun
-from netdesign.study.effects import load_glide_limits, load_guideline
+from netdesign.study.effects import load_glide_limits
 from netdesign.study.records import ProfileRecord, Provenance, Study
 from netdesign.study.values import Difference, compare_listed, list_values
 from netdesign.words.message import Message, say

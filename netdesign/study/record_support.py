@@ -50,7 +50,7 @@ def record_panel(
 
     None of a row without a panel. ``drawn`` is the case that is shown.
     """
-    if not row.solved_panels:
+    if not row.panels:
         return None
     panel = row.panels[0]
     ropes = [rope for rope in RopeForce if rope in extremes]

@@ -170,7 +170,6 @@ class RowStudy:
     cases: Items[CaseRecord]
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    unsaid: Items[Message] = field(default_factory=list)  # empty columns that decide
     questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
     monitoring: Items[MonitoringRecord] = field(default_factory=list)
     anchors: Items[AnchorRecord] = field(default_factory=list)  # in the drawn case

@@ -94,7 +94,7 @@ def build_row_task(
         lambda one: build_scene(row, one, law),
         layout,
         settings,
-        row.solved_panels,
+        row.panels,
         tuple(others),
     )
 
@@ -185,18 +185,3 @@ def find_doubt(basis: Basis, *, density: float, largest: float) -> Message | Non
 def list_densities(row: NetRow, density: float) -> tuple[float, ...]:
     """Densities of the layers, or of uniform snow [kg/m3]."""
     return tuple(layer.density for layer in row.layers_at(density)) or (density,)
-
-
-_MOST_NAMES = 3  # of inputs that a row lacks, in the reason of a check
-
-
-def name_unsaid(row: NetRow) -> Message:
-    """The columns that a row leaves empty, and that every force depends on.
-
-    The first of many: each check says it, and the row has them all.
-    """
-    names = row.unsaid
-    if len(names) <= _MOST_NAMES:
-        return say("check.unsaid", names=names)
-    first = names[: _MOST_NAMES - 1]
-    return say("check.unsaid_many", names=first, count=len(names) - len(first))

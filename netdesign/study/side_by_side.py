@@ -42,7 +42,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
     monitoring = tuple(one for one in site.monitoring if one.row_id == row.id)
     return Site(
         project=Project(accepted_law=site.project.accepted_law),
-        ranges=site.ranges,
+        ranges=site.at_row(row).ranges,
         rows=(row,),
         file_name="",
         sha256="",

@@ -279,11 +279,8 @@ def check_sideways(
     standard: Standard,
     gap: Message | None,
 ) -> Check:
-    """Check of the load along the row; ``gap`` is that of the cases, or what is unsaid.
-
-    What is unsaid comes first: guys that nobody gives are not a single one.
-    """
-    lack = held if isinstance(held, Message) and not row.unsaid else gap
+    """Check of the load along the row; ``gap`` is that of the cases."""
+    lack = held if isinstance(held, Message) else gap
     share = standard.find(LATERAL_SHARE)
     if lack:
         return leave_open("lateral", OpenKind.UNSOLVED, lack, member=Member.POST)

@@ -6,7 +6,6 @@ import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.questions import write_questions
 from netdesign.site.reader import read_site
 from netdesign.site.titles import name_map
 from netdesign.words.catalogue import LANGUAGES
@@ -33,31 +32,24 @@ def ends(site):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_they_are_asked_for_and_answered(tmp_path, language):
+def test_they_are_assumed_or_answered(tmp_path, language):
     draw = random.Random(language)
     path = write(tmp_path / "site.xlsx")
-    text, count = write_questions(path, language=language)
+    assert {one.key for one in read_site(path).rows[0].assumed} > {
+        *("density", "friction_angle", "inclination"),
+    }
     low, high = draw.randint(210, 290), draw.randint(350, 480)
-    answers = [f"{low} {TO[language]} {high}", f"12.5 {TO[language]} 37.5"]
-    head, *pieces = text.split('"?"')
-    assert count == 2
-    assert "[ranges]" in head
-    for answer, piece in zip(answers, pieces, strict=True):
-        head += f'"{answer}"{piece}'
-    name_map(path).write_text(head, encoding="utf-8")
+    answers = (
+        f'"density [kg/m3]" = "{low} {TO[language]} {high}"',
+        f'"friction angle [deg]" = "12.5 {TO[language]} 37.5"',
+    )
+    head = 'schema = "netdesign.map/1"\n[ranges]\n'
+    name_map(path).write_text(head + "\n".join(answers), encoding="utf-8")
     site = read_site(path)
     assert ends(site)["density"] == (low, high)
     assert ends(site)["friction_angle"] == pytest.approx((0.2181662, 0.6544985))
     places = [one.cell for one in site.range_inputs if "range" in one.cell.lower()]
     assert places  # where an answer stands is told
-
-
-def test_an_open_question_is_no_range(tmp_path):
-    path = write(tmp_path / "site.xlsx")
-    text, _ = write_questions(path)
-    name_map(path).write_text(text, encoding="utf-8")
-    with pytest.raises(SiteDataError):
-        read_site(path)
 
 
 def test_they_are_refused_beside_a_sheet_of_ranges(tmp_path):

@@ -50,7 +50,7 @@ def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRo
 
 
 def _find_middle(site: Site, name: str) -> float:
-    interval = site.ranges[name]
+    interval = site.ranges[name]  # of all rows
     return (interval.low + interval.high) / 2.0
 
 

@@ -38,7 +38,6 @@ _BAR_UNIT = 100.0  # length of a bar at utilisation 1
 _BAR_BEYOND = 50.0  # length that is left for all above 1
 _FEW = 4  # checks that share a reason and are named
 # Key of a gap: the row lacks more inputs than a check names.
-MANY_UNSAID = "check.unsaid_many"
 
 
 def badge_cell(verdict: Verdict, words: Words) -> Cell:
@@ -132,16 +131,8 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
         return show_text(check.declared.document)
     gaps = [_leave_out_cell(one) for one in check.gaps]
     if gaps and check.verdict is not Verdict.FAIL:
-        return words.join(_show_gap(one, words) for one in gaps)
+        return words.join(words.show(one) for one in gaps)
     return describe_cause(check, words)
-
-
-def _show_gap(gap: Message, words: Words) -> str:
-    """A lack; of many inputs that a row lacks their number, since page 1 has them."""
-    names, count = gap.arguments.get("names"), gap.arguments.get("count")
-    if gap.key != MANY_UNSAID or not isinstance(names, tuple):
-        return words.show(gap)
-    return words("show.inputs_missing", count=int(str(count)) + len(names))
 
 
 def _leave_out_cell(told: Message) -> Message:

@@ -29,7 +29,6 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.sections.basis import (
-    DEFAULT,
     anchor_rows,
     count_assumed,
     describe_floor,
@@ -40,7 +39,6 @@ from netdesign.report.sections.basis import (
     name_rows,
 )
 from netdesign.report.sections.checks import (
-    MANY_UNSAID,
     badge_cell,
     describe_briefly,
     describe_cause,
@@ -59,17 +57,14 @@ from netdesign.report.words import (
     show_member,
     show_text,
 )
-from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
 from netdesign.study.document import compute_digest
 from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import SCOPES
 from netdesign.study.to_do import ToDo
-from netdesign.words.message import Message
 from netdesign.words.names import name
 
-_STIFFNESS = "column.quantities.net_stiffness"
 _FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
 _FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
 
@@ -236,7 +231,6 @@ def show_line(line: ToDo, study: Study, words: Words) -> str:
 def list_open_points(study: Study, words: Words) -> Iterator[str]:
     """Points to settle before the report can be signed, the worst first."""
     yield from _list_open_checks(study, Verdict.FAIL, words)
-    yield from _list_unsaid(study, words)
     yield from _list_open_checks(study, Verdict.NOT_PROVEN, words)
     yield from list_exceeding(study, words)
     yield from _list_open_rows(study, words)
@@ -254,8 +248,6 @@ def list_open_points(study: Study, words: Words) -> Iterator[str]:
     if panels:
         yield words("todo.panels", rows=name_rows(panels, study, words))
     yield from _list_rising(study, words)
-    if any(_is_assumed_stiffness(echo) for echo in study.range_inputs):
-        yield words("todo.stiffness")
     defaults = len(list_defaults(study, words))
     if defaults:
         yield words("todo.defaults", count=defaults)
@@ -275,21 +267,13 @@ def _list_rising(study: Study, words: Words) -> Iterator[str]:
         yield words("todo.rising", anchors=words.join(anchors), rows=named)
 
 
-def _is_assumed_stiffness(echo: InputEcho) -> bool:
-    """An end of the range of stiffnesses that nobody gives."""
-    label = echo.label
-    named = label.arguments.get("name") if isinstance(label, Message) else None
-    key = named.key if isinstance(named, Message) else ""
-    return key == _STIFFNESS and echo.cell == DEFAULT
-
-
 def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[str]:
     """Checks of one verdict; checks with one cause, and rows alike, share a point."""
     points: dict[tuple[str, str], list[str]] = {}
     for row in study.rows:
         causes: dict[str, list[Check]] = {}
         for check in row.checks:
-            if check.verdict is verdict and not _is_told_of_row(check):
+            if check.verdict is verdict:
                 is_by_force = check.is_of_force and verdict is Verdict.FAIL
                 told = (
                     words("todo.fail") if is_by_force else describe_cause(check, words)
@@ -307,31 +291,6 @@ def _add_change(checks: list[Check], cause: str, words: Words) -> str:
     """Cause of a point; of a single check with what makes it pass."""
     flips = list_flips(checks[0], words) if len(checks) == 1 else ()
     return words("todo.with_change", what=cause, change=flips[0]) if flips else cause
-
-
-def _is_told_of_row(check: Check) -> bool:
-    """All that the check lacks is told of its row, as a point of its own."""
-    return bool(check.gaps) and all(one.key == MANY_UNSAID for one in check.gaps)
-
-
-def _list_unsaid(study: Study, words: Words) -> Iterator[str]:
-    """Inputs that rows lack, where they are too many for the reasons of the checks.
-
-    Each input once, together with those that the same rows lack.
-    """
-    lacking: dict[Message, list[str]] = {}
-    for row in study.rows:
-        if any(map(_is_told_of_row, row.checks)):
-            for name in row.unsaid:
-                lacking.setdefault(name, []).append(row.id)
-    together: dict[tuple[str, ...], list[Message]] = {}
-    for name, ids in lacking.items():
-        together.setdefault(tuple(ids), []).append(name)
-    key = "check.unsaid"  # the first time with where inputs may stand
-    for rows, names in together.items():
-        place = show_text(name_rows(rows, study, words))
-        yield words("show.label", label=place, text=words(key, names=tuple(names)))
-        key = "todo.unsaid"
 
 
 def _list_open_rows(study: Study, words: Words) -> Iterator[str]:

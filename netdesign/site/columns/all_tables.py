@@ -109,7 +109,6 @@ _READ: Mapping[str, Any] = {
     "beside": lambda values: tuple(
         Usual(float(low), float(high), powers=powers) for low, high, powers in values
     ),
-    "default": float,
 }
 
 

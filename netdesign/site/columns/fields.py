@@ -185,8 +185,6 @@ class Field:
         Words of other columns with which it means nothing.
     needs : tuple of str
         Keys of columns that may not be empty beside it.
-    default : float or None
-        Value of an empty cell, in the first unit.
     words : tuple of str
         Accepted words.
     is_grade : bool
@@ -236,7 +234,6 @@ class Field:
     not_beside: tuple[str, ...] = ()
     not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
     needs: tuple[str, ...] = ()
-    default: float | None = None
     words: tuple[str, ...] = ()
     is_grade: bool = False
     refers_to: str = ""
@@ -364,7 +361,7 @@ class SheetPlan:
     def free(self, keys: Container[str]) -> SheetPlan:
         """Plan without the need for some columns, which are given elsewhere."""
         fields = tuple(
-            replace(one, required=False, default=None) if one.key in keys else one
+            replace(one, required=False) if one.key in keys else one
             for one in self.fields
         )
         return replace(self, fields=fields)

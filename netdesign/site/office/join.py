@@ -42,7 +42,6 @@ from netdesign.site.office.types import (
     settle_ids,
     take,
 )
-from netdesign.site.ranges import assume_stiffness
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_sheets import LayersByRow, order_layers
 from netdesign.site.tables import find_table
@@ -221,9 +220,6 @@ def _collect(
         sheet: read_types(tables.tables[_BLOCKS[sheet]], of, findings)
         for sheet, of in of_types.items()
     }
-    ranges = build_office_ranges(project)
-    if all(row["net_stiffness"].state == "blank" for row in rows):
-        ranges = assume_stiffness(ranges)
     joined = Lines(
         nets=rows,
         ends=index_lines(ends, "row", say("ends.one_line"), findings),
@@ -231,7 +227,7 @@ def _collect(
         types={sheet: of or {} for sheet, of in found.items()},
         absent=[one for one, block in _BLOCKS.items() if not tables.tables[block]],
         unreadable=[one for one, of in found.items() if of is None],
-        ranges=ranges,
+        ranges=build_office_ranges(project),
         links=join_links(lines["links"]),
         tests=tests,
     )

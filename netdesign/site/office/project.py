@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from netdesign.site.assumed import load_assumed
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import USUAL_QUANTITIES
@@ -16,7 +15,6 @@ from netdesign.site.model import Project
 from netdesign.site.ranges import (
     RangesSheet,
     collect_ranges,
-    make_default,
     split_reading,
 )
 from netdesign.site.readings import Reading, Row, explain_unit, read_nothing, refuse
@@ -91,9 +89,13 @@ def build_office_ranges(lines: Row) -> RangesSheet:
             return RangesSheet()
         if reading.state == "given":
             found[field.key] = split_reading(field, reading)
+<<<<<<< HEAD
         else:
             found[field.key] = make_default(field, load_assumed()[field.key].shown)
     documents = (lines[key] for key in _DOCUMENTS if lines[key].state == "given")
     ranges = collect_ranges(found)
     echoes = tuple(one.echo() for one in documents)
     return replace(ranges, inputs=(*ranges.inputs, *echoes))
+=======
+    return collect_ranges(found)
+>>>>>>> 832f237d (Empty cells of net, support and snow are ranges: no row is refused or left open for them)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from netdesign.checks import list_standards
 from netdesign.edge.given_files import find_resource
 from netdesign.edge.output import require_free, write_files
+from netdesign.site.assumed import load_assumed
 from netdesign.site.columns.all_tables import (
     NETS,
     PROJECT,
@@ -27,7 +28,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan, normalise
 from netdesign.site.declared_sheet import list_check_names
-from netdesign.words.catalogue import Language, render, set_marks
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check
 
@@ -390,7 +391,7 @@ def describe_accepted(field: Field, language: Language) -> str:
 
 
 def describe_field(field: Field, language: Language) -> str:
-    """Note on a heading: meaning, what is accepted, other units, default."""
+    """Note on a heading: meaning, what is accepted, other units, what is assumed."""
     texts = load_text(language)
     parts = [field.notes[language]]
     if accepted := describe_accepted(field, language):
@@ -398,10 +399,10 @@ def describe_field(field: Field, language: Language) -> str:
     if len(field.units) > 1:
         units = ", ".join(f"[{unit}]" for unit in field.units)
         parts.append(_put_behind(texts["units"], units, language))
-    if field.default is not None:
-        number = set_marks(f"{field.default:g}", language)
-        default = f"{number} {field.unit}".rstrip(" -")
-        parts.append(_put_behind(texts["empty"], default, language))
+    assumed = load_assumed().get(field.key)
+    if assumed and assumed.column == f"{field.table}.{field.key}":
+        text = render(assumed.text, language)
+        parts.append(_put_behind(texts["empty"], text, language))
     return "\n".join(part for part in parts if part)
 
 

@@ -7,7 +7,6 @@ import pytest
 from netdesign.checks import Proof
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.checks import describe_briefly
 from netdesign.report.sections.decision import (
     build_matrix,
     list_open_points,
@@ -54,32 +53,6 @@ def test_a_point_without_a_force_names_its_cause(verdict):
     study = replace(STUDY, rows=[replace(row, checks=[check])])
     (first, *_) = list_open_points(study, ENGLISH)
     assert ENGLISH.show(cause) in first
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_inputs_that_rows_lack_stand_in_the_points_once_and_in_reasons_shortly(
-    language,
-):
-    names = ("guy_count", "net_cut", "ridge_rope", "lower_rope", "design_life")
-    names = tuple(say(f"column.Nets.{one}") for one in names)
-    gap = say("check.unsaid_many", names=names[:2], count=3)
-    check = turn(STUDY.rows[0].checks[0], Verdict.NOT_PROVEN, reason=gap)
-    check = replace(check, changes=[])
-    lacks = {"A": names, "B": names[1:], "C": names[:-1]}
-    rows = [
-        replace(STUDY.rows[0], id=row, checks=[check] * 9, unsaid=list(of))
-        for row, of in lacks.items()
-    ]
-    words = Words(language)
-    points = list(list_open_points(replace(STUDY, rows=rows), words))
-    for name in names:
-        assert sum(words.show(name) in one for one in points) == 1
-    assert not any(words.show(gap) in one for one in points)
-    places = [one for one in points if words.show(names[0]) in one]
-    assert places[0].startswith("A, C")
-    told = describe_briefly(rows[0], words)
-    assert "5" in told  # two that are named, and three
-    assert len(told.split()) <= 10
 
 
 def test_many_checks_with_one_cause_are_counted():
