@@ -50,6 +50,7 @@ from netdesign.study.row_checks import (
 )
 from netdesign.study.row_knowledge import Variant, know_variants
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
+from netdesign.study.scopes import record_assumed
 
 
 def judge_site(
@@ -150,6 +151,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         parts=list_parts(known.row, task.site.ranges["inclination"]),
         drawing=drawing,
         questions=list(row.questions),
+        assumed=list(map(record_assumed, row.assumed)),
         monitoring=record_monitoring(task.site, row),
         anchors=anchors,
         pulls=list(known.pulls),

@@ -34,6 +34,7 @@ from netdesign.study.case_records import (
 from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.study.parts import PartRecord
 from netdesign.study.scopes import (
+    AssumedRecord,
     Scope,
     ScopeRecord,
     merge_scopes,
@@ -171,6 +172,7 @@ class RowStudy:
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
     questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
+    assumed: Items[AssumedRecord] = field(default_factory=list)  # of empty columns
     monitoring: Items[MonitoringRecord] = field(default_factory=list)
     anchors: Items[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: Items[HeadForce] = field(default_factory=list)  # in the drawn case
@@ -198,7 +200,9 @@ class RowStudy:
     @cached_property
     def scopes(self) -> dict[Scope, ScopeRecord]:
         """Verdicts of anchors, structure and siting, each of its own checks alone."""
-        return sum_up_row(self.checks, has_unmet=bool(self.unmet))
+        return sum_up_row(
+            self.checks, has_unmet=bool(self.unmet), assumed=len(self.assumed)
+        )
 
     def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
         """Verdict of some scopes; of the whole row where none is named."""

@@ -13,8 +13,34 @@ from typing import ClassVar
 
 from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
+from netdesign.site.assumed import Assumed
 from netdesign.structure.members import EndMember, Member, NetPart
-from netdesign.words.message import Message
+from netdesign.words.message import Message, Text
+
+
+@dataclass(frozen=True, kw_only=True)
+class AssumedRecord:
+    """What a net row leaves empty, and what it was searched over in its place."""
+
+    input: Text
+    text: Text  # range, value or word
+    low: float | None  # in its unit; None of a word
+    high: float | None
+    unit: str
+    source: Text
+
+
+def record_assumed(one: Assumed) -> AssumedRecord:
+    """Assumed range of a row as a study has it."""
+    low, high = (None, None) if one.word else one.shown
+    return AssumedRecord(
+        input=one.name,
+        text=one.text,
+        low=low,
+        high=high,
+        unit=one.unit,
+        source=one.why,
+    )
 
 
 class Scope(StrEnum):

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from netdesign.checks import Approval, Declaration, Proof, StatedValue, load_standard
 from netdesign.outcome import Verdict
+from netdesign.site.assumed import load_assumed
 from netdesign.snow.ground import GroundLaw
 from netdesign.study.effects import find_altitude_factor, load_glide_limits
 from netdesign.study.judge import judge_site
@@ -217,3 +218,11 @@ def _judge_given(judge, chosen):
         resistances=resist(**chosen["anchors"], **chosen["structure"]),
         net_parts=list_net_parts(chosen["mesh"], has_ropes=False),
     )
+
+
+def test_a_scope_counts_what_its_forces_were_searched_over(judge):
+    some = tuple(load_assumed()[key] for key in ("slack", "post_tilt"))
+    row = judge(assumed=some)
+    assert [one.source for one in row.assumed] == [one.why for one in some]
+    counted = {scope: one.assumed for scope, one in row.scopes.items()}
+    assert counted == {Scope.ANCHORS: 2, Scope.STRUCTURE: 2, Scope.SITING: 0}
