@@ -89,13 +89,7 @@ def build_office_ranges(lines: Row) -> RangesSheet:
             return RangesSheet()
         if reading.state == "given":
             found[field.key] = split_reading(field, reading)
-<<<<<<< HEAD
-        else:
-            found[field.key] = make_default(field, load_assumed()[field.key].shown)
     documents = (lines[key] for key in _DOCUMENTS if lines[key].state == "given")
     ranges = collect_ranges(found)
     echoes = tuple(one.echo() for one in documents)
     return replace(ranges, inputs=(*ranges.inputs, *echoes))
-=======
-    return collect_ranges(found)
->>>>>>> 832f237d (Empty cells of net, support and snow are ranges: no row is refused or left open for them)
