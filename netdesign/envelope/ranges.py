@@ -126,6 +126,7 @@ _ROWS = (
         put=_put_net("friction_angle"),
         show=given_degree_from_radian,
         read=radian_from_degree,
+        power=-4.0,  # the more friction, the more of the net sticks, the less it does
     ),
     Parameter(
         name="inclination",

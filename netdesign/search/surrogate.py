@@ -101,7 +101,7 @@ class Surrogate:
     def _measure(self, at: Floats) -> Floats:
         """Distances of places from the cases, each axis by its weight."""
         weights = self.axis_weights
-        return _measure_distances(at * weights, self.places * weights)
+        return measure_distances(at * weights, self.places * weights)
 
     def _find_sway(self, near: Floats, lack: Floats, doubts: Floats) -> Floats:
         """Most by which errors of the values move the mean, eq. (M3a)."""
@@ -174,7 +174,7 @@ def fit_surrogate(
     tests/search/test_surrogate.py
     """
     weights = np.ones(places.shape[1]) if axis_weights is None else axis_weights
-    distances = _measure_distances(places * weights, places * weights)
+    distances = measure_distances(places * weights, places * weights)
     is_dense = places.shape[1] <= DENSE_DIMENSIONS
     nugget = _NUGGET if is_dense else _SMALL_NUGGET
     inverse = _invert(_correlate(distances) + nugget * np.eye(len(places)))
@@ -273,7 +273,8 @@ def _build_trend(at: Floats) -> Floats:
     return np.column_stack([np.ones(len(at)), centred, *products])
 
 
-def _measure_distances(a: Floats, b: Floats) -> Floats:
+def measure_distances(a: Floats, b: Floats) -> Floats:
+    """Distances of places of shape (n, dimension) from others, shape (n, m)."""
     square = (
         np.sum(a * a, axis=1)[:, None] + np.sum(b * b, axis=1)[None] - 2.0 * a @ b.T
     )

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.search.surrogate import REACH, Point, Surrogate
+from netdesign.search.surrogate import REACH, Point, Surrogate, measure_distances
 
 # Coordinates are multiples of this share of a range: equal cases have equal keys.
 GRAIN = 1.0 / 64.0
@@ -313,14 +313,17 @@ def _pick(
     apart: float,
 ) -> list[Question]:
     """Wanted cases above an excess, well apart from each other and from known ones."""
+    asked = [one for one in bounds.wanted if one[2] in quantities and one[0] > least]
+    if not asked:
+        return []
+    at, known = np.array([point for _, point, _ in asked]), np.array(points)
+    is_free = measure_distances(at, known).min(axis=1) >= apart * (1.0 - 1e-9)
     chosen: list[Question] = []
-    for excess, point, quantity in bounds.wanted:
-        if quantity not in quantities:
-            continue
-        if excess <= least or len(chosen) >= most:
+    for k in np.flatnonzero(is_free).tolist():
+        if len(chosen) >= most:
             break
-        is_apart = all(math.dist(point, other) > _APART for other, _ in chosen)
-        if is_apart and all(math.dist(point, other) >= apart for other in points):
+        _, point, quantity = asked[k]
+        if all(math.dist(point, other) > _APART for other, _ in chosen):
             chosen.append(Question(point, quantity))
     return chosen
 

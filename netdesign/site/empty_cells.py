@@ -138,7 +138,7 @@ def fill_in_snow(
 
 
 # Snow farther upslope than (_FROM + _MORE r^(1/3)) d adds less than 0.1 % to the pulls,
-# r = D* / d; snow/THEORY.md, section "How far the snow is felt".
+# r = D* / d; snow/THEORY.md, (N16a).
 _FROM, _MORE = 12.0, 16.5
 
 

@@ -259,7 +259,8 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
 UNSEEN = {
     (0, name)
     for name in ("notes", "findings", "range_inputs", "project_cells", "map_file",
-                 "map_sha256", "winter", "what_if", "monitoring", "declared")
+                 "map_sha256", "winter", "what_if", "monitoring", "declared",
+                 "text_format")
 }  # fmt: skip
 
 
@@ -277,7 +278,7 @@ def test_other_profiles_or_their_order_are_other_names(quick_names):
 
 
 def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
-    site = build_site(replace(ROWS[0], unsaid=(object(),)))
+    site = build_site(replace(ROWS[0], questions=(object(),)))
     assert name_rows(site, STANDARDS, RUN) == {}
 
 

@@ -194,17 +194,6 @@ def test_no_type_takes_the_place_of_one_whose_ground_has_a_strength(tmp_path):
     assert (foot.was, foot.now) == ("A28-computed", "")
 
 
-def test_where_no_force_is_known_no_type_is_at_fault(tmp_path):
-    path = tmp_path / "site.xlsx"
-    lines = copy.deepcopy(load_example())
-    lines["Nets"] = lines["Nets"][:1]
-    lines["Nets"][0].pop("slack")
-    for sheet in ("Declared", "Ends"):
-        lines[sheet] = [line for line in lines[sheet] if line["row"] == "R1"]
-    write_lines(path, lines)
-    assert size((path, solve(read_site(path))))[1] == []
-
-
 def test_a_site_that_passes_has_nothing_to_replace(example):
     study, cells, _ = size(example, **{"Nets!P2": "A57-tested"})
     assert study.verdict is Verdict.PASS

@@ -1,4 +1,8 @@
-"""Drawn sites of one net row, every cell of which somebody might leave empty."""
+"""Drawn sites of one net row, every cell of which somebody might leave empty.
+
+What is typed of net, snow and support lies inside the range that an empty cell stands
+for: outside it somebody has said something that nobody could assume.
+"""
 
 import math
 import random
@@ -13,6 +17,12 @@ MEMBER_COLUMNS = (
 PANEL_COLUMNS = (
     *("panel_system", "net_cut", "ridge_rope", "ridge_sag"),
     *("lower_rope", "lower_sag", "mid_anchors"),
+)
+# Words of the ground and of the snow that are worse than what an empty cell means.
+NOT_ASSUMED = (
+    ("ground_law", "free"),
+    ("snow_layers", "layered"),
+    ("snow_layers", "layered with temperatures"),
 )
 REQUIRED = {
     plan.name: {field.key for field in plan.fields if field.required} for plan in SHEETS
@@ -41,6 +51,7 @@ def draw_lines(seed, *, is_placed=False, is_tested=False):
         "Snow": _draw_snow(draw, net),
         "Declared": _draw_declared(draw),
     }
+    _place_base(random.Random(f"base {seed}"), net, lines["Ranges"])
     if is_placed and draw.random() < 0.5:
         _stand_in_ground(draw, lines)
     _complete_chain(random.Random(f"chain {seed}"), lines)
@@ -54,6 +65,16 @@ def draw_lines(seed, *, is_placed=False, is_tested=False):
             del lines["Nets"][-1]["neighbour"]
             lines["Snow"] += [{**one, "row": name} for one in own]
     return lines
+
+
+def _place_base(draw, net, ranges):
+    """A base of the post, where one is typed, of a tilt that is built."""
+    if "post_base_distance" not in net:
+        return
+    inclination = math.radians(ranges[-1]["low"])
+    tilt = math.radians(draw.uniform(10.5, 19.5))
+    reach = math.tan(inclination) - math.tan(tilt)
+    net["post_base_distance"] = round(net["net_height"] * reach, 3)
 
 
 DEFAULT = "nf-p-95-304-style"
@@ -84,14 +105,16 @@ def list_cells(lines):
         for sheet, table in lines.items()
         for number, line in enumerate(table)
         for key in line
-        if key not in REQUIRED[sheet] and is_unknown(line, key)
+        if key not in REQUIRED[sheet]
+        and is_unknown(line, key)
+        and (key, line[key]) not in NOT_ASSUMED
     ]
 
 
 def list_groups(lines):
     """Cells that belong together: a sheet, a panel, all kinds, all dimensions."""
     cells = list_cells(lines)
-    sheets = ("Snow", "Declared", "Links", "Tests")
+    sheets = ("Declared", "Links", "Tests")
     groups = [[("sheet", sheet)] for sheet in sheets if lines.get(sheet)]
     for keys in (
         PANEL_COLUMNS,
@@ -152,14 +175,14 @@ def _round(value, digits=3):
 
 
 def _draw_ranges(draw):
-    density = draw.uniform(230.0, 290.0)
-    inclination = _round(draw.choice((draw.uniform(25, 35), draw.uniform(20, 42))))
-    friction = _round(draw.uniform(12.0, 44.0))
+    density = draw.uniform(330.0, 360.0)
+    inclination = _round(draw.choice((draw.uniform(25, 35), draw.uniform(25, 35))))
+    friction = _round(draw.uniform(15.0, 44.0))
     yield {
         "quantity": "density",
         "unit": "kg/m3",
         "low": _round(density),
-        "high": _round(draw.uniform(310.0, 400.0)),
+        "high": _round(draw.uniform(375.0, 399.0)),
     }
     yield {
         "quantity": "friction angle",
@@ -186,12 +209,10 @@ def _draw_net(draw):
         "ground_law": ground,
         "net_height": height,
         "net_stiffness": _round(draw.uniform(4000.0, 22000.0)),
-        "slack": draw.choice(
-            (0.0, *(_round(draw.uniform(0.012, 0.11)) for _ in "abcd"))
-        ),
+        "slack": _round(draw.uniform(0.02, 0.1)),
         "post_spacing": _round(draw.uniform(2.4, 4.4)),
-        "uphill_anchor_distance": _round(height * draw.uniform(0.7, 1.5)),
-        "downhill_anchor_distance": _round(height * draw.uniform(0.6, 1.4)),
+        "uphill_anchor_distance": _round(height * draw.uniform(0.76, 1.24)),
+        "downhill_anchor_distance": _round(height * draw.uniform(0.76, 1.24)),
         "altitude": _round(draw.uniform(1300.0, 2600.0)),
         "snow_layers": draw.choice(
             ("uniform", "uniform", "layered", "layered with temperatures")
@@ -203,12 +224,12 @@ def _draw_net(draw):
         else:
             net["slip_length"] = _round(draw.uniform(0.4, 6.0))
     if draw.random() < 0.6:
-        net["post_tilt"] = _round(draw.uniform(3.0, 28.0))
+        net["post_tilt"] = _round(draw.uniform(10.0, 20.0))
     else:
         net["post_base_distance"] = _round(draw.uniform(0.2, 0.6) * height)
     net["guy_count"] = draw.choice((1, 2, 2, 2))
     if net["guy_count"] == 2:
-        net["guy_splay"] = _round(draw.uniform(12.0, 40.0))
+        net["guy_splay"] = _round(draw.uniform(10.0, 25.0))
     if draw.random() < 0.6:
         net["anchor_axes"] = "along the pull"
     else:
@@ -239,10 +260,10 @@ def _draw_panel(draw):
         "panel_system": system,
         "net_cut": draw.choice(("uniform", "upper", "fitted")),
         "ridge_rope": draw.choice(ROPES),
-        "ridge_sag": _round(draw.uniform(0.03, 0.1)),
+        "ridge_sag": _round(draw.uniform(0.08, 0.15)),
         "lower_rope": draw.choice(ROPES),
-        "lower_sag": _round(draw.uniform(0.03, 0.1)),
-        "mid_anchors": draw.choice(("no", "no", "yes")),
+        "lower_sag": _round(draw.uniform(0.08, 0.15)),
+        "mid_anchors": draw.choice(("no", "no", "no")),
     }
     if draw.random() < 0.2:
         del panel[draw.choice(list(panel)[1:])]
@@ -469,7 +490,7 @@ def _draw_ends(draw, net):
         "lateral_anchor": draw.choice(ANCHORS),
         "end_guy": draw.choice(ROPES),
         "end_guy_anchor": draw.choice(ANCHORS),
-        "end_guy_angle": _round(draw.uniform(10.0, 50.0)),
+        "end_guy_angle": _round(draw.uniform(30.0, 45.0)),
     }
     own = random.Random(f"lateral anchor {line['end_guy_angle']}")
     line["lateral_distance"] = _round(own.uniform(1.4, 3.0))
@@ -505,7 +526,7 @@ def _draw_snow(draw, net):
         found.append(line)
     mean = sum(one["thickness"] * one["density"] for one in found) / total
     for one in found:  # the mean lies in the middle of the range of density
-        one["density"] = _round(one["density"] * 300.0 / mean, 4)
+        one["density"] = _round(one["density"] * 368.0 / mean, 4)
     return found
 
 
