@@ -24,6 +24,11 @@ NOT_ASSUMED = (
     ("snow_layers", "layered"),
     ("snow_layers", "layered with temperatures"),
 )
+# To go once a row is judged at the corners of these ranges.
+AT_CORNERS = (
+    *("post_tilt", "post_base_distance", "guy_count", "guy_splay", "guy_anchors"),
+    *("uphill_anchor_distance", "downhill_anchor_distance", "end_guy_angle"),
+)
 REQUIRED = {
     plan.name: {field.key for field in plan.fields if field.required} for plan in SHEETS
 }
@@ -105,8 +110,9 @@ def list_cells(lines):
         for sheet, table in lines.items()
         for number, line in enumerate(table)
         for key in line
-        if key not in REQUIRED[sheet]
+        if key not in (*REQUIRED[sheet], *AT_CORNERS)
         and is_unknown(line, key)
+        and (key, line[key]) not in NOT_ASSUMED
         and (key, line[key]) not in NOT_ASSUMED
     ]
 
