@@ -22,7 +22,6 @@ class OpenKind(StrEnum):
 
     FAILS = "fails"  # nothing is left to resist, whatever the force
     UNSOLVED = "unsolved"  # the force is not known, or not in every case
-    OUTSIDE_LAW = "outside_law"  # the creep law is not given for the governing snow
     RESISTANCE_MISSING = "resistance_missing"
     RESISTANCE_IN_DOUBT = "resistance_in_doubt"  # it may not last, or not hold there
     VALUE_ASKED = "value_asked"  # a value that somebody has to confirm

@@ -286,10 +286,7 @@ class StationWinter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """Identification printed on every output.
-
-    ``accepted_law`` names the creep law that is accepted where it is extrapolated.
-    """
+    """Identification printed on every output."""
 
     name: str = ""
     number: str = ""
@@ -297,7 +294,6 @@ class Project:
     checker: str = ""
     revision: str = ""
     standard: str = ""
-    accepted_law: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

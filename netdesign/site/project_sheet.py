@@ -20,7 +20,6 @@ from netdesign.site.tables import (
     say_place,
 )
 from netdesign.site.titles import is_asked
-from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
 
@@ -46,9 +45,8 @@ def read_project(
         if field.key in cells:
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
-        elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
-            accepted = say("accepted.words", words=tuple(CREEP_LAWS))
-            refuse(value, say("item.no_law"), accepted, findings)
+        elif field.key == "accepted_law":  # of workbooks of version 0.1
+            refuse(item, say("item.no_effect"), "", findings, severity="note")
         else:
             values[field.key], cells[field.key] = value.word, value.place
     refuse_unused_answers(table, findings)

@@ -100,7 +100,7 @@ def gather_study(
         profile=record_profile(standard),
         rows=list(rows),
         range_inputs=list(site.range_inputs),
-        notes=list_site_notes(site, run.creep_law, run.settings.accuracy),
+        notes=list_site_notes(site, rows, run.creep_law, run.settings.accuracy),
         provenance=record_provenance(site, run),
         what_if=list(site.what_if),
         left_out=list(site.left_out),

@@ -41,7 +41,7 @@ from netdesign.study.pulls import (
     doubt_mortar,
     find_pull,
 )
-from netdesign.study.row_to_check import Basis, find_doubt
+from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import ask_end_guy, check_sideways
 from netdesign.study.support_records import PullRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -145,7 +145,7 @@ def _resist_and_ask(
     given, unsure = find_lasting(known, given, pull)
     if force is not None:
         given = find_resistance_for_force(given, known, pull, width, force.action)
-    points = list(_list_open(known, given, width, force))
+    points = list(_list_open(known, given, width))
     if asked := ask_efficiency(given, known, width):
         points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
     if unsure:
@@ -206,9 +206,9 @@ def _find_resistance_ends(given: Resistance, force: MemberForce) -> tuple[float,
 
 
 def _list_open(
-    known: RowForces, given: Resistance, width: LoadedWidth, force: MemberForce | None
+    known: RowForces, given: Resistance, width: LoadedWidth
 ) -> Iterator[Open]:
-    """What is open of a member's force: of its cases, its snow, what pulls it."""
+    """What is open of a member's force: of its cases, of what pulls it."""
     gaps = (
         known.gap,
         None if given.member in ROPE_OF else known.floor_gap,
@@ -217,9 +217,6 @@ def _list_open(
     )
     for gap in filter(None, gaps):
         yield Open(kind=OpenKind.UNSOLVED, message=gap)
-    doubt = _find_doubt(known, force) if force else None
-    if doubt is not None:
-        yield Open(kind=OpenKind.OUTSIDE_LAW, message=doubt)
     if width.position == "edge" and (asked := ask_end_guy(known)):
         yield Open(kind=OpenKind.VALUE_ASKED, message=asked)
 
@@ -347,20 +344,6 @@ def _find_other_panel(
     return row.panel_lack if given.member in (*pulled, *at_end) else None
 
 
-def _find_doubt(known: RowForces, force: MemberForce) -> Message | None:
-    """Doubt that the creep law holds for the snow of a force that a check rests on.
-
-    That is its member's, and what adds to it: the net's pull on the head brings that,
-    as it does the post's force.
-    """
-    adding = [known.largest[Member.POST]] if force.added_high > 0.0 else []
-    doubts = (
-        find_doubt(known, density=one.case.density_kg_m3, largest=one.high_kN)
-        for one in (*force.solved, *adding)
-    )
-    return next((one for one in doubts if one is not None), None)
-
-
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     """Gap of the forces, else a doubt about any of them; None if all is well.
 
@@ -372,8 +355,7 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
         point.message
         for one in members
         for point in one.check.open
-        if point.kind in (OpenKind.UNSOLVED, OpenKind.OUTSIDE_LAW)
-        and point.message not in of_end
+        if point.kind is OpenKind.UNSOLVED and point.message not in of_end
     )
     return next(points, None)
 

@@ -25,6 +25,7 @@ from netdesign.study.effects import list_assumed
 from netdesign.study.member_force import RowForces
 from netdesign.study.posts import find_snow_pressure
 from netdesign.study.pulls import USUAL_DIP, may_share
+from netdesign.study.records import RowStudy
 from netdesign.study.sideways import GUYS, place_row
 from netdesign.study.support_records import PanelRecord, PullRecord
 from netdesign.units import degree_from_radian
@@ -33,7 +34,9 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_member
 
 
-def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]:
+def list_site_notes(
+    site: Site, rows: Sequence[RowStudy], law: CreepLaw, accuracy: float
+) -> list[Message]:
     """Notes of the importer, on the model of the site's snow, on the search.
 
     ``accuracy`` is the one asked for [-].
@@ -42,7 +45,7 @@ def list_site_notes(site: Site, law: CreepLaw, accuracy: float) -> list[Message]
     measured = [say("monitoring.needs_winter")] if without_winter else []
     return [
         *site.notes,
-        *_validity_notes(site, law),
+        *_list_law_notes(site, rows, law),
         *_layer_notes(site),
         *measured,
         *_search_notes(site, accuracy),
@@ -58,10 +61,13 @@ def _search_notes(site: Site, accuracy: float) -> list[Message]:
     return [say("note.accuracy_of_cases", asked=asked, closest=closest)]
 
 
-def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
+def _list_law_notes(
+    site: Site, rows: Sequence[RowStudy], law: CreepLaw
+) -> list[Message]:
     """Say where the creep law is used outside the densities it was fitted to.
 
-    What is known of it there stands beside, and whether the workbook accepts it.
+    Beside it stands what is known of it there, what the other laws change in the
+    governing forces, and the rows whose governing check one of them would turn.
     """
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
     outside = [
@@ -79,10 +85,26 @@ def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
     ]
     if not outside:
         return []
-    accepted = site.project.accepted_law == law.name
-    cell = site.project_cells.get("accepted_law", "-")
-    consent = [say("note.law_accepted", law=law.name, cell=cell)] if accepted else []
-    return [*outside, describe_evidence(law.name), *consent]
+    return [*outside, describe_evidence(law.name), *_describe_other_laws(rows)]
+
+
+def _describe_other_laws(rows: Sequence[RowStudy]) -> Iterator[Message]:
+    """What the other creep laws change in the governing forces, and which they turn."""
+    found = {row.id: row.model_form for row in rows if row.model_form}
+    if not found:
+        return
+    low = min(one.low_ratio for one in found.values())
+    high = max(one.high_ratio for one in found.values())
+    yield say("note.other_laws", low=100.0 * (low - 1.0), high=100.0 * (high - 1.0))
+    turned = [
+        row
+        for row, one in found.items()
+        if one.utilisation is not None
+        and one.utilisation_high is not None
+        and one.utilisation <= 1.0 < one.utilisation_high
+    ]
+    if turned:
+        yield say("note.turned_by_law", rows=tuple(turned))
 
 
 def describe_evidence(law: str) -> Message:

@@ -41,10 +41,9 @@ def _annotate(one: MemberCheck, changes: list[Change]) -> list[Change]:
 
     Another type has the condition of its own resistance.
     """
-    is_unsolved = one.check.has_open(OpenKind.UNSOLVED)
-    if is_unsolved or one.check.has_open(OpenKind.OUTSIDE_LAW):
-        key = "change.as_far_as_solved" if is_unsolved else "change.if_law_accepted"
-        return [replace(change, note=say(key)) for change in changes]
+    if one.check.has_open(OpenKind.UNSOLVED):
+        note = say("change.as_far_as_solved")
+        return [replace(change, note=note) for change in changes]
     if one.check.has_open(OpenKind.RESISTANCE_IN_DOUBT):
         note = say("change.if_rest_proven")
         return [x if x.sense == "has" else replace(x, note=note) for x in changes]

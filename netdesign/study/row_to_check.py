@@ -18,7 +18,6 @@ from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.study.effects import find_solved_ground
 from netdesign.study.variants import list_layouts
-from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,41 +143,6 @@ def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
     """The law is given for the density of a case [kg/m3], and of each layer."""
     return all(
         law.is_calibrated(one / ICE_DENSITY) for one in list_densities(row, density)
-    )
-
-
-def find_doubt(basis: Basis, *, density: float, largest: float) -> Message | None:
-    """Doubt that the creep law holds for a member's largest force; None without.
-
-    Of snow denser than what it was fitted to. In lighter snow it is used, and told
-    once, with what other laws give; the workbook may accept the law by its name.
-
-    Parameters
-    ----------
-    basis : Basis
-        Row, creep law, and the site that may accept it.
-    density : float
-        Of the governing case [kg/m3]: no other counts.
-    largest : float
-        Upper end of the force, any unit; without a force nothing rests on the law.
-    """
-    row, law = basis.row, basis.law
-    is_accepted = basis.site.project.accepted_law == law.name
-    low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    snow = list_densities(row, density)
-    if is_accepted or largest == 0.0 or max(snow) <= high * (1.0 + 1e-9):
-        return None
-    if len(snow) == 1:
-        return say(
-            "check.outside_law", density=snow[0], low=low, high=high, law=law.name
-        )
-    return say(
-        "check.layers_outside_law",
-        least=min(snow),
-        largest=max(snow),
-        low=low,
-        high=high,
-        law=law.name,
     )
 
 

@@ -36,12 +36,12 @@ Studies = list[RowStudy]  # of one row, one a profile
 def cut_site(site: Site, row: NetRow) -> Site:
     """Part of a site on which one of its rows is judged: the row, and what bears on it.
 
-    What is not listed here decides nothing of a row. The notes of a site, its file, and
-    of its project all but the creep law that it accepts stand beside the rows.
+    What is not listed here decides nothing of a row. The notes of a site, its file and
+    its project stand beside the rows.
     """
     monitoring = tuple(one for one in site.monitoring if one.row_id == row.id)
     return Site(
-        project=Project(accepted_law=site.project.accepted_law),
+        project=Project(),
         ranges=site.at_row(row).ranges,
         rows=(row,),
         file_name="",

@@ -14,7 +14,6 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.outcome import Fault, Outcome, SiteDataError
 from netdesign.site.further_sheets import UncertainQuantity
-from netdesign.site.model import Project
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
@@ -29,7 +28,6 @@ from netdesign.study.side_by_side import cut_site, name_rows
 from tests.grid import solve_site
 from tests.short_example import write_short_example
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
-from tests.study.test_member_force import ACCEPTED
 from tests.study.test_member_force import RANGES as LIGHT_RANGES
 from tests.study.test_member_force import ROW as LIGHT_ROW
 
@@ -347,15 +345,9 @@ def test_the_runner_counts_what_was_lost(lost):
     assert (runner.counts.failed, runner.counts.lost) == (2, 1)
 
 
-@pytest.mark.parametrize("project", [Project(), ACCEPTED], ids=["not", "accepted"])
-def test_a_row_s_part_is_judged_as_in_the_whole_site(project, quick_names):
-    """In snow for which the creep law is not given: its acceptance decides."""
-    site = build_site(LIGHT_ROW, ranges=LIGHT_RANGES, project=project)
+def test_a_row_s_part_is_judged_as_in_the_whole_site(quick_names):
+    """In snow for which the creep law is not given, too."""
+    site = build_site(LIGHT_ROW, ranges=LIGHT_RANGES)
     part, solved = cut_site(site, LIGHT_ROW), solve_site(site, RUN)
     whole, cut = (judge_site(one, solved, STANDARDS[0], RUN) for one in (site, part))
     assert cut.rows == whole.rows
-    doubts = ["outside_law" in repr(check.reason) for check in whole.rows[0].checks]
-    assert any(doubts) is (project is not ACCEPTED)
-    assert name_rows(site, STANDARDS, RUN) != name_rows(
-        replace(site, project=Project(accepted_law="another")), STANDARDS, RUN
-    )

@@ -12,7 +12,6 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
-from netdesign.site.model import Project
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import LargestForce
@@ -30,7 +29,6 @@ from tests.grid import solve_site
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 
-ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
     density=Interval(low=200.0, high=270.0),
@@ -63,7 +61,7 @@ def solved():
 
 def judge(solved, standard=SWISS, **changes):
     """Study of the row; its site accepts the creep law for snow as light."""
-    site = build_site(replace(ROW, **changes), ranges=RANGES, project=ACCEPTED)
+    site = build_site(replace(ROW, **changes), ranges=RANGES)
     return site, judge_site(site, solved, standard, RUN)
 
 
@@ -466,7 +464,6 @@ def test_what_flips_a_check_inside_the_row(solved):
     site = build_site(
         replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
         ranges=RANGES,
-        project=ACCEPTED,
     )
     checks = checks_of(judge_site(site, solved, SWISS, RUN))
     assert set(list_changes(checks["foot_anchor.tendon"])) == {
@@ -477,6 +474,6 @@ def test_what_flips_a_check_inside_the_row(solved):
 def judge_end(solved, resistance):
     row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
     solver = CaseSolver(RUN.settings, RUN.creep_law)
-    site = build_site(row, ranges=RANGES, project=ACCEPTED)
+    site = build_site(row, ranges=RANGES)
     study = judge_site(site, solved, SWISS, RUN, solver)
     return checks_of(study)

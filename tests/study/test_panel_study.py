@@ -12,7 +12,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solution import FailedPanel
-from netdesign.site.model import Project, Resistance, RowEnd
+from netdesign.site.model import Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import END_ANCHORS, END_MODES, ROPE_OF
 from netdesign.study.cases import search_site
@@ -39,7 +39,6 @@ from tests.small_site import (
 )
 
 PROFILE = load_standard("eurocode")
-ACCEPTED = Project(accepted_law=RUN.creep_law.name)
 
 
 def a_panel(spacing=3.5, **changes):
@@ -84,7 +83,7 @@ def with_panel(panel, *, end=None, **changes):
 
 
 def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES, solve=solve_site):
-    site = build_site(row, ranges=ranges, project=ACCEPTED)
+    site = build_site(row, ranges=ranges)
     return site, judge_site(site, solve(site, RUN), standard, RUN, solver)
 
 

@@ -55,7 +55,7 @@ def test_a_sheet_without_winter_is_noted_on_the_first_page():
         site = small_site.build_site(
             *small_site.ROWS, monitoring=(SERIES,), winter=winter
         )
-        notes = map(str, list_site_notes(site, small_site.RUN.creep_law, 0.01))
+        notes = map(str, list_site_notes(site, (), small_site.RUN.creep_law, 0.01))
         assert sum("sheet Winter" in note for note in notes) == count
     bare = small_site.build_site(*small_site.ROWS)
     assert record_monitoring(bare, bare.rows[0]) == []

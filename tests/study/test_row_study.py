@@ -9,7 +9,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
-from netdesign.site.model import Project, Resistance
+from netdesign.site.model import Resistance
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import MEMBER_MODES
 from netdesign.study.check_run import CheckRun
@@ -53,8 +53,7 @@ ROW = build_row(
 
 
 def study(row=ROW, ranges=RANGES, *, with_solver=False):
-    project = Project(accepted_law=RUN.creep_law.name)
-    site = build_site(row, ranges=ranges, project=project)
+    site = build_site(row, ranges=ranges)
     links = dict.fromkeys(("weak", "strong", "B22"), (EYE,))
     site = replace(site, catalogue=row.resistances, links=links)
     solver = CaseSolver(RUN.settings, RUN.creep_law) if with_solver else None

@@ -15,7 +15,7 @@ FINEST = ("0.05 %", "0.1 %"), ("0,05 %", "0,1 %")
 
 
 def list_of_accuracy(site, accuracy):
-    notes = list_site_notes(site, RUN.creep_law, accuracy)
+    notes = list_site_notes(site, (), RUN.creep_law, accuracy)
     return [one for one in notes if one.key == "note.accuracy_of_cases"]
 
 

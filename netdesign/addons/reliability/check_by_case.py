@@ -165,7 +165,7 @@ def _follows_cases(one: MemberCheck) -> bool:
         return False
     if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
         return False
-    if one.is_of_end and one.check.has_open(OpenKind.UNSOLVED, OpenKind.OUTSIDE_LAW):
+    if one.is_of_end and one.check.has_open(OpenKind.UNSOLVED):
         return False
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 

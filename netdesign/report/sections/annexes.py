@@ -294,7 +294,6 @@ def _describe_laws(study: Study, words: Words) -> str:
 
 def _describe_snow(study: Study, words: Words) -> str:
     """Snow of the solved forces that govern, against the densities of its law."""
-    law = name_law(study)
     inside = [
         case.is_calibrated
         for row in study.rows
@@ -302,12 +301,7 @@ def _describe_snow(study: Study, words: Words) -> str:
         for case in row.cases
         if check.case == case.case and _is_by_snow(check)
     ]
-    told = words("show.snow_of_law", inside=sum(inside), count=len(inside))
-    if all(inside):
-        return told
-    is_accepted = bool(law) and study.project.accepted_law == law
-    consent = words("show.law_accepted" if is_accepted else "show.law_not_accepted")
-    return words.join((told, consent))
+    return words("show.snow_of_law", inside=sum(inside), count=len(inside))
 
 
 _OF_SNOW = ("E_s", "E_p0", "V_s", "V_p0", "T_r", "T_b")  # forces of solved snow

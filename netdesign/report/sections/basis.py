@@ -273,7 +273,6 @@ def _list_profile(study: Study, words: Words) -> Iterator[Block]:
         "profile_choice": show_own(words, profile.choice_text or profile.choice),
         "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
         "floor": describe_floor(study, words),
-        "accepted_law": describe_accepted_law(study, words),
     }
     pairs = tuple(
         Pair(name=words(f"heading.{key}"), text=show_text(text))
@@ -313,14 +312,6 @@ def _count_by_floor(study: Study, words: Words) -> str:
 def name_law(study: Study) -> str:
     """Creep law of a study; "" of one that does not say."""
     return study.provenance.settings.get("creep_law", "").partition(" ")[0]
-
-
-def describe_accepted_law(study: Study, words: Words) -> str:
-    """Creep law whose extrapolation is accepted, and whether it is the study's."""
-    given, own = study.project.accepted_law, name_law(study)
-    if given in ("", own):
-        return show_text(given) if given else ""
-    return words("show.accepted_of_another", given=show_text(given), own=show_text(own))
 
 
 def show_ranges(study: Study, words: Words) -> Table:

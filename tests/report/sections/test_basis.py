@@ -7,7 +7,6 @@ import pytest
 from netdesign.outcome import Verdict
 from netdesign.report.sections.basis import (
     anchor_rows,
-    describe_accepted_law,
     list_defaults,
     name_rows,
 )
@@ -68,26 +67,6 @@ def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
     assert few.split(", ") == named
     half, named = name_of(range(0, 23, 2), "en")
     assert half.split(", ") == named
-
-
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        ("", ""),
-        ("boutillier-2004", "boutillier-2004"),
-        ("zwinger-2007", "not the law of this study, boutillier-2004: without effect"),
-    ],
-)
-def test_an_accepted_law_that_is_not_the_study_s_is_told_as_such(given, told):
-    study = build_study()
-    settings = study.provenance.settings | {"creep_law": "boutillier-2004 n=3"}
-    made = replace(study.provenance, settings=settings)
-    project = replace(study.project, accepted_law=given)
-    found = describe_accepted_law(
-        replace(study, provenance=made, project=project), Words("en")
-    )
-    assert found.endswith(told)
-    assert bool(found) is bool(told)
 
 
 def test_rows_alike_but_for_their_names_share_a_place():
