@@ -39,6 +39,9 @@ class Assumed:
         a word.
     unit : str
         Of the column; "" of a number that has none, and of a word. D_K of a multiple.
+    times : str
+        What the numbers of the file are multiplied with: ``net_height`` or
+        ``altitude_factor``.
     word : str
         Name of the text of what is assumed, where no number says it.
     source, effect : str
@@ -51,6 +54,7 @@ class Assumed:
     low: float = 0.0
     high: float = 0.0
     unit: str = ""
+    times: str = ""
     word: str = ""
     source: str
     effect: str

@@ -9,8 +9,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.guideline.load_model import (
     compute_altitude_factor,
@@ -152,7 +150,7 @@ def find_felt_length(thickness: float, slip_length: float) -> float:
     slip_length : float
         D* of the ground [m].
     """
-    return thickness * (_FROM + _MORE * float(np.cbrt(slip_length / thickness)))
+    return thickness * (_FROM + _MORE * math.cbrt(slip_length / thickness))
 
 
 def assume_upslope(thickness: float, ground: GroundLaw) -> Assumed:

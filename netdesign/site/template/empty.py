@@ -11,7 +11,6 @@ from netdesign.words.catalogue import Language, render, set_marks
 
 # What a range is a multiple of, and which of its ends are.
 _TIMES = {"net_height": ("D_K", 2), "altitude_factor": ("f_c", 1)}
-_TIMES |= {"breaking_force": ("F", 2)}
 
 
 def say_empty(column: Column, language: Language) -> str:
