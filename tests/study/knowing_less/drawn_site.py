@@ -113,7 +113,6 @@ def list_cells(lines):
         if key not in (*REQUIRED[sheet], *AT_CORNERS)
         and is_unknown(line, key)
         and (key, line[key]) not in NOT_ASSUMED
-        and (key, line[key]) not in NOT_ASSUMED
     ]
 
 
