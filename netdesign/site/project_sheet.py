@@ -46,6 +46,7 @@ def read_project(
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
         elif field.key == "accepted_law":  # of workbooks of version 0.1
+            cells[field.key] = value.place
             refuse(item, say("item.no_effect"), "", findings, severity="note")
         else:
             values[field.key], cells[field.key] = value.word, value.place

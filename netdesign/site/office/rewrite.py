@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Workbook
-from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import (
     DECLARED,
     MONITORING,
@@ -181,8 +181,7 @@ def _rewrite_project(
     """Lines of sheet Project: what identifies the study, and holds for the site."""
     project, cells = read_project(workbook, [])
     number = ", ".join(filter(None, (project.number, project.revision)))
-    if project.accepted_law:
-        place = f"{cells['accepted_law']} = {quote(project.accepted_law)}"
+    if place := cells.get("accepted_law"):
         told.done[say("rewrite.creep_law")] = [place]
     found: dict[str, object] = {
         **{"name": project.name, "number": number, "author": project.author},
