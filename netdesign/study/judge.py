@@ -11,7 +11,6 @@ from netdesign.checks.check import Check
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.site.assumed import Assumed
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.check_run import CheckRun
@@ -39,7 +38,6 @@ from netdesign.study.record_support import (
 )
 from netdesign.study.records import (
     SCHEMA,
-    AssumedRecord,
     ModelFormRecord,
     ReliabilityRecord,
     RowStudy,
@@ -152,7 +150,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         parts=list_parts(known.row, task.site.ranges["inclination"]),
         drawing=drawing,
-        assumed=list(map(_record_assumed, row.assumed)),
         questions=list(row.questions),
         assumed=list(map(record_assumed, row.assumed)),
         monitoring=record_monitoring(task.site, row),
@@ -184,21 +181,6 @@ def _find_worst_variant(found: RowChecks, variants: Sequence[Variant]) -> Varian
         return variants[0]
     known = found.judged[worst.id].known
     return next(one for one in variants if one.known is known)
-
-
-def _record_assumed(one: Assumed) -> AssumedRecord:
-    low, high = one.shown
-    return AssumedRecord(
-        key=one.key,
-        kind=one.kind,
-        name=one.name,
-        text=one.text,
-        low=low,
-        high=high,
-        unit=one.unit,
-        source=one.why,
-        effect=one.what_it_does,
-    )
 
 
 def _find_reliability(

@@ -159,21 +159,6 @@ class ReliabilityRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class AssumedRecord:
-    """What counted in the place of an empty cell."""
-
-    key: str  # "slack", as standards/assumed.toml has it
-    kind: str  # "searched", "statics", "fixed"
-    name: Message
-    text: Message  # range, value or word
-    low: float  # in the unit; 0 of a word
-    high: float
-    unit: str
-    source: Message
-    effect: Message
-
-
-@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
@@ -186,7 +171,6 @@ class RowStudy:
     cases: Items[CaseRecord]
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    assumed: Items[AssumedRecord] = field(default_factory=list)  # of empty cells
     questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
     assumed: Items[AssumedRecord] = field(default_factory=list)  # of empty columns
     monitoring: Items[MonitoringRecord] = field(default_factory=list)
