@@ -108,12 +108,15 @@ def _state(key: str, value: float | None = None) -> Condition:
 
 def _list_of_snow(known: RowForces) -> Iterator[Condition]:
     """Heights and glide factors, which a document or an authority confirms."""
-    row, ranges = known.row, known.site.ranges
-    yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
+    row, ranges, documents = known.row, known.site.ranges, known.site.documents
+    if "snow_document" not in documents:
+        yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
     glide = row.glide_factor
     if "glide_factor" in ranges.further:
         glide = ranges["glide_factor"].high
-    if glide is not None and row.find_assumed("glide_factor") is None:
+    is_confirmed = "glide_document" in documents
+    is_known = glide is not None and row.find_assumed("glide_factor") is None
+    if glide is not None and is_known and not is_confirmed:
         yield _state("glide_factor", glide)
 
 

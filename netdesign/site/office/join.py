@@ -19,6 +19,7 @@ from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import (
     build_office_ranges,
     build_project,
+    list_documents,
     read_lines,
 )
 from netdesign.site.office.rows import (
@@ -100,6 +101,7 @@ def read_office(
         declared=list_declared(lines["declared"]),
         further={one.name: find_table(workbook, one, findings) for one in FURTHER},
         approvals=approvals,
+        documents=list_documents(project),
         library=(library.file, library.sha256) if library else ("", ""),
     )
 

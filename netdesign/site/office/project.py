@@ -80,6 +80,11 @@ def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
     return Project(**values), {key: one.place for key, one in given.items()}
 
 
+def list_documents(lines: Row) -> Mapping[str, str]:
+    """Documents that confirm numbers of the site, by the line that names them."""
+    return {key: lines[key].word for key in _DOCUMENTS if lines[key].word}
+
+
 def build_office_ranges(lines: Row) -> RangesSheet:
     """Ranges of the usual three quantities; the assumed ones where a line is empty."""
     found = {}

@@ -102,11 +102,6 @@ def _join_anchor(
         line,
         {key: one for key, one in (soil or {}).items() if key != "ground"},
         soil=rename(project["soil"], find_field(ANCHORS, "soil")),
-        sleeve=replace(
-            read_nothing(find_field(ANCHORS, "sleeve"), None),
-            state="default",
-            value="no",
-        ),
         **proven,
     )
     bare = replace(row["pull_out"].field, computed_from=(), computed_with=())
