@@ -257,6 +257,12 @@ class Check:
         return self.read("R_d")
 
     @property
+    def needed_kN(self) -> float | None:
+        """Least characteristic resistance with which it passes; None if none does."""
+        wanted = (x for x in self.changes if x.unit == "kN" and x.sense == "at least")
+        return next((one.bound for one in wanted), None)
+
+    @property
     def utilisation(self) -> float | None:
         """Demand over resistance [-]; None where it is not known, or has no bound."""
         return self.read("μ")

@@ -245,13 +245,13 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
 
 
 def check_gap(gap: float, standard: Standard) -> Check | None:
-    """Check the gap beside a row [m]; None where the profile has no limit of it."""
+    """Check the gap beside a row [m]; None where the profile has no limit of it.
+
+    Nor of a free end, beside which nobody says that there is a work: a condition.
+    """
     most = standard.find(MAX_GAP)
-    if most is None:
+    if most is None or math.isinf(gap):
         return None
     met = judge(gap, gap, least=0.0, most=most.value)
-    if met is Verdict.NOT_PROVEN:
-        found = compare("gap", met, None, most)
-        return found.with_open(OpenKind.VALUE_ASKED, say("geometry.no_gap"))
     finding = say(_GAPS[met is Verdict.PASS], gap=gap, most=most.value)
     return compare("gap", met, finding, most)

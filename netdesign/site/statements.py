@@ -132,13 +132,12 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
     if not has_panel(row):
         return ()
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
-    mid = row["mid_anchors"].word
     return list_panels(
         row["post_spacing"].si,
         cut=next((cut for cut in CUTS if cut == row["net_cut"].word), None),
         sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
         stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
-        has_mid_anchors=mid == "yes" if mid else None,
+        has_mid_anchors=row["mid_anchors"].word == "yes",
     )
 
 

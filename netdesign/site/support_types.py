@@ -126,11 +126,13 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     """
     if at_end["panel_system"].word == "none":
         return None
+    assumed = assume("end_guy_angle")
     if end is None:
         lack = say("row_end.no_members")
         beside = product(END_ANCHORS, ("bending", "direction"))
         return RowEnd(
-            guy_angle=assume("end_guy_angle").high,
+            guy_angle=assumed.high,
+            flattest_guy=assumed.low,
             stiffnesses=list_stiffnesses(at_end, end, types),
             resistances=tuple(
                 Resistance(member=member, mode=mode, source="Ends", lack=lack)
@@ -140,7 +142,8 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     anchors = read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
     angle = end["end_guy_angle"].given_si
     return RowEnd(
-        guy_angle=assume("end_guy_angle").high if angle is None else angle,
+        guy_angle=assumed.high if angle is None else angle,
+        flattest_guy=assumed.low if angle is None else None,
         stiffnesses=list_stiffnesses(at_end, end, types),
         guy_from_base=end["end_guy_place"].given_si,
         ropes_slide=end["ropes_at_supports"].word == "slide",

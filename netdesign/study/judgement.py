@@ -211,6 +211,7 @@ def _list_open(
     """What is open of a member's force: of its cases, of what pulls it."""
     gaps = (
         known.gap,
+        known.panel_gap,
         None if given.member in ROPE_OF else known.floor_gap,
         _find_other_panel(known.row, given, width.position),
         _find_loose_end(known, given.member, width.position),
@@ -305,8 +306,6 @@ def _find_unsaid(
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
     row = known.row
-    if known.panel_gap is not None:
-        return known.panel_gap
     if given.member in ROPE_OF and known.effects.end_lack is not None:
         return known.effects.end_lack
     is_inside = width.position != "edge" and given.member in tuple(Member)

@@ -7,11 +7,11 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from netdesign.checks.check import CasePoint, Check
+from netdesign.checks.check import CasePoint, Check, OpenKind
 from netdesign.checks.loader import StandardValue
 from netdesign.edge.json_text import (
     Items,
@@ -159,11 +159,26 @@ class ReliabilityRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OpenPoint:
+    """Reason why checks of a row are not proven, once for all of them.
+
+    ``needs_kN`` is the least characteristic resistance that they need [kN]; None where
+    none is missing.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
+
+    kind: OpenKind
+    text: Text
+    needs_kN: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
-    WRITTEN: ClassVar = ("verdict", "scopes")
+    WRITTEN: ClassVar = ("verdict", "scopes", "open")
 
     id: str
     checks: Items[Check]
@@ -207,6 +222,23 @@ class RowStudy:
     def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
         """Verdict of some scopes; of the whole row where none is named."""
         return merge_scopes(self.scopes, scopes) if scopes else self.verdict
+
+    @cached_property
+    def open(self) -> list[OpenPoint]:
+        """What is open of its checks that are not proven, each reason once."""
+        found: dict[tuple[OpenKind, str], OpenPoint] = {}
+        for check in self.checks:
+            if check.verdict is not Verdict.NOT_PROVEN:
+                continue
+            for one in check.open:
+                key = (one.kind, str(one.message))
+                point = found.setdefault(
+                    key, OpenPoint(kind=one.kind, text=one.message)
+                )
+                if one.kind is OpenKind.RESISTANCE_MISSING:
+                    needs = max(point.needs_kN or 0.0, check.needed_kN or 0.0) or None
+                    found[key] = replace(point, needs_kN=needs)
+        return list(found.values())
 
     @property
     def unmet(self) -> list[Message]:

@@ -43,7 +43,7 @@ class RowForces(Basis):
     gap : Message or None
         Why the forces do not cover every case.
     panel_gap : Message or None
-        Why an assumed panel fails, so that nothing is known of the row.
+        Why an assumed panel fails, so that a force may be larger than those known.
     """
 
     effects: RowEffects

@@ -142,7 +142,7 @@ def know_row(cases: RowCases, base: RowForces) -> RowForces:
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
-    """Reason why an assumed panel fails, so that nothing is known of the row."""
+    """Reason why an assumed panel fails, so that a force may be larger."""
     failed = [one for one in results if isinstance(one.panel, FailedPanel)]
     if not failed or not row.panel_assumed:
         return None

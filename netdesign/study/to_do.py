@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from netdesign.checks.check import Change, Check, Open, OpenKind
+from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message, say
@@ -171,19 +171,13 @@ def _describe_failed(check: Check, title: Message) -> Message:
 
 def _describe_needed(check: Check) -> Message:
     """Least characteristic resistance of a type, or of a member without one."""
-    needed = _find_needed(check.changes)
+    needed = check.needed_kN
     what = name_mode(check.mode)
     of = check.resistance_type
     named = as_given(of) if of else name_member(check.member)
     if needed is None:
         return say("to_do.state", what=what, of=named)
     return say("to_do.needs", what=what, of=named, least=needed)
-
-
-def _find_needed(changes: Iterable[Change]) -> float | None:
-    """Least characteristic resistance with which a check passes [kN]."""
-    wanted = (one for one in changes if one.unit == "kN" and one.sense == "at least")
-    return next((one.bound for one in wanted), None)
 
 
 _FEW = 2  # checks that a line names

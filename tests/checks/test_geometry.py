@@ -53,7 +53,6 @@ def test_sound_row_passes_all_five():
         ({"net_height": math.nan}, "height", Verdict.NOT_PROVEN),
         ({"gap": 2.0}, "gap", Verdict.PASS),
         ({"gap": 2.01}, "gap", Verdict.FAIL),
-        ({"gap": math.inf}, "gap", Verdict.NOT_PROVEN),
         ({"upslope_length": math.nan}, "spacing", Verdict.NOT_PROVEN),
     ],
 )
@@ -64,6 +63,10 @@ def test_at_the_bounds(changes, mode, verdict):
 def test_a_gap_and_a_distance_below_a_metre_are_within():
     assert verdicts(gap=0.0)["gap"] is Verdict.PASS
     assert verdicts(upslope_length=0.5)["spacing"] is Verdict.PASS
+
+
+def test_a_free_end_has_no_gap_to_be_checked():
+    assert "gap" not in verdicts(gap=math.inf)
 
 
 def test_row_spacing_of_the_guideline():
@@ -176,7 +179,6 @@ REASONS = [
     ),
     ("gap", {}, "The gap to the next work 1 m is within 2 m."),
     ("gap", {"gap": 3.0}, "The gap to the next work 3 m exceeds 2 m."),
-    ("gap", {"gap": math.inf}, "Not proven: no gap to the next work is given."),
 ]
 
 
@@ -235,8 +237,6 @@ FAR = {"upslope_length": 24.9, "slope_angle": math.radians(31)}
          OpenKind.VALUE_ASKED, "geometry.slope_not_plausible", {22.5, 25.0, 60.0}),
         ("spacing", SWISS, FAR, OpenKind.UNSOLVED, "geometry.spacing_capped", {24.9}),
         ("spacing", UNCAPPED, FAR, OpenKind.UNSOLVED, "geometry.no_cap", set()),
-        ("gap", SWISS, {"gap": math.inf}, OpenKind.VALUE_ASKED, "geometry.no_gap",
-         set()),
     ],
 )  # fmt: skip
 def test_what_leaves_geometry_open_is_said_with_its_kind(

@@ -178,3 +178,23 @@ def test_a_pull_out_of_which_nobody_says_how_it_was_found_is_the_worse(solved, p
         assert unsaid.utilisation >= computed.utilisation
     else:
         assert unsaid.verdict is not Verdict.PASS
+
+
+def test_what_is_open_of_a_row_says_the_resistance_that_is_needed(solved):
+    row = solved[0].rows[0]
+    bare = tuple(
+        replace(one, value=None, tests=None, basis="", lack=say("check.no_case_solved"))
+        if one.mode == "pull_out"
+        else one
+        for one in row.resistances
+    )
+    study, checks = judge(solved, resistances=bare)
+    (point,) = (
+        one
+        for one in study.rows[0].open
+        if one.kind is OpenKind.RESISTANCE_MISSING and one.needs_kN
+    )
+    lacking = [one for one in checks.values() if one.needed_kN and one.open]
+    assert point.needs_kN == max(one.needed_kN for one in lacking)
+    for one in lacking:
+        assert one.needed_kN >= one.demand_kN
