@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from netdesign.checks import GivenResistance
 from netdesign.panel.inputs import Ends
@@ -57,8 +57,6 @@ class RowEnd:
         Between the end guy and the row [rad]; None where none is given.
     guy_from_base : float or None
         Of the end guy's anchor, as `EndGuy` has it [m].
-    flattest_guy : float or None
-        Least angle assumed where nobody gives one [rad]; None of a given one.
     stiffnesses : tuple of tuple of float, shape (4, 2)
         Least and largest EA of uphill and downhill guys, end guy and post there [N].
     ropes_slide : bool
@@ -74,7 +72,6 @@ class RowEnd:
 
     guy_angle: float | None
     guy_from_base: float | None = None
-    flattest_guy: float | None = None
     stiffnesses: tuple[Ends, ...] = ()
     ropes_slide: bool = False
     lateral_distance: float | None = None
@@ -88,14 +85,6 @@ class RowEnd:
         if self.guy_angle is None:
             return None
         return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
-
-    @property
-    def guys(self) -> tuple[EndGuy, ...]:
-        """End guy, and the flattest that it may be where nobody gives its angle."""
-        guy = self.guy
-        if guy is None or self.flattest_guy is None:
-            return () if guy is None else (guy,)
-        return guy, replace(guy, angle=self.flattest_guy)
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """What one of its anchors is; None where its type is not given."""

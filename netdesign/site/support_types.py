@@ -126,13 +126,12 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     """
     if at_end["panel_system"].word == "none":
         return None
-    assumed = assume("end_guy_angle")
+    steepest = assume("end_guy_angle").high
     if end is None:
         lack = say("row_end.no_members")
         beside = product(END_ANCHORS, ("bending", "direction"))
         return RowEnd(
-            guy_angle=assumed.high,
-            flattest_guy=assumed.low,
+            guy_angle=steepest,
             stiffnesses=list_stiffnesses(at_end, end, types),
             resistances=tuple(
                 Resistance(member=member, mode=mode, source="Ends", lack=lack)
@@ -142,8 +141,7 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     anchors = read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
     angle = end["end_guy_angle"].given_si
     return RowEnd(
-        guy_angle=assumed.high if angle is None else angle,
-        flattest_guy=assumed.low if angle is None else None,
+        guy_angle=steepest if angle is None else angle,
         stiffnesses=list_stiffnesses(at_end, end, types),
         guy_from_base=end["end_guy_place"].given_si,
         ropes_slide=end["ropes_at_supports"].word == "slide",

@@ -26,13 +26,12 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Bore,
-    find_axis_at_dip,
     find_distance_to_row_above,
     find_least_distance,
     measure_distance,
 )
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, USUAL_DIP, find_pull
+from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.study.support_records import PullRecord
@@ -40,7 +39,6 @@ from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-LATERAL = EndMember.LATERAL_ANCHOR
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
@@ -348,15 +346,8 @@ def find_ground_resistance(
 def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
     """Axes that an anchor may have [rad]: of a guy's, that of one for each guy, too.
 
-    Where nobody says whether two guys share it, one for each may be less deep; so may
-    that of an end guy whose angle nobody gives.
+    Where nobody says whether two guys share it, one for each may be less deep.
     """
-    end = row.row_end
-    if pull.anchor == EndMember.END_GUY_ANCHOR and end and end.flattest_guy:
-        ratio = math.sin(end.flattest_guy) / math.sin(end.guy_angle or 1.0)
-        flattest = find_axis_at_dip(USUAL_DIP, row.slope_angle, LATERAL)
-        flat = max(math.asin(ratio * math.sin(pull.axis)), flattest)
-        return pull.axis, min(pull.axis, flat)
     may_be_own = row.guys.count > 1 and row.guys.are_shared is None
     if pull.is_axis_given or not may_be_own or pull.anchor not in GUY_ANCHORS:
         return (pull.axis,)
@@ -368,7 +359,7 @@ def _lift_ground(
 ) -> WedgeResistance:
     """Wedge that an anchor lifts, or the cone about one that has no neighbours."""
     row, span = basis.row, basis.site.ranges["inclination"]
-    slope, guys = row.slope_angle, row.row_end.guys if row.row_end else ()
+    slope, guy = row.slope_angle, row.row_end.guy if row.row_end else None
     if pull.anchor not in END_ANCHORS:
         return compute_wedge_resistance(
             soil,
@@ -379,9 +370,8 @@ def _lift_ground(
             largest_pull=pull.pulls.largest,
         )
     ways = [(0.0, 0.0, -1.0)]  # of the lower rope
-    if pull.anchor == EndMember.END_GUY_ANCHOR and guys:
-        places = [place_row(row, one) for one in (span.low, span.high)]
-        ways = [guy.find_way(place) for guy in guys for place in places]
+    if pull.anchor == EndMember.END_GUY_ANCHOR and guy is not None:
+        ways = [guy.find_way(place_row(row, one)) for one in (span.low, span.high)]
     pulls = [(-x, -y, -z) for x, y, z in ways]
     found = (
         compute_cone_resistance(soil, depth=depth, slope=slope, pull=one)
