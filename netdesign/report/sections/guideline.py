@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from netdesign.checks.check import Check
 from netdesign.report.blocks import (
     Block,
     Cell,
@@ -12,17 +13,23 @@ from netdesign.report.blocks import (
     Table,
     fixed_cell,
     key_columns,
+    name_columns,
     number_cell,
     section,
     text_cell,
 )
 from netdesign.report.drawing.chain_figure import draw_loads
 from netdesign.report.words import (
+    MISSING,
     Words,
     name_row,
+    show_member,
 )
+from netdesign.structure.members import END_ANCHORS
 from netdesign.study.case_records import GuidelineRecord
+from netdesign.study.pulls import ANCHORS
 from netdesign.study.records import RowStudy, Study, find_input
+from netdesign.study.scopes import Scope, find_scopes
 
 _LOAD_CASES = ("load_case_1", "load_case_2")
 
@@ -41,7 +48,8 @@ def show_difference(study: Study, words: Words) -> Part | None:
     ends = [words.show_fixed(end(ratios), 2) for end in (min, max)]
     ratio = words("show.from_to", low=ends[0], high=ends[1])
     lead = words("why_more.lead", ratio=ratio if ends[0] != ends[1] else ends[0])
-    blocks: list[Block] = [Paragraph(text=lead), _tabulate(compared, words)]
+    tables = (_tabulate(compared, words), tabulate_used(study, words))
+    blocks: list[Block] = [Paragraph(text=lead), *tables]
     height = find_input(worst, "net_height")
     svg = draw_loads(record, height, words) if record and height else ""
     if record and svg:
@@ -77,6 +85,38 @@ def _tabulate(rows: list[RowStudy], words: Words) -> Table:
         ),
         rows=tuple(_show(row, words) for row in rows),
     )
+
+
+def tabulate_used(study: Study, words: Words) -> Table:
+    """Utilisation of each anchor by the model and by the guideline, side by side.
+
+    Each is the largest of the anchor's checks, wherever it stands in the row.
+    """
+    known = {one.member for row in study.rows for one in row.checks if _is_rated(one)}
+    anchors = [one for one in (*ANCHORS, *END_ANCHORS) if one in known]
+    names = [show_member(words, one) for one in anchors]
+    return Table(
+        caption=words("why_more.used"),
+        columns=name_columns([words("heading.net_row"), *names], numbers=()),
+        rows=tuple(
+            (text_cell(row.id), *(_show_used(row, one, words) for one in anchors))
+            for row in study.rows
+        ),
+        empty=words("show.none"),
+    )
+
+
+def _is_rated(check: Check) -> bool:
+    return Scope.ANCHORS in find_scopes(check) and check.utilisation is not None
+
+
+def _show_used(row: RowStudy, anchor: str, words: Words) -> Cell:
+    """``0.84 / 0.54``; "-" for one that is not known."""
+    checks = [one for one in row.checks if one.member == anchor and _is_rated(one)]
+    pairs = [(one.utilisation_by_model, one.utilisation_by_guideline) for one in checks]
+    most = (max(filter(None, one), default=None) for one in zip(*pairs, strict=True))
+    shown = [words.show_number("utilisation", one) for one in most]
+    return text_cell(" / ".join(shown) or MISSING)
 
 
 def _show(row: RowStudy, words: Words) -> tuple[Cell, ...]:

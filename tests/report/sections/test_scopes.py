@@ -7,13 +7,14 @@ import pytest
 from netdesign.checks.approval import Approval
 from netdesign.outcome import Verdict
 from netdesign.report.sections.decision import list_open_points
+from netdesign.report.sections.guideline import tabulate_used
 from netdesign.report.sections.scopes import (
     describe_scopes,
     describe_study_scopes,
     list_exceeding,
     show_scope,
 )
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.scopes import SCOPES, Scope
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
@@ -89,3 +90,21 @@ def test_what_the_coupled_force_exceeds_is_named_with_its_factor():
     assert "1.37" in told
     assert told.startswith(row.id)
     assert told in list(list_open_points(study, ENGLISH))
+
+
+def test_every_anchor_stands_with_both_utilisations():
+    table = tabulate_used(STUDY, ENGLISH)
+    headings = [one.heading for one in table.columns]
+    for row, cells in zip(STUDY.rows, table.rows, strict=True):
+        shown = dict(zip(headings, (one.text for one in cells), strict=True))
+        for check in row.checks:
+            name = show_member(ENGLISH, check.member)
+            if name in shown and check.utilisation is not None:
+                most = max(
+                    one.utilisation_by_model or 0.0
+                    for one in row.checks
+                    if one.member == check.member and one.mode != "connection"
+                )
+                by_model, _, by_guideline = shown[name].partition(" / ")
+                assert by_model == ENGLISH.show_number("utilisation", most)
+                assert by_guideline
