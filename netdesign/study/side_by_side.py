@@ -49,6 +49,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
         monitoring=monitoring,
         declared=tuple(one for one in site.declared if one.row_id in ("", row.id)),
         confirmed=site.confirmed,
+        documents=site.documents,
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,
