@@ -34,7 +34,9 @@ def say_why(column: Column, language: Language) -> str:
 
 
 def _find(column: Column) -> Assumed | None:
-    return None if column.said else load_assumed().get(column.field.key)
+    if column.said or column.field.required:
+        return None
+    return load_assumed().get(column.field.key)
 
 
 def _list_ends(column: Column) -> Sequence[float | str]:
