@@ -102,20 +102,17 @@ class CaseResult:
         return self.reason
 
     def at_layout(self, place: int) -> CaseResult:
-        """The case on one of its layouts alone.
+        """The case with the members' forces on one of its layouts alone.
 
-        What its panels bring to the ground is left as on the first layout, but for
-        their forces by member.
+        What it brings to the ground stays that on the first layout; `stand` gives it.
         """
         if not self.of_layouts:
             return self
-        layout, forces = self.of_layouts[place]
-        if place == 0:
-            return replace(self, member_forces=forces, of_layouts=())
-        return self._stand_on(layout, forces)
+        _, forces = self.of_layouts[place]
+        return replace(self, member_forces=forces, of_layouts=())
 
     def on_layout(self, layout: SupportLayout) -> CaseResult:
-        """The case on another layout, between those that it has.
+        """The same on another layout, between those that it has.
 
         Raises
         ------
@@ -133,11 +130,13 @@ class CaseResult:
         )
         if isinstance(found, FailedSupport):
             raise ValueError("a case that another layout holds")
-        return self._stand_on(layout, {**self.member_forces, **found[0]})
+        forces = {**self.member_forces, **found[0]}
+        return replace(self, member_forces=forces, of_layouts=())
 
-    def _stand_on(self, layout: SupportLayout, forces: dict[str, Band]) -> CaseResult:
+    def stand(self, layout: SupportLayout) -> CaseResult:
+        """The case with what its section brings to the ground on a layout."""
         if self.solution is None:
-            raise ValueError("a case without a solution")
+            return self
         foot, head = self.solution.foot, self.solution.head
         anchors = compute_anchor_forces(
             place_support(layout, self.solution.head_point),
@@ -145,9 +144,8 @@ class CaseResult:
             head_pull_per_m=(head.x, head.y),
             post_spacing=layout.post_spacing,
         )
-        if isinstance(anchors, FailedSupport):
-            raise ValueError("a case that another way holds")
-        return replace(self, member_forces=forces, of_layouts=(), anchors=anchors)
+        held = None if isinstance(anchors, FailedSupport) else anchors
+        return replace(self, anchors=held)
 
 
 def run_cases(

@@ -22,8 +22,8 @@ from netdesign.outcome import Verdict
 from netdesign.site.assumed import Assumed
 from netdesign.site.model import NetRow
 from netdesign.study.judgement import MemberCheck
-from netdesign.study.member_force import RowForces
-from netdesign.study.record_envelope import read_point
+from netdesign.study.member_force import MemberForce, RowForces
+from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_knowledge import know_alone
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.variants import list_layouts, place_variant, read_values
@@ -31,18 +31,21 @@ from netdesign.words.message import Message, say
 
 # What is searched with the cases, but is no design range.
 SEARCHED = ("slack", "net_stiffness")
-_STEPS = 4  # in which the value from which on a check passes is closed in
-_CLOSE = 0.03  # a share of the range: closer is no use to who types the value
+_PARTS = 8  # of a range, among which is the value from which on a check passes
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
 
 
-def settle(task: RowToCheck, judged: Sequence[MemberCheck]) -> list[MemberCheck]:
+def settle(
+    task: RowToCheck, variants: Sequence[RowForces], judged: Sequence[MemberCheck]
+) -> list[MemberCheck]:
     """Checks of a row as they are at the best ends of what is assumed of it.
 
     Parameters
     ----------
     task : RowToCheck
         The row with what is assumed of it, and what solves its cases.
+    variants : sequence of RowForces
+        What its cases tell at the corners of its statics.
     judged : sequence of MemberCheck
         Each where it is worst, eased to the best end of the row's statics.
 
@@ -50,7 +53,8 @@ def settle(task: RowToCheck, judged: Sequence[MemberCheck]) -> list[MemberCheck]
     -----------
     tests/study/test_best_ends.py
     """
-    ends = _BestEnds(task=task)
+    known: dict[object, RowForces | None] = {_name(one.row): one for one in variants}
+    ends = _BestEnds(task=task, known=known)
     return [ends.settle(one) for one in judged]
 
 
@@ -146,7 +150,7 @@ class _BestEnds:
                 other=option.show(option.other),
                 least=least,
             )
-        bound = option.show(_round(option, _find_share(option.rate, worst, least)))
+        bound = option.show(_round(option, _find_share(option.rate)))
         return say("check.assumed_decides", **told, bound=bound)
 
     def _vary_statics(self, one: MemberCheck) -> Iterator[_Option]:
@@ -170,16 +174,26 @@ class _BestEnds:
     def _rate_statics(
         self, one: MemberCheck, key: str, worst: float, other: float, share: float
     ) -> float:
+        """Utilisation at another value: at the end over all cases, else in proportion.
+
+        That is to the governing case, at the same value of all else.
+        """
         values = read_values(one.known.row)
         values[key] = worst + share * (other - worst)
         if key == "guy_count":
-            if 0.0 < share < 1.0:
-                return math.inf
             splay = self.task.row.find_assumed("guy_splay")
             if splay is not None:
                 values["guy_splay"] = splay.high
         row = place_variant(self.task.row, values)
-        return _rate(self._judge(one, self._know_on(row)))
+        if share == 1.0:
+            return _rate(self._judge(one, self.known.get(_name(row))))
+        if key == "guy_count" or one.force is None:
+            return math.inf
+        here, there = (
+            _rate(self._judge(one, self._know_alone(at, one.force)))
+            for at in (one.known.row, row)
+        )
+        return _scale(one.check, here, there)
 
     def _vary_searched(self, one: MemberCheck) -> Iterator[_Option]:
         """Other ends of what is searched with the cases, each alone."""
@@ -209,19 +223,16 @@ class _BestEnds:
             _rate(self._judge(one, self._know_at(row, one, values)))
             for values in ({key: worst}, at)
         )
-        here, there = rated
-        whole = _rate(one.check)
-        return there * whole / here if 0.0 < here < math.inf > whole else there
+        return _scale(one.check, *rated)
 
-    def _know_on(self, row: NetRow) -> RowForces | None:
-        """Knowledge of a variant of the row, by all its cases."""
-        key = tuple(read_values(row).items())
+    def _know_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
+        """Knowledge of a variant of the row, by the case that governs a force alone."""
+        task, point = self.task, force.largest.case
+        key = (_name(row), point)
         if key not in self.known:
-            task, layouts = self.task, list_layouts(self.task.row)
-            if row.layout in layouts:
-                solved = task.solved.at_layout(layouts.index(row.layout))
-            else:
-                solved = task.solved.on_layout(row.layout)
+            results = task.solved.results
+            result = next(x for x in results if record_point(x.case) == point)
+            solved = _wrap(task.solved, result).on_layout(row.layout)
             self.known[key] = know_alone(task, row, solved)
         return self.known[key]
 
@@ -235,7 +246,7 @@ class _BestEnds:
         case = read_point(one.check.case)
         for name, value in values.items():
             case = case.with_value(name, value)
-        key = (tuple(read_values(row).items()), case)
+        key = (_name(row), case)
         if key not in self.known:
             self.known[key] = self._know_case(row, case, values)
         return self.known[key]
@@ -258,6 +269,11 @@ class _BestEnds:
         return know_alone(at, row, solved.at_layout(place))
 
 
+def _name(row: NetRow) -> object:
+    """Corner at which a variant of the row is."""
+    return tuple(sorted(read_values(row).items()))
+
+
 def _wrap(solved: RowEnvelope, result: CaseResult) -> RowEnvelope:
     """Envelope of one case alone: nothing hides beside it."""
     forces = [result.member_forces.get(one) for one in solved.members]
@@ -268,6 +284,12 @@ def _wrap(solved: RowEnvelope, result: CaseResult) -> RowEnvelope:
     )
 
 
+def _scale(check: Check, here: float, there: float) -> float:
+    """Utilisation elsewhere, in proportion to one that stands for that of a check."""
+    whole = _rate(check)
+    return there * whole / here if 0.0 < here < math.inf > whole else there
+
+
 def _rate(check: Check | None) -> float:
     """Upper end of a utilisation [-]; endless where there is none."""
     if check is None or check.is_unbounded:
@@ -276,25 +298,16 @@ def _rate(check: Check | None) -> float:
     return math.inf if high is None else high
 
 
-def _find_share(rate: Callable[[float], float], worst: float, least: float) -> float:
-    """Share of the way to a passing end from which on a check passes; it passes there.
-
-    Between a value beyond 1 and one within, closed in by the line through both.
-    """
-    low, high = 0.0, 1.0
-    for _ in range(_STEPS):
-        if high - low < _CLOSE:
-            break
-        middle = 0.5
-        if worst < math.inf:
-            middle = min(max((worst - 1.0) / (worst - least), 0.1), 0.9)
-        tried = low + (high - low) * middle
-        found = rate(tried)
-        if found <= 1.0:
-            high, least = tried, found
+def _find_share(rate: Callable[[float], float]) -> float:
+    """Share of the way to a passing end from which on a check passes, in eighths."""
+    low, high = 0, _PARTS
+    while high - low > 1:
+        middle = (low + high) // 2
+        if rate(middle / _PARTS) <= 1.0:
+            high = middle
         else:
-            low, worst = tried, found
-    return high
+            low = middle
+    return high / _PARTS
 
 
 def _round(option: _Option, share: float) -> float:

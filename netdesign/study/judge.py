@@ -137,6 +137,8 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     results = worst.task.solved.results
     cases = [record_case(one, run.creep_law, row) for one in task.solved.results]
     governing = _governing_result(find_worst(checks), extremes)
+    if governing is not None and len(variants) > 1:
+        governing = governing.stand(known.row.layout)
     foot = extremes.get(Member.FOOT_ANCHOR)
     share = known.effects.lateral_share
     drawing, anchors, head = record_drawn(known.row, governing, share)

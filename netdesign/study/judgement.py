@@ -368,11 +368,25 @@ def check_others(
     yield _take_gravest(
         check_sideways(one.row, one.held, one.standard, gap) for one in variants
     )
+    apart = list_bored(variants)
     for check in (check_anchor_distance, check_cover):
-        found = [check(one, gap) for one in variants]
+        found = [check(one, gap) for one in apart]
         if known_ones := [one for one in found if one is not None]:
             yield _take_gravest(known_ones)
     yield from check_row_geometry(known)
+
+
+def list_bored(variants: Sequence[RowForces]) -> Sequence[RowForces]:
+    """Variants of which the anchors may stand apart, one of those that are alike.
+
+    The end guy's anchor is placed where the lateral anchor's place is given.
+    """
+    end = variants[0].row.row_end
+    if end is not None and end.lateral_distance is not None:
+        return variants
+    return [
+        *{(one.row.layout, one.row.guys): one for one in reversed(variants)}.values()
+    ]
 
 
 def _take_gravest(checks: Iterable[Check]) -> Check:

@@ -35,7 +35,7 @@ def check_row(task: RowToCheck, variants: Sequence[RowForces]) -> RowChecks:
     ``variants`` is what its solved cases tell, at each corner of what is assumed of its
     statics.
     """
-    judged = settle(task, judge_members(variants))
+    judged = settle(task, variants, judge_members(variants))
     checks = []
     for one in judged:
         changes = list_remedies(one.known, one) if one.force else []

@@ -2,7 +2,7 @@
 
 Post, guys and end guy hold what the net pulls, and do not change it: a variant has the
 row's solved cases, and forces of its own. Where the largest lies: structure/THEORY.md,
-section on ranges.
+"Where nobody gives a number".
 """
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
             assert getattr(band, end) == pytest.approx(max(each), rel=1e-9, abs=1e-6)
     for place, one in enumerate(alone):
         found = together.at_layout(place)
-        assert found.anchors == one.anchors
+        assert found.stand(LAYOUTS[place]).anchors == one.anchors
         for name, band in one.member_forces.items():
             size = max(1.0, band.value)
             for end in ("low", "value", "high"):
