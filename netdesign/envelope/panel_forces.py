@@ -309,18 +309,68 @@ def resolve_panels(
         strip, doubt = _build_strip(net, state)
     except SolveError as failure:
         return FailedPanel(outcome=failure.outcome, reason=failure.reason)
-    solved = []
-    for panel in panels:
-        one = solve_strips(strip, panel)
-        if isinstance(one, FailedPanel):
-            return one
-        solved.append(one)
+    solved = _solve_panels(strip, panels)
+    if isinstance(solved, FailedPanel):
+        return solved
     pulls = [_find_pulls(one, state, doubt) for one in solved]
     found = resolve_pulls(points, panels[0].post_spacing, pulls)
     if isinstance(found, FailedSupport):
         return FailedPanel(outcome=found.outcome, reason=found.reason)
     first, *others = map(_gather, solved, pulls, found)
     return replace(first, others=tuple(others))
+
+
+# Panels that nobody builds: what they press on the ground would not be known.
+_NOT_BUILT = ("panel.lies_on_ground", "panel.no_net_left")
+_HALVINGS = 4  # of the sags between a panel that hangs free and one that does not
+
+
+def _solve_panels(
+    strip: Strip, panels: Sequence[Panel]
+) -> list[PanelSolution] | FailedPanel:
+    """Panels of a row, or the first that fails.
+
+    Where sags are assumed, one that would lie on the ground has the largest sags with
+    which it hangs free; where it never does, another one stands in its place.
+    """
+    found = [solve_strips(strip, one) for one in panels]
+    failed = [one for one in found if isinstance(one, FailedPanel)]
+    free = [one for one in found if not isinstance(one, FailedPanel)]
+    if not failed:
+        return free
+    sags = [(one.upper.sag, one.lower.sag) for one in panels]
+    least = tuple(map(min, zip(*sags, strict=True)))
+    is_built = any(one.reason.key not in _NOT_BUILT for one in failed)
+    if is_built or not free or len(set(sags)) == 1:
+        return failed[0]
+    return [
+        (_hang_free(strip, panel, least) or free[0])
+        if isinstance(one, FailedPanel)
+        else one
+        for one, panel in zip(found, panels, strict=True)
+    ]
+
+
+def _hang_free(
+    strip: Strip, panel: Panel, least: tuple[float, ...]
+) -> PanelSolution | None:
+    """Panel with the largest sags up to its own with which it hangs free."""
+    found: PanelSolution | None = None
+    free, lying, share = 0.0, 1.0, 0.0
+    for _ in range(_HALVINGS + 1):
+        upper, lower = (
+            replace(rope, sag=sag + share * (rope.sag - sag))
+            for rope, sag in zip((panel.upper, panel.lower), least, strict=True)
+        )
+        one = solve_strips(strip, replace(panel, upper=upper, lower=lower))
+        if isinstance(one, FailedPanel):
+            lying = share
+        else:
+            found, free = one, share
+        if found is None:
+            return None
+        share = 0.5 * (free + lying)
+    return found
 
 
 def _gather(solved: PanelSolution, pulls: Pulls, found: Resolved) -> PanelForces:

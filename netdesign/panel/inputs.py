@@ -71,7 +71,7 @@ class Panel:
         require_one_of("cut", self.cut, CUTS)
 
 
-SAGS = (0.03, 0.10)  # of ropes as built, over the span
+SAGS = (0.08, 0.15)  # of ropes as built, over the span
 STIFFNESSES = (3e6, 150e6)  # EA of border ropes [N]
 # EA over the breaking force: ropes of strands, then spiral ropes of round wires.
 OF_BREAKING = (25.0, 160.0)
@@ -81,21 +81,23 @@ Ends = tuple[float, float]  # least and largest value; equal where it is given
 # Cut; which end of the sag of ridge rope and lower rope, of their EA; mid-anchors.
 _WORST: tuple[tuple[Cut, int, int, int, int, bool], ...] = (
     # for the uphill guy
+    ("uniform", 0, 0, 1, 0, False),
     ("uniform", 0, 1, 0, 0, False),
     ("uniform", 0, 1, 1, 0, False),
     ("uniform", 0, 1, 1, 1, False),
     ("uniform", 1, 1, 0, 0, False),
     ("uniform", 1, 1, 1, 0, False),
     ("upper", 0, 0, 1, 0, False),
+    ("upper", 0, 1, 0, 0, False),
     ("upper", 0, 1, 1, 0, False),
     ("upper", 0, 1, 1, 1, False),
-    ("fitted", 0, 0, 1, 0, False),
     ("fitted", 0, 1, 1, 0, False),
     # for lower rope and ridge rope along the row
     ("fitted", 1, 0, 1, 1, False),
     ("fitted", 0, 1, 1, 1, False),
     ("fitted", 0, 1, 1, 1, True),
     # for foot anchor, post and downhill guy
+    ("fitted", 1, 0, 1, 1, True),
     ("fitted", 1, 1, 1, 1, False),
     ("fitted", 1, 1, 1, 1, True),
 )
