@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
-from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow, Site
@@ -134,16 +133,13 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     worst = _find_worst_variant(found, variants)
     found, model_form = _ask_other_models(worst.task, found)
     checks, known, extremes = found.checks, worst.known, worst.task.extremes
-    results = worst.task.solved.results
     cases = [record_case(one, run.creep_law, row) for one in task.solved.results]
-    governing = _governing_result(find_worst(checks), extremes)
-    if governing is not None and len(variants) > 1:
-        governing = governing.stand(known.row.layout)
+    governing = _governing_result(find_worst(checks), worst.task)
     foot = extremes.get(Member.FOOT_ANCHOR)
     share = known.effects.lateral_share
     drawing, anchors, head = record_drawn(known.row, governing, share)
     independent = record_independent(governing, head)
-    panel = record_panel(row, results, extremes, governing)
+    panel = record_panel(row, worst.task.solved.results, extremes, governing)
     notes = list_judged_notes(known, checks, cases, panel)
     return RowStudy(
         id=row.id,
@@ -218,14 +214,11 @@ def _name_largest(check: Check) -> str:
     return name_in_panel(check.member) if check.is_by_panel else check.member
 
 
-def _governing_result(
-    worst: Check | None, extremes: Mapping[str, Extreme]
-) -> CaseResult | None:
-    """Case of the worst check; without any, of the largest foot force."""
-    if worst is not None:
-        return extremes[_name_largest(worst)].governing
-    foot = extremes.get(Member.FOOT_ANCHOR)
-    return foot.governing if foot else None
+def _governing_result(worst: Check | None, task: RowToCheck) -> CaseResult | None:
+    """Case of the worst check on its layout; without any, of the largest foot force."""
+    largest = _name_largest(worst) if worst else Member.FOOT_ANCHOR
+    found = task.extremes.get(largest)
+    return found.governing.stand(task.row.layout) if found else None
 
 
 def _find_model_form(task: RowToCheck, worst: Check | None) -> ModelFormRecord | None:
