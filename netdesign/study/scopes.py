@@ -58,6 +58,7 @@ _FORCES, _ALL = _ANCHORS | _STRUCTURE, frozenset(SCOPES)
 
 # In the place of a member: all that a net is built of above the ground.
 STRUCTURE = Scope.STRUCTURE.value
+BY_APPROVAL = f"{STRUCTURE}.approval"  # id of the check that an approval proves
 # Scope of a check: by its id, else by its mode, else by its member.
 _BY_ID: Mapping[str, Scopes] = {
     "geometry.anchors": _ANCHORS,
@@ -205,9 +206,10 @@ def _sum_up(
     checks: Sequence[Check], others: Sequence[Verdict], assumed: int
 ) -> ScopeRecord:
     governing = min(checks, key=lambda one: one.rank, default=None)
+    is_by_approval = governing is not None and governing.id == BY_APPROVAL
     return ScopeRecord(
         verdict=merge_verdicts([*(one.verdict for one in checks), *others]),
         utilisation=governing.utilisation if governing else None,
         governing=governing.id if governing else "",
-        assumed=assumed,
+        assumed=0 if is_by_approval else assumed,
     )

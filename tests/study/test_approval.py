@@ -226,3 +226,6 @@ def test_a_scope_counts_what_its_forces_were_searched_over(judge):
     assert [one.source for one in row.assumed] == [one.why for one in some]
     counted = {scope: one.assumed for scope, one in row.scopes.items()}
     assert counted == {Scope.ANCHORS: 2, Scope.STRUCTURE: 2, Scope.SITING: 0}
+    proven = judge(assumed=some, approval=approve(), **BARE).scopes
+    assert proven[Scope.ANCHORS].assumed == 2
+    assert proven[Scope.STRUCTURE].assumed == 0  # by a document, not by forces

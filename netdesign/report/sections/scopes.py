@@ -15,7 +15,7 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.scopes import SCOPES, Scope, ScopeRecord
+from netdesign.study.scopes import BY_APPROVAL, SCOPES, Scope, ScopeRecord
 
 _BETWEEN = " · "
 
@@ -62,7 +62,7 @@ def _describe(
 
 def _find_approval(record: ScopeRecord, check: Check | None) -> str:
     """Document of the type approval that proves a scope; "" without one."""
-    is_by_approval = record.governing == "structure.approval"
+    is_by_approval = record.governing == BY_APPROVAL
     is_proven = check is not None and check.declared and is_by_approval
     return check.declared.document if is_proven and check and check.declared else ""
 
