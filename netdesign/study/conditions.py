@@ -24,9 +24,24 @@ from netdesign.units import given_degree_from_radian
 from netdesign.words.message import Text, say
 
 Who = Literal["office", "supplier", "ground", "site"]
+Key = Literal[
+    "snow_height",
+    "glide_factor",
+    "ground",
+    "cover",
+    "natural_ground",
+    "protected",
+    "sleeve",
+    "rectangular",
+    "axes",
+    "depth",
+    "edge",
+    "apart",
+    "gap",
+]
 
 # Who sees to each condition, in the order of the reports.
-_WHO: Mapping[str, Who] = {
+_WHO: Mapping[Key, Who] = {
     "snow_height": "office",
     "glide_factor": "office",
     "ground": "ground",
@@ -65,7 +80,7 @@ class Condition:
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("value",)
 
-    key: str
+    key: Key
     who: Who
     message: Text
     value: float | None = None
@@ -99,7 +114,7 @@ def _is_worse(one: Condition, other: Condition) -> bool:
     return is_less if one.key in _LEAST_COUNTS else one.value > other.value
 
 
-def _state(key: str, value: float | None = None) -> Condition:
+def _state(key: Key, value: float | None = None) -> Condition:
     text = say(f"condition.{key}")
     if value is not None:
         text = say(f"condition.{key}_of", value=value)
