@@ -58,7 +58,8 @@ class RowEnd:
     guy_from_base : float or None
         Of the end guy's anchor, as `EndGuy` has it [m].
     stiffnesses : tuple of tuple of float, shape (4, 2)
-        Least and largest EA of uphill and downhill guys, end guy and post there [N].
+        Least and largest EA of uphill and downhill guys, end guy and post there [N];
+        None of a rope without a type.
     ropes_slide : bool
         The border ropes slide at the supports; not where nobody says so.
     lateral_distance, lateral_axis : float or None
@@ -72,7 +73,7 @@ class RowEnd:
 
     guy_angle: float | None
     guy_from_base: float | None = None
-    stiffnesses: tuple[Ends, ...] = ()
+    stiffnesses: tuple[Ends | None, ...] = ()
     ropes_slide: bool = False
     lateral_distance: float | None = None
     lateral_axis: float | None = None

@@ -165,13 +165,17 @@ def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
 
 def list_stiffnesses(
     at_end: Row, end: Row | None, types: Mapping[str, Mapping[str, Row]]
-) -> tuple[Ends, ...]:
-    """Least and largest EA of uphill guys, downhill guys, end guy and post [N]."""
+) -> tuple[Ends | None, ...]:
+    """Least and largest EA of uphill guys, downhill guys, end guy and post [N].
+
+    None of a rope without a type.
+    """
     guys = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
     ropes = [*guys, end[EndMember.END_GUY].word if end else ""]
     post = types["Posts"].get(at_end[Member.POST].word)
+    lines = [types["Ropes"].get(one) for one in ropes]
     return (
-        *(_find_stiffness(types["Ropes"].get(one)) for one in ropes),
+        *(_find_stiffness(one) if one else None for one in lines),
         _find_post_stiffness(post),
     )
 

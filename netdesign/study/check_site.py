@@ -29,6 +29,7 @@ from netdesign.words.message import say
 
 # Progress that nobody is shown.
 _SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)
+OnRow = Callable[[Studies], None]
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
 
 
@@ -46,6 +47,7 @@ def check_site(
     run: CheckRun,
     runner: Runner | None = None,
     watch: RunProgress | None = None,
+    on_row: OnRow = lambda _: None,
 ) -> list[Study]:
     """Check a site against limit profiles; its cases are solved once.
 
@@ -63,6 +65,8 @@ def check_site(
         solved nor judged again.
     watch : RunProgress, optional
         Told of every phase, wave and check.
+    on_row : callable, optional
+        Called with the studies of each row, one a profile, as soon as they are known.
 
     Returns
     -------
@@ -79,10 +83,12 @@ def check_site(
     runner, watch = runner or Runner(), watch or _SILENT
     names = name_rows(site, standards, run) if runner.store else {}
     known = find_rows(names, runner, len(standards))
+    for studies in known.values():
+        on_row(studies)
     new = tuple(row for row in site.rows if row.id not in known)
     if new:
         part = replace(site, rows=new)
-        known |= _judge_new(part, names, standards, run, runner, watch)
+        known |= _judge_new(part, names, standards, run, runner, watch, on_row)
     return _gather(site, known, standards, run)
 
 
@@ -93,6 +99,7 @@ def _judge_new(
     run: CheckRun,
     runner: Runner,
     watch: RunProgress,
+    on_row: OnRow,
 ) -> dict[str, Studies]:
     """Studies by the ids of the rows, solved, judged, and kept under their names.
 
@@ -111,6 +118,8 @@ def _judge_new(
 
     def keep(job: RowsJob, judged: list[Studies]) -> None:
         keep_rows(names, job.site.rows, judged, runner)
+        for studies in judged:
+            on_row(studies)
 
     return judge_rows(jobs, runner, watch.count_piece, keep)
 

@@ -194,7 +194,8 @@ def _list_end_notes(known: RowForces) -> Iterator[Message]:
     yield say("row.end_guy_holds_all")
     if end.guy_from_base is None:
         yield say("row.end_guy_at_head")
-    if known.at_end.uphill_guy_kN and any(low < high for low, high in end.stiffnesses):
+    is_wide = any(one is None or one[0] < one[1] for one in end.stiffnesses)
+    if known.at_end.uphill_guy_kN and is_wide:
         yield say("row.end_stiffness")
 
 
