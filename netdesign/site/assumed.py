@@ -46,6 +46,8 @@ class Assumed:
         Name of the text of what is assumed, where no number says it.
     source, effect : str
         Names of the texts of where the range comes from, and what it does.
+    is_typed : bool
+        The range stands in the workbook: nobody has to confirm it.
     """
 
     key: str
@@ -58,6 +60,7 @@ class Assumed:
     word: str = ""
     source: str
     effect: str
+    is_typed: bool = False
 
     @property
     def is_range(self) -> bool:

@@ -15,10 +15,12 @@ from netdesign.guideline.load_model import (
     load_guideline,
     read_load_model,
 )
+from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.assumed import Assumed, assume, assume_ends
-from netdesign.site.columns.fields import from_si
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.ranges import RangesSheet
-from netdesign.site.readings import Reading, Row
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.statements import has_panel, list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
@@ -187,7 +189,56 @@ def assume_density(
     return assume_ends("density", low, high)
 
 
-def find_own_ranges(assumed: Sequence[Assumed]) -> Ranges:
-    """Ranges that are searched of what is assumed of a row."""
-    searched = [one for one in assumed if one.kind == "searched"]
-    return Ranges.of(**{x.key: Interval(low=x.low, high=x.high) for x in searched})
+# Columns that may hold a range, which counts as one that is assumed.
+_OF_TYPE = ("slack", "net_stiffness", "post_tilt", *_DISTANCES, "guy_splay")
+# Those whose range is searched with the cases, by the name that cases have for it.
+_OF_CASES = {
+    "snow_thickness": "thickness",
+    "snow_height": "snow_height",
+    "glide_factor": "glide_factor",
+    "upslope_length": "upslope_length",
+}
+
+
+def list_typed(row: Row, end: Row | None) -> tuple[Assumed, ...]:
+    """Ranges of net and support that cells of a row hold."""
+    readings = [row[key] for key in _OF_TYPE] + ([end["end_guy_angle"]] if end else [])
+    return tuple(
+        replace(
+            assume(one.field.key),
+            low=to_si(one.span[0], one.field.unit),
+            high=to_si(one.span[1], one.field.unit),
+            unit=one.field.unit,
+            times="",
+            source="typed",
+            is_typed=True,
+        )
+        for one in readings
+        if one.span is not None
+    )
+
+
+def find_own_ranges(assumed: Sequence[Assumed], row: Row) -> Ranges:
+    """Ranges that are searched of a row: assumed ones, and those its cells hold."""
+    found = {
+        one.key: Interval(low=one.low, high=one.high)
+        for one in assumed
+        if one.kind == "searched"
+    }
+    for key, name in _OF_CASES.items():
+        span, unit = row[key].span, row[key].field.unit
+        if span is not None:
+            low, high = (to_si(end, unit) for end in span)
+            found[name] = Interval(low=low, high=high)
+    return Ranges.of(**found)
+
+
+def refuse_crowd(
+    row: Row, own: Ranges, of_site: Ranges | None, findings: list[Finding]
+) -> None:
+    """Refuse a range of a row that is one too many for a search."""
+    every = of_site.replaced_by(own) if of_site else own
+    ranged = [one for one in row.values() if one.span is not None]
+    if ranged and len(every.axes) > MOST_PARAMETERS:
+        accepted = say("range.at_most", most=MOST_PARAMETERS)
+        refuse(ranged[-1], say("range.too_many"), accepted, findings)

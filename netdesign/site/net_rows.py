@@ -19,6 +19,8 @@ from netdesign.site.empty_cells import (
     fill_in_assumed,
     fill_in_snow,
     find_own_ranges,
+    list_typed,
+    refuse_crowd,
 )
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
@@ -217,8 +219,10 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     row, further = fill_in_snow(row, held, lines.ranges, snow)
     built = _compose_net_row(row, end, lines.types, held, inputs)
     found = (*assumed, *further, *assume_stiffness(row, lines.types["Ropes"]))
-    found = (*found, *built.assumed)
-    return replace(built, assumed=found, ranges=find_own_ranges(found))
+    found = (*found, *built.assumed, *list_typed(row, end))
+    own = find_own_ranges(found, row)
+    refuse_crowd(row, own, lines.ranges.ranges, findings)
+    return replace(built, assumed=found, ranges=own)
 
 
 def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Row:

@@ -149,7 +149,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         parts=list_parts(known.row, task.site.ranges["inclination"]),
         drawing=drawing,
         questions=list(row.questions),
-        assumed=list(map(record_assumed, row.assumed)),
+        assumed=[record_assumed(one) for one in row.assumed if not one.is_typed],
         monitoring=record_monitoring(task.site, row),
         anchors=anchors,
         pulls=list(known.pulls),

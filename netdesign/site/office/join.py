@@ -56,6 +56,7 @@ _NAMING = {
     "Ropes": ("ridge_rope", "lower_rope", "uphill_guy", "downhill_guy", "end_guy"),
     "Posts": ("post",),
 }
+_NOT_SEARCHED = ("ridge_sag", "lower_sag")
 _BLOCKS = {"Anchors": "anchor_types", "Ropes": "ropes", "Posts": "posts"}
 
 
@@ -186,9 +187,12 @@ def _join_layers(
 
 
 def _refuse_ranges(rows: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse ranges of single rows, which nothing searches yet; each cell once."""
+    """Refuse ranges of quantities that are not searched; each cell once."""
     cells = {
-        one.place: one for row in rows for one in row.values() if one.span is not None
+        row[key].place: row[key]
+        for row in rows
+        for key in _NOT_SEARCHED
+        if row[key].span is not None
     }
     for reading in cells.values():
         refuse(reading, say("office.range"), say("accepted.one_number"), findings)

@@ -1,0 +1,95 @@
+"""Ranges in the cells of a row and of its net type."""
+
+import math
+
+import pytest
+
+from netdesign.outcome import SiteDataError
+from netdesign.site.office.rows import find_slack
+from netdesign.site.reader import read_site
+from tests.each import each
+from tests.site.office.books import write_office
+from tests.site.office.drawn import draw_tables
+
+LANGUAGES = ("en", "fr", "de")
+
+
+def read_ranged(tmp_path, seed, language="en", measures=None, **cells):
+    """Site whose first row, or its net type, has other texts in some cells."""
+    tables = draw_tables(seed)
+    first = tables["rows"][0]
+    (net,) = (one for one in tables["net_types"] if one["id"] == first["net_type"])
+    for key, value in cells.items():
+        (net if key in net else first)[key] = value
+    path = tmp_path / "site.xlsx"
+    places = write_office(path, tables, language, measures)
+    return path, places, tables
+
+
+@each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(3)])
+def test_a_range_of_a_row_is_searched_in_that_row(tmp_path, seed, language):
+    cells = {"glide_factor": (1.6, 2.2), "upslope_length": (14.5, 21)}
+    path, _, _ = read_ranged(tmp_path, seed, language, **cells)
+    row, *others = read_site(path).rows
+    for key, ends in cells.items():
+        assert (row.ranges[key].low, row.ranges[key].high) == ends
+    assert (row.glide_factor, row.upslope_length) == (2.2, 21.0)
+    assert all("glide_factor" not in dict(one.ranges.intervals) for one in others)
+
+
+@each("measure, key", [("vertical", "snow_height"), ("normal", "thickness")])
+def test_a_range_of_the_snow_is_that_of_its_unit_cell(tmp_path, measure, key):
+    of_snow = {("rows", "snow"): measure}
+    path, _, _ = read_ranged(tmp_path, 4, measures=of_snow, snow=(2.1, 2.4))
+    row = read_site(path).rows[0]
+    assert (row.ranges[key].low, row.ranges[key].high) == (2.1, 2.4)
+    factor = math.cos(row.slope_angle) if measure == "vertical" else 1.0
+    assert row.snow_thickness == pytest.approx(2.4 * factor)
+
+
+def test_a_range_of_the_sag_is_one_of_slack_whose_low_end_is_severe(tmp_path):
+    of_sag = {("net_types", "slack"): "sag"}
+    path, _, tables = read_ranged(tmp_path, 5, measures=of_sag, slack=(9.5, 14))
+    for net in tables["net_types"]:
+        net["slack"] = (9.5, 14)
+    write_office(path, tables, "fr", of_sag)
+    row = read_site(path).rows[0]
+    ends = (row.ranges["slack"].low, row.ranges["slack"].high)
+    assert ends == pytest.approx((find_slack(0.095), find_slack(0.14)))
+    assert row.slack == pytest.approx(ends[0])
+
+
+def test_a_range_of_the_support_counts_at_its_ends(tmp_path):
+    path, _, _ = read_ranged(tmp_path, 6, post_tilt=(9, 17), guy_splay=(12, 20))
+    row = read_site(path).rows[0]
+    found = {one.key: one for one in row.assumed if one.is_typed}
+    assert set(found) == {"post_tilt", "guy_splay"}
+    assert found["post_tilt"].shown == pytest.approx((9, 17))
+    assert found["guy_splay"].shown == pytest.approx((12, 20))
+
+
+@each("key, ends", [("ridge_sag", (4, 8)), ("lower_sag", (5, 9))])
+def test_a_range_that_nothing_searches_is_refused(tmp_path, key, ends):
+    path, places, tables = read_ranged(tmp_path, 7, **{key: ends})
+    number = [net[key] for net in tables["net_types"]].index(ends)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    found = {(one.sheet, one.cell) for one in refused.value.findings}
+    assert found == {places["net_types", number, key]}
+
+
+def test_more_ranges_than_a_search_takes_are_refused(tmp_path):
+    cells = {"glide_factor": (1.6, 2.2), "upslope_length": (14, 21)}
+    cells |= {"snow": (2.0, 2.3), "slack": (3, 6)}
+    path, _, _ = read_ranged(tmp_path, 8, **cells)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    assert len(refused.value.findings) >= 1
+
+
+def test_ends_are_in_order(tmp_path):
+    path, places, _ = read_ranged(tmp_path, 9, glide_factor=(2.2, 1.6))
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    found = {(one.sheet, one.cell) for one in refused.value.findings}
+    assert found == {places["rows", 0, "glide_factor"]}
