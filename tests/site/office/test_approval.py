@@ -1,0 +1,58 @@
+"""Limits and maker's forces of sheet Net types, as the checks take them."""
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
+from netdesign.site.reader import read_site
+from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.study.effects import find_altitude_factor
+from netdesign.study.maker import list_maker_leaves
+from netdesign.study.row_to_check import Basis
+from netdesign.study.structure import check_limits
+from tests.each import each
+from tests.site.office.books import write_office
+from tests.site.office.drawn import draw_tables
+
+STANDARD = load_standard("swiss-guideline-2007")
+ANCHORS = ("foot", "uphill", "downhill")
+
+
+@each("seed", range(6203, 6208))
+def test_every_row_is_compared_with_the_limits_of_its_net_type(tmp_path_factory, seed):
+    tables = draw_tables(seed, rows=6)
+    path = tmp_path_factory.mktemp("approved") / f"{seed}.xlsx"
+    write_office(path, tables)
+    site = read_site(path)
+    nets = {one["id"]: one for one in tables["net_types"]}
+    for line, row in zip(tables["rows"], site.rows, strict=True):
+        net = nets[line["net_type"]]
+        basis = Basis(
+            site=site, row=row, standard=STANDARD, law=next(iter(CREEP_LAWS.values()))
+        )
+        (check,) = check_limits(basis)
+        beyond = [
+            line["glide_factor"] > net["glide_most"],
+            find_altitude_factor(row) > net["altitude_most"] * (1.0 + 1e-9),
+            line["post_spacing"] > net["spacing_most"],
+        ]
+        assert check.verdict is (Verdict.FAIL if any(beyond) else Verdict.PASS)
+        assert "TA 12-3" in str(check.reason)
+        for side in ANCHORS:
+            (leaf,) = list_maker_leaves(row, STANDARD, f"{side}_anchor")
+            assert leaf.value == pytest.approx(net[f"maker_{side}"], rel=1e-12)
+            assert leaf.source.startswith("Net types!")
+
+
+def test_a_limit_left_empty_proves_nothing(tmp_path):
+    tables = draw_tables(6211)
+    for net in tables["net_types"]:
+        net["altitude_most"] = None
+        net["glide_most"], net["spacing_most"] = 3.2, 9.0
+    write_office(tmp_path / "site.xlsx", tables)
+    site = read_site(tmp_path / "site.xlsx")
+    for row in site.rows:
+        basis = Basis(
+            site=site, row=row, standard=STANDARD, law=next(iter(CREEP_LAWS.values()))
+        )
+        assert [one.verdict for one in check_limits(basis)] == [Verdict.NOT_PROVEN]
