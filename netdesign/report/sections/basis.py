@@ -286,13 +286,18 @@ def _list_profile(study: Study, words: Words) -> Iterator[Block]:
 
 
 def has_other_floor(study: Study) -> bool:
-    """No minimum load is taken, or another one than the profile has."""
-    return study.profile.floor == "none" or study.profile.is_floor_overruled
+    """No minimum load is taken, another one than the profile has, or it decides."""
+    is_other = study.profile.floor == "none" or study.profile.is_floor_overruled
+    return is_other or study.profile.is_by_guideline
 
 
 def describe_floor(study: Study, words: Words) -> str:
     """Least load of the design forces, and how often it governs."""
     told = _count_by_floor(study, words)
+    if study.profile.is_by_guideline:
+        told = words.join([words("floor.decides"), told])
+    if not study.profile.has_maker_floor:
+        told = words.join([told, words("floor.no_maker")])
     if not study.profile.is_floor_overruled:
         return told
     return words.join([words("floor.overruled", profile=study.profile.id), told])

@@ -108,3 +108,11 @@ def test_every_anchor_stands_with_both_utilisations():
                 by_model, _, by_guideline = shown[name].partition(" / ")
                 assert by_model == ENGLISH.show_number("utilisation", most)
                 assert by_guideline
+
+
+def test_a_load_that_decides_is_said_on_the_first_page():
+    profile = replace(STUDY.profile, is_by_guideline=True, has_maker_floor=False)
+    points = " ".join(list_open_points(replace(STUDY, profile=profile), ENGLISH))
+    for key in ("floor.decides", "floor.no_maker"):
+        assert ENGLISH(key) in points
+        assert ENGLISH(key) not in " ".join(list_open_points(STUDY, ENGLISH))
