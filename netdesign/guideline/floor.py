@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
@@ -34,6 +34,7 @@ from netdesign.structure.anchors import (
     compute_many_forces,
     measure_pull,
 )
+from netdesign.structure.layout import ManyLayouts, SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 
@@ -42,7 +43,8 @@ SCAN_STEP = math.radians(0.25)
 SCAN_PARTS = 8
 _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
 # Keys of what is sought at head and foot beside their forces.
-SPANS = ("head_pull", "least_tension", "foot_least", "foot_largest")
+HEAD_PULL = "head_pull"
+SPANS = (HEAD_PULL, "least_tension", "foot_least", "foot_largest")
 
 Span = tuple[float, float]
 
@@ -217,6 +219,48 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     )
 
 
+def find_anchor_forces(
+    model: LoadModel,
+    ranges: NetRanges,
+    altitude: float | None,
+    layouts: Sequence[SupportLayout],
+) -> list[dict[str, float]] | Message:
+    """Forces on the anchors, and pull on the head, on each of some layouts [N].
+
+    Those of `find_floor` at all corners of what nobody gives, of one search: the pulls
+    of the net are the same.
+
+    Parameters
+    ----------
+    model, ranges, altitude : LoadModel, NetRanges, float or None
+        As there.
+    layouts : sequence of SupportLayout
+        In the place of the net's own, which they differ from in tilt and distances.
+
+    Returns
+    -------
+    list of dict of str to float, or Message
+        By anchor, and by ``head_pull``; why they are not available.
+
+    Verified by
+    -----------
+    tests/guideline/test_floor.py
+    """
+    scan = _Scan(model=model, ranges=ranges, altitude=altitude, layouts=tuple(layouts))
+    try:
+        _, largest = find_largest(scan.list_anchors, _spread(ranges))
+    except _FailedAtError as failed:
+        return failed.reason
+    shared, of_layouts = np.split(largest, [1])
+    return [
+        dict(zip((*_SOUGHT, HEAD_PULL), map(float, (*forces, *shared)), strict=True))
+        for forces in of_layouts.reshape(len(layouts), -1)
+    ]
+
+
+_SOUGHT = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+
+
 def _list_sizes(tried: ManyForces) -> dict[str, Floats]:
     """Sizes of which the largest counts, at all that was tried."""
     uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
@@ -275,6 +319,16 @@ class _Scan:
     model: LoadModel
     ranges: NetRanges
     altitude: float | None
+    layouts: tuple[SupportLayout, ...] = ()  # in the place of the net's own
+
+    def list_anchors(self, points: Floats) -> Floats:
+        """Pull on the head, then forces on the anchors of each layout, shape (q, n)."""
+        tried = self.try_points(points)
+        forces = [tried.of_members[one] for one in _SOUGHT]
+        every = np.array(np.broadcast_arrays(*forces)).max(axis=(2, 3))
+        pull = tried.head_pull.max(axis=(0, 1))[None]
+        found: Floats = np.concatenate([pull, *every.swapaxes(0, 1)])
+        return found
 
     def list_sought(self, points: Floats) -> Floats:
         """Values that are made as large as they can be, at points, shape (3, n).
@@ -300,7 +354,7 @@ class _Scan:
         except ModelError:
             raise self._find_failed(points) from None
         forces = compute_many_forces(
-            net.layout,
+            ManyLayouts.of(self.layouts) if self.layouts else net.layout,
             place_head(net),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
@@ -368,7 +422,7 @@ class _Scan:
         return found
 
     def solve_one(
-        self, point: tuple[float, ...], case: int, end: int
+        self, point: tuple[float, ...], case: int, end: int, place: int = 0
     ) -> tuple[LoadedNet, LoadCase[float], GuidelineResult]:
         """One net and load case as everywhere else."""
         inclination, thickness, share = point
@@ -379,6 +433,7 @@ class _Scan:
             inclination=inclination,
             stiffness=stiffness,
             slack=slack,
+            layout=self.layouts[place] if self.layouts else self.ranges.net.layout,
         )
         snow = list_load_cases(self.model, net, self.altitude)[case]
         depth = thickness if snow.creep_factor is None else net.net_height
@@ -390,8 +445,9 @@ class _Scan:
         """First of the points at which a load case fails, and why."""
         ends = range(len(_list_ends(self.ranges)))
         count = len(list_load_cases(self.model, self.ranges.net, self.altitude))
-        for point, case, end in product(points.T, range(count), ends):
-            at, _, result = self.solve_one(tuple(map(float, point)), case, end)
+        places = range(max(1, len(self.layouts)))
+        for point, case, end, place in product(points.T, range(count), ends, places):
+            at, _, result = self.solve_one(tuple(map(float, point)), case, end, place)
             if result.anchors is None:
                 return _FailedAtError(_explain(at, result))
         raise AssertionError  # what fails for many fails for one of them

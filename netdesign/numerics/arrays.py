@@ -209,3 +209,8 @@ def require_all_positive(name: str, value: float | Number, unit: str = "") -> No
             require_positive(name, float(end), unit)
     else:
         require_positive(name, value, unit)
+
+
+def spread(values: Iterable[float]) -> Floats:
+    """Numbers along the first of four dimensions, shape (n, 1, 1, 1)."""
+    return np.array(list(values)).reshape(-1, 1, 1, 1)

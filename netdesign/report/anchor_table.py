@@ -131,7 +131,4 @@ def _write_anchor(one: AnchorForce) -> dict[str, Any]:
         "guideline_kN": one.guideline_kN,
         "coupled_kN": one.coupled_kN,
         "ratio": one.ratio,
-        "load_case": one.by.load_case if one.by else None,
-        "glide_factor": one.by.glide_factor if one.by else None,
-        "inclination_deg": one.by.inclination_deg if one.by else None,
     }

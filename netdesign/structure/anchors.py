@@ -29,7 +29,13 @@ from netdesign.structure.head import (
     find_direction,
     hold_head,
 )
-from netdesign.structure.layout import Point, SupportLayout, SupportPoints, locate_base
+from netdesign.structure.layout import (
+    ManyLayouts,
+    Point,
+    SupportLayout,
+    SupportPoints,
+    locate_base,
+)
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
@@ -245,7 +251,7 @@ class AnchorForces:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ManyForces:
-    """Forces of many supports that have one layout and heads of their own.
+    """Forces of many supports with heads of their own, and perhaps layouts.
 
     Attributes
     ----------
@@ -266,7 +272,7 @@ class ManyForces:
 
 
 def compute_many_forces(
-    layout: SupportLayout,
+    layout: SupportLayout | ManyLayouts,
     head: Vector[Floats],
     *,
     foot_pull_per_m: Vector[Floats],
@@ -276,8 +282,8 @@ def compute_many_forces(
 
     Parameters
     ----------
-    layout : SupportLayout
-        Of all of them.
+    layout : SupportLayout or ManyLayouts
+        Of all of them; or several, which become a further dimension before the others.
     head : tuple of ndarray, shape (2,)
         Where each net hangs, from its foot [m].
     foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
@@ -290,7 +296,10 @@ def compute_many_forces(
     foot = _scale(foot_pull_per_m, layout.post_spacing)
     pull = _scale(head_pull_per_m, layout.post_spacing)
     ground = 0.0 * head[0]
-    x_base = locate_base(layout, *head)
+    if isinstance(layout, SupportLayout):
+        x_base = locate_base(layout, *head)
+    else:
+        x_base = layout.locate_bases(*head)
     post = find_direction(head, (x_base, ground))
     held = hold_head(
         pull,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from netdesign.numerics.arrays import Number
+from netdesign.numerics.arrays import Floats, Number, spread
 from netdesign.outcome import require_positive, require_within
 from netdesign.structure.members import Member
 
@@ -48,6 +49,11 @@ class SupportLayout:
         return self.uphill_anchor_distance == 0.0
 
     @property
+    def lean(self) -> float:
+        """Tangent of the post's angle from the slope normal [-]."""
+        return math.tan(self.post_tilt)
+
+    @property
     def anchors_at_foot(self) -> tuple[Member, ...]:
         """Anchors of the net's foot, on which the load along the row acts as well."""
         if self.is_foot_shared:
@@ -68,6 +74,47 @@ class SupportLayout:
             require_within(
                 "post base distance", self.post_base_distance, -50.0, 50.0, "m"
             )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ManyLayouts:
+    """Layouts of one support that differ in tilt and distances, as columns of arrays.
+
+    Attributes
+    ----------
+    post_spacing, is_foot_shared, post_base_distance : float, bool, float or None
+        Of all of them.
+    lean, uphill_anchor_distance, downhill_anchor_distance : ndarray
+        As a `SupportLayout` has them, of shape (n, 1, 1, 1).
+    """
+
+    post_spacing: float
+    is_foot_shared: bool
+    post_base_distance: float | None
+    lean: Floats
+    uphill_anchor_distance: Floats
+    downhill_anchor_distance: Floats
+
+    @classmethod
+    def of(cls, layouts: Sequence[SupportLayout]) -> ManyLayouts:
+        """Columns of some layouts, beside which arrays have three dimensions."""
+        first = layouts[0]
+        return cls(
+            post_spacing=first.post_spacing,
+            is_foot_shared=first.is_foot_shared,
+            post_base_distance=first.post_base_distance,
+            lean=spread(one.lean for one in layouts),
+            uphill_anchor_distance=spread(x.uphill_anchor_distance for x in layouts),
+            downhill_anchor_distance=spread(
+                x.downhill_anchor_distance for x in layouts
+            ),
+        )
+
+    def locate_bases(self, x_head: Floats, y_head: Floats) -> Floats:
+        """Bases of each layout below many heads, as `locate_base` has them [m]."""
+        if self.post_base_distance is not None:
+            return 0.0 * x_head + self.post_base_distance
+        return x_head - y_head * self.lean
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,4 +183,4 @@ def locate_base(layout: SupportLayout, x_head: Number, y_head: Number) -> Number
     """
     if layout.post_base_distance is not None:
         return 0.0 * x_head + layout.post_base_distance
-    return x_head - y_head * math.tan(layout.post_tilt)
+    return x_head - y_head * layout.lean

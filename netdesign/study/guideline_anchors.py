@@ -10,26 +10,33 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Standard
-from netdesign.envelope.ranges import Interval
-from netdesign.guideline.floor import HeadSpan
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.guideline.floor import HEAD_PULL
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.structure.members import END_ANCHORS
+from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import END_ANCHORS, Member
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import weigh_splay
-from netdesign.study.case_records import FloorForceRecord
 from netdesign.study.effects import find_effects, list_assumed
 from netdesign.study.member_force import RowForces, find_guideline_force
 from netdesign.study.pulls import ANCHORS
-from netdesign.study.record_guideline import find_row_floor, record_floor
+from netdesign.study.record_guideline import (
+    find_row_anchor_forces,
+    find_row_floor,
+)
 from netdesign.study.sideways import (
     find_lack,
     place_over,
     weigh_places,
 )
 from netdesign.study.support_records import HeldSidewaysRecord
+from netdesign.study.variants import list_layouts, list_variants
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
+# Forces by anchor, and pull on the head, of each layout [N].
+Loads = Mapping[SupportLayout, Mapping[str, float]]
 # Modes in which a check has the whole force of an anchor.
 _OF_FORCE = ("pull_out", "tendon")
 
@@ -46,15 +53,12 @@ class AnchorForce:
         By the guideline's load [kN]; None where its model knows none.
     coupled_kN : float or None
         Largest of section, panel and truss of a stored study [kN].
-    by : FloorForceRecord or None
-        Load that brings the guideline's force inside the row.
     """
 
     anchor: str
     position: str
     guideline_kN: float | None
     coupled_kN: float | None = None
-    by: FloorForceRecord | None = None
 
     @property
     def ratio(self) -> float | None:
@@ -124,52 +128,112 @@ def list_guideline_forces(site: Site, standard: Standard) -> list[RowAnchors]:
 
 
 def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
-    """Forces on the anchors of a net row by the guideline's load, as listed above."""
-    known = _know_row(site, row, standard)
-    held = known.held if isinstance(known.held, Message) else None
-    notes = [*list_assumed(row), *([held] if held else [])]
+    """Forces on the anchors of a net row by the guideline's load, as listed above.
+
+    Where nobody gives its statics, the largest at all their corners.
+    """
+    ranges = site.at_row(row).ranges
+    effects = find_effects(row, standard, ranges)
+    loads = _find_loads(row, ranges, standard)
+    variants = []
+    if not isinstance(loads, Message):
+        for one in _list_statics(row):
+            load, span = loads[one.layout], ranges["inclination"]
+            pull = kilonewton_from_newton(load[HEAD_PULL])
+            known = RowForces(
+                site=site,
+                row=one,
+                standard=standard,
+                law=BOUTILLIER_2004,  # no force here depends on it
+                effects=effects,
+                largest={},
+                floor=None,
+                held=_hold_sideways(one, span, pull, effects.lateral_share),
+                tilt=0.0,
+            )
+            variants.append((known, load))
     forces = [
         AnchorForce(
             anchor=anchor,
             position=width.position,
-            guideline_kN=find_guideline_force(known, anchor, width),
-            by=known.find_least(anchor),
+            guideline_kN=_find_largest(variants, anchor, width),
         )
-        for width in known.effects.supports
+        for width in effects.supports
         for anchor in ANCHORS
     ]
-    ends = [one for one in known.effects.supports if one.position == "edge"]
+    has_end = any(one.position == "edge" for one in effects.supports)
     forces += [
         AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
-        for anchor in (END_ANCHORS if ends else ())
+        for anchor in (END_ANCHORS if has_end else ())
     ]
-    return RowAnchors(id=row.id, anchors=forces, reason=known.floor_gap, notes=notes)
-
-
-def _know_row(site: Site, row: NetRow, standard: Standard) -> RowForces:
-    """Knowledge of a row by the guideline's load alone."""
-    effects = find_effects(row, standard, site.ranges)
-    floor = find_row_floor(row, site.ranges, standard)
-    head = floor.head if floor else None
-    held: HeldSidewaysRecord | Message = say("check.no_case_solved")
-    if head is not None:
-        span = site.ranges["inclination"]
-        held = _hold_sideways(row, span, head, effects.lateral_share)
-    return RowForces(
-        site=site,
-        row=row,
-        standard=standard,
-        law=BOUTILLIER_2004,  # no force here depends on it
-        effects=effects,
-        largest={},
-        floor=record_floor(floor, row),
-        held=held,
-        tilt=0.0,
+    return RowAnchors(
+        id=row.id,
+        anchors=forces,
+        reason=loads if isinstance(loads, Message) else None,
+        notes=_list_notes(row, [known for known, _ in variants]),
     )
 
 
+def _find_loads(row: NetRow, ranges: Ranges, standard: Standard) -> Loads | Message:
+    """Forces inside the row by layout, or why they are not available."""
+    layouts = list_layouts(row)
+    if len(layouts) > 1:
+        return find_row_anchor_forces(row, ranges, standard, layouts)
+    floor = find_row_floor(row, ranges, standard)
+    if floor is None or floor.head is None:
+        return (floor.reason if floor else None) or say("check.no_case_solved")
+    forces = {one.member: one.force for one in floor.forces}
+    return {row.layout: {**forces, HEAD_PULL: floor.head.pull}}
+
+
+def _list_statics(row: NetRow) -> list[NetRow]:
+    """The row at each corner of its statics; the end guy has no part in them."""
+    found = {(one.layout, one.guys): one for one in list_variants(row)}
+    return list(found.values())
+
+
+def _find_largest(
+    variants: Sequence[tuple[RowForces, Mapping[str, float]]],
+    anchor: str,
+    width: LoadedWidth,
+) -> float | None:
+    """Largest force on an anchor of a support at any corner of the statics [kN]."""
+    if anchor == Member.FOOT_ANCHOR:  # no statics change it, unless a guy ends there
+        shared = [one for one in variants if one[0].row.layout.is_foot_shared]
+        variants = shared or variants[:1]
+    return max(
+        (
+            find_guideline_force(
+                known, anchor, width, kilonewton_from_newton(load[anchor])
+            )
+            for known, load in variants
+        ),
+        default=None,
+    )
+
+
+def _list_notes(row: NetRow, variants: Sequence[RowForces]) -> list[Message]:
+    """Notes on what is taken for granted, and on a load along the row that is not held.
+
+    A single guy on each side holds none; of guys that nobody gives, two do.
+    """
+    lacks = [one.held for one in variants if isinstance(one.held, Message)]
+    held = lacks[:1] if len(lacks) == len(variants) else []
+    ranged = [one for one in row.assumed if one.is_range and one.key in _IN_LOADS]
+    shown = [say("table.assumed_one", name=one.name, text=one.text) for one in ranged]
+    assumed = [say("table.assumed", ranges=tuple(shown))] if shown else []
+    return [*list_assumed(row), *assumed, *held]
+
+
+# What is assumed of a row that the guideline's forces on its anchors depend on.
+_IN_LOADS = (
+    *("slack", "net_stiffness", "post_tilt", "uphill_anchor_distance"),
+    *("downhill_anchor_distance", "guy_count", "guy_splay"),
+)
+
+
 def _hold_sideways(
-    row: NetRow, span: Interval, head: HeadSpan, share: float
+    row: NetRow, span: Interval, pull: float, share: float
 ) -> HeldSidewaysRecord | Message:
     """Load along the row under the guideline's load, or why nothing holds it."""
     lack, splay = find_lack(row), row.guys.splay
@@ -179,7 +243,6 @@ def _hold_sideways(
     if not all(map(weigh_splay, places)):
         return say("support.not_held_sideways")
     uphill, downhill, post = weigh_places(places)
-    pull = kilonewton_from_newton(head.pull)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),

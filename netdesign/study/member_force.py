@@ -156,23 +156,25 @@ def find_force(
 
 
 def find_guideline_force(
-    forces: RowForces, member: str, width: LoadedWidth
-) -> float | None:
+    forces: RowForces, member: str, width: LoadedWidth, inside: float
+) -> float:
     """Force on a member of a support by the guideline's load alone [kN].
 
-    It knows no pull of the ropes along the row. None where it is not available.
+    It knows no pull of the ropes along the row.
+
+    Parameters
+    ----------
+    forces : RowForces
+        Of a row without a solved case, with the guideline's pull on its heads.
+    member, width : str, LoadedWidth
+        Member and support.
+    inside : float
+        Force in the section, inside the row [kN].
     """
-    least = forces.find_least(member)
-    if least is None:
-        return None
     leaves = _list_support_leaves(forces.row, width, member)
-    leaves += [
-        _solved(symbol, least.force_kN, "kN", f"floor.{member}")
-        for symbol in ("E_s", "E_g0")
-    ]
+    leaves.append(_solved("E_s", inside, "kN", f"floor.{member}"))
     leaves += _list_load_leaves(forces, member, width)[0]
-    found = calculate_force({one.symbol: one for one in leaves}).guideline
-    return found.value if found else None
+    return _calculate(forces, leaves, is_size=True).action.value or 0.0
 
 
 def _find_end_force(

@@ -21,11 +21,13 @@ from netdesign.guideline.floor import (
     Floor,
     FloorForce,
     NetRanges,
+    find_anchor_forces,
     find_floor,
 )
 from netdesign.guideline.load_model import LoadModel, load_guideline, read_load_model
 from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import GRAVITY
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.study.case_records import (
     FloorForceRecord,
@@ -60,6 +62,18 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
         return None
     model = read_floor_model(standard)
     return find_floor(model, _list_nets(row, ranges), row.altitude)
+
+
+def find_row_anchor_forces(
+    row: NetRow, ranges: Ranges, standard: Standard, layouts: Sequence[SupportLayout]
+) -> dict[SupportLayout, dict[str, float]] | Message:
+    """Forces of the guideline's load on a row's anchors, on each of some layouts."""
+    model = read_floor_model(standard)
+    nets = _list_nets(row, ranges)
+    found = find_anchor_forces(model, nets, row.altitude, layouts)
+    if isinstance(found, Message):
+        return found
+    return dict(zip(layouts, found, strict=True))
 
 
 def read_floor_model(standard: Standard) -> LoadModel:

@@ -21,6 +21,7 @@ from netdesign.guideline.floor import (
     SCAN_STEP,
     SPANS,
     NetRanges,
+    find_anchor_forces,
     find_floor,
 )
 from netdesign.guideline.load_model import read_load_model
@@ -29,6 +30,7 @@ from netdesign.structure.anchors import compute_many_forces
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
+from tests.each import each
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 DOWNHILL = Member.DOWNHILL_GUY
@@ -478,3 +480,29 @@ def test_states_of_the_spans_bring_what_the_head_says():
         told = [one.force for one in floor.spans]
         assert told == pytest.approx([*sizes, found[3]["turn"]], rel=1e-12)
     assert seen == {True, False}
+
+
+@each("seed", range(20))
+def test_anchors_on_several_layouts_have_the_forces_of_each_alone(seed):
+    draw = random.Random(7000 + seed)
+    net = draw_net(draw)
+    layouts = [net.layout]
+    for _ in range(draw.randrange(1, 5)):
+        tilt, uphill, downhill = (draw.uniform(0.7, 1.3) for _ in range(3))
+        other = replace(
+            net.layout,
+            post_tilt=math.radians(15.0 * tilt),
+            uphill_anchor_distance=net.net_height * uphill,
+            downhill_anchor_distance=net.net_height * downhill,
+        )
+        layouts.append(other)
+    ranges = build_ranges(net, slacks=(0.02, 0.08), stiffnesses=(2e6, 3e7))
+    together = find_anchor_forces(MODEL, ranges, 1987.0, layouts)
+    for layout, found in zip(layouts, together, strict=True):
+        alone = find_floor(
+            MODEL, replace(ranges, net=replace(net, layout=layout)), 1987.0
+        )
+        pull = found.pop("head_pull")
+        assert pull == pytest.approx(alone.head.pull, rel=3e-6)
+        for anchor, force in found.items():
+            assert force == pytest.approx(alone.find(anchor).force, rel=3e-6, abs=1.0)

@@ -10,6 +10,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import StudyError
+from netdesign.site.assumed import assume
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS
@@ -22,6 +23,8 @@ from netdesign.study.guideline_anchors import (
 )
 from netdesign.study.judge import judge_site
 from netdesign.study.pulls import ANCHORS
+from netdesign.study.variants import place_variant
+from tests.each import each
 from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site
 
@@ -78,8 +81,6 @@ def test_forces_are_the_floor_of_the_checks(solved, profile):
                 continue
             force = found.find(check.member, check.position).guideline_kN
             assert force == pytest.approx(check.read("E_g"), rel=EXACT, abs=1e-12)
-            inside = next(x for x in found.anchors if x.anchor == check.member)
-            assert inside.by.force_kN == pytest.approx(check.read("E_g0"), rel=EXACT)
             compared += 1
     assert compared > 100
 
@@ -101,6 +102,40 @@ def test_a_range_is_no_better_than_any_value_in_it():
             for force, other in zip(row.anchors, narrow.anchors, strict=True):
                 if other.guideline_kN is not None:
                     assert force.guideline_kN >= other.guideline_kN * (1.0 - 1e-6)
+
+
+STATICS = {
+    "post_tilt": lambda _: 1.0,
+    "uphill_anchor_distance": lambda row: row.net_height,
+    "downhill_anchor_distance": lambda row: row.net_height,
+    "guy_count": lambda _: 1.0,
+    "guy_splay": lambda _: 1.0,
+}
+# The largest lies at a corner but for so much: structure/THEORY.md, section on ranges.
+BETWEEN_CORNERS = 0.003
+
+
+@each("seed", range(12))
+def test_no_statics_that_somebody_gives_are_worse_than_none(seed):
+    draw = random.Random(seed)
+    row = draw_row("R1", draw)
+    assumed = tuple(assume(key, of(row)) for key, of in STATICS.items())
+    row = replace(row, assumed=assumed)
+    (worst,) = list_guideline_forces(build_site(row), PROFILES[0])
+    for _ in range(5):
+        values = {
+            one.key: draw.choice([1, 2])
+            if one.key == "guy_count"
+            else draw.uniform(one.low, one.high)
+            for one in row.assumed
+        }
+        (found,) = list_guideline_forces(
+            build_site(place_variant(row, values)), PROFILES[0]
+        )
+        for one, other in zip(worst.anchors, found.anchors, strict=True):
+            if other.guideline_kN is not None:
+                most = one.guideline_kN * (1.0 + BETWEEN_CORNERS) + 1e-9
+                assert other.guideline_kN <= most
 
 
 def test_a_row_without_an_end_has_no_force_there():
