@@ -90,3 +90,29 @@ def test_no_line_is_wider_than_the_terminal(
 def test_a_row_that_is_not_there_is_a_refusal(call, beside):
     assert call("table", "site.xlsx", "--row", "R9").code == 2
     assert call("table").code == 2
+
+
+OFFICE = (
+    ("id", "R1"),
+    ("slope angle [deg]", 36.7),
+    ("snow height [m]", 3.31),
+    ("glide factor [-]", 1.83),
+    ("net height [m]", 3.02),
+    ("post spacing [m]", 3.47),
+    ("altitude [m]", 2113),
+)
+
+
+def test_office_data_alone_are_enough(call, tmp_path):
+    """No net, no support, no anchors, no ranges, no length: nobody has solved it."""
+    lines = (",".join(map(str, one)) for one in zip(*OFFICE, strict=True))
+    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
+    ended = call("table", "site.csv", "--json")
+    assert ended.code == 0, ended.err
+    (row,) = json.loads(ended.out)["rows"]
+    forces = {(x["anchor"], x["position"]): x["guideline_kN"] for x in row["anchors"]}
+    for anchor in SHOWN:
+        assert forces[anchor, "edge"] is not None
+        assert forces[anchor, "intermediate"] > 0.0
+    assert row["reason"] is None
+    assert row["notes"] != []  # what is assumed
