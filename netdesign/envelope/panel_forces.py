@@ -330,8 +330,8 @@ def _solve_panels(
 ) -> list[PanelSolution] | FailedPanel:
     """Panels of a row, or the first that fails.
 
-    Where sags are assumed, one that would lie on the ground has the largest sags with
-    which it hangs free; where it never does, another one stands in its place.
+    Of several that may be built, one that would lie on the ground has the largest sags
+    with which it hangs free; where it never does, another one stands in its place.
     """
     found = [solve_strips(strip, one) for one in panels]
     failed = [one for one in found if isinstance(one, FailedPanel)]
@@ -341,7 +341,7 @@ def _solve_panels(
     sags = [(one.upper.sag, one.lower.sag) for one in panels]
     least = tuple(map(min, zip(*sags, strict=True)))
     is_built = any(one.reason.key not in _NOT_BUILT for one in failed)
-    if is_built or not free or len(set(sags)) == 1:
+    if is_built or not free:
         return failed[0]
     return [
         (_hang_free(strip, panel, least) or free[0])

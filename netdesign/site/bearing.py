@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from netdesign.checks import GivenResistance
-from netdesign.panel.inputs import Ends
 from netdesign.resistance.post import BasePlate, PostSection
 from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import Link, Wear
@@ -57,9 +56,8 @@ class RowEnd:
         Between the end guy and the row [rad]; None where none is given.
     guy_from_base : float or None
         Of the end guy's anchor, as `EndGuy` has it [m].
-    stiffnesses : tuple of tuple of float, shape (4, 2)
-        Least and largest EA of uphill and downhill guys, end guy and post there [N];
-        None of a rope without a type.
+    stiffnesses : tuple of tuple of float, shape (n, 4)
+        EA that uphill guy, downhill guy, end guy and post there may have together [N].
     ropes_slide : bool
         The border ropes slide at the supports; not where nobody says so.
     lateral_distance, lateral_axis : float or None
@@ -73,7 +71,7 @@ class RowEnd:
 
     guy_angle: float | None
     guy_from_base: float | None = None
-    stiffnesses: tuple[Ends | None, ...] = ()
+    stiffnesses: tuple[tuple[float, ...], ...] = ()
     ropes_slide: bool = False
     lateral_distance: float | None = None
     lateral_axis: float | None = None

@@ -6,10 +6,19 @@ verdicts lack besides is listed once, `list_missing`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from netdesign.panel.inputs import CUTS, Ends, Panel, find_stiffness, list_panels
+from netdesign.panel.inputs import (
+    CUTS,
+    OF_BREAKING,
+    STIFFNESSES,
+    Ends,
+    Panel,
+    find_stiffness,
+    list_panels,
+)
 from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.steel import Link
 from netdesign.site.assumed import Assumed, assume
@@ -165,19 +174,42 @@ def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
 
 def list_stiffnesses(
     at_end: Row, end: Row | None, types: Mapping[str, Mapping[str, Row]]
-) -> tuple[Ends | None, ...]:
-    """Least and largest EA of uphill guys, downhill guys, end guy and post [N].
+) -> tuple[tuple[float, ...], ...]:
+    """Stiffnesses EA that uphill guy, downhill guy, end guy and post may have [N].
 
-    None of a rope without a type.
+    Ropes of which nobody gives it are of one construction: their EA is the same
+    multiple of their breaking force, and without that they are as stiff as the others.
     """
-    guys = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
-    ropes = [*guys, end[EndMember.END_GUY].word if end else ""]
-    post = types["Posts"].get(at_end[Member.POST].word)
-    lines = [types["Ropes"].get(one) for one in ropes]
-    return (
-        *(_find_stiffness(one) if one else None for one in lines),
-        _find_post_stiffness(post),
-    )
+    words = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
+    words += [end[EndMember.END_GUY].word if end else ""]
+    lines = [types["Ropes"].get(one) for one in words]
+    ropes = dict.fromkeys(_build_alike(lines, of) for of in _list_multiples(lines))
+    post = _find_post_stiffness(types["Posts"].get(at_end[Member.POST].word))
+    return tuple((*ways, one) for ways in ropes for one in dict.fromkeys(post))
+
+
+def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
+    """EA over the breaking force: of the ropes that have both, else of all that are."""
+    found = [
+        line["axial_stiffness"].si / force
+        for line in lines
+        if line
+        and line["axial_stiffness"].state == "given"
+        and (force := find_breaking(line))
+    ]
+    return found or OF_BREAKING
+
+
+def _build_alike(lines: Sequence[Row | None], multiple: float) -> tuple[float, ...]:
+    """EA of ropes of one construction [N]; of one that has no type the largest."""
+    found: list[float | None] = []
+    for line in lines:
+        force = find_breaking(line) if line else None
+        typed = line["axial_stiffness"].given_si if line else None
+        found.append(typed or (multiple * force if force else None))
+    known = [one for one in found if one is not None]
+    usual = max(known, default=math.sqrt(math.prod(STIFFNESSES)))
+    return tuple(usual if one is None else one for one in found)
 
 
 _POST_AREAS = (5e-4, 2e-2)  # that are built [m2]

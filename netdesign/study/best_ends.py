@@ -21,16 +21,20 @@ from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
 from netdesign.site.assumed import Assumed
 from netdesign.site.model import NetRow
+from netdesign.structure.members import ROPE_OF
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_knowledge import know_alone
 from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.scopes import is_of_structure
 from netdesign.study.variants import list_layouts, place_variant, read_values
 from netdesign.words.message import Message, say
 
 # What is searched with the cases, but is no design range.
 SEARCHED = ("slack", "net_stiffness")
+_SAGS = ("ridge_sag", "lower_sag")
+_PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a check
 _PARTS = 8  # of a range, among which is the value from which on a check passes
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
 
@@ -56,6 +60,10 @@ def settle(
     known: dict[object, RowForces | None] = {_name(one.row): one for one in variants}
     ends = _BestEnds(task=task, known=known)
     return [ends.settle(one) for one in judged]
+
+
+def _leave_to_sags(check: Check) -> Check:
+    return check.ease(0.0).with_open(OpenKind.ASSUMED_DECIDES, say("assumed.by_sags"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,6 +106,8 @@ class _BestEnds:
         check = one.check
         high = check.utilisation_band[1]
         is_beyond = check.is_unbounded or (high is not None and high > 1.0)
+        if is_beyond and self._rests_on_sags(check):
+            return replace(one, check=_leave_to_sags(check))
         if one.again is None or not is_beyond:
             return one
         if check.verdict is Verdict.FAIL and self.searched:
@@ -105,6 +115,16 @@ class _BestEnds:
         if check.verdict is not Verdict.FAIL and (told := self._tell(one)):
             check = check.with_open(OpenKind.ASSUMED_DECIDES, told)
         return replace(one, check=check)
+
+    def _rests_on_sags(self, check: Check) -> bool:
+        """A part of the structure is pulled by a rope whose sag is assumed.
+
+        The pulls of assumed sags lie far above the one that was measured: they leave
+        such a part open, and never make it fail.
+        """
+        is_pulled = check.member in ROPE_OF or not _PULLS.isdisjoint(check.known)
+        sags = map(self.task.row.find_assumed, _SAGS)
+        return is_pulled and is_of_structure(check) and any(sags)
 
     def _find_least(self, one: MemberCheck) -> float:
         """Low end of the utilisation at the best corner of what is searched [-].

@@ -194,8 +194,7 @@ def _list_end_notes(known: RowForces) -> Iterator[Message]:
     yield say("row.end_guy_holds_all")
     if end.guy_from_base is None:
         yield say("row.end_guy_at_head")
-    is_wide = any(one is None or one[0] < one[1] for one in end.stiffnesses)
-    if known.at_end.uphill_guy_kN and is_wide:
+    if known.at_end.uphill_guy_kN and len(end.stiffnesses) > 1:
         yield say("row.end_stiffness")
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 from netdesign.checks import Band, Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -22,7 +21,6 @@ from netdesign.envelope.ranges import Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.outcome import Verdict
-from netdesign.panel.inputs import STIFFNESSES, Ends
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport, HeadForces
@@ -243,29 +241,12 @@ def _share_end(
     ]
     if all(one.panel is None for one in states):
         return None
-    ways = list_ways(row.row_end.stiffnesses)
+    ways = row.row_end.stiffnesses
     tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)
     if tensions is None:
         return say("support.not_held_sideways")
     outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)
     return float(outer[0]), float(outer[2])
-
-
-def list_ways(stiffnesses: Sequence[Ends | None]) -> list[tuple[float, ...]]:
-    """Stiffnesses EA that guys, end guy and post may have together [N].
-
-    Ropes of no type are of one kind with those of a type, or with each other: only the
-    shares of their stiffnesses enter a truss.
-    """
-    *ropes, post = stiffnesses
-    typed = [one for one in ropes if one is not None]
-    ends = typed or [STIFFNESSES]
-    alike = (min(low for low, _ in ends), max(high for _, high in ends))
-    ways: Iterable[tuple[float, ...]] = [(one,) * len(ropes) for one in alike]
-    if typed:
-        ways = product(*(alike if one is None else one for one in ropes))
-    together = product(dict.fromkeys(ways), post or ())
-    return list(dict.fromkeys((*of_ropes, of_post) for of_ropes, of_post in together))
 
 
 def find_rope_factors(

@@ -352,7 +352,8 @@ def test_what_is_assumed_of_the_end_is_told():
     keys = {one.key for one in judge(row)[1].rows[0].notes}
     assert {"row.end_guy_holds_all", "row.end_guy_at_head"} <= keys
     assert not {"row.posts_unknown", "row.end_stiffness"} & keys
-    wide = replace(row.row_end, stiffnesses=((5e6, 40e6),) * 4, guy_from_base=0.0)
+    ways = ((5e6,) * 4, (40e6,) * 4)
+    wide = replace(row.row_end, stiffnesses=ways, guy_from_base=0.0)
     loose = replace(row, post_count=None, row_end=wide)
     keys = {one.key for one in judge(loose)[1].rows[0].notes}
     assert {"row.posts_unknown", "row.end_stiffness"} <= keys

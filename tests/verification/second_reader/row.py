@@ -384,23 +384,29 @@ class Row:
         return tuple({k: max(one[k]) for k in one} for one in (low, high))
 
     def list_stiffnesses(self):
-        """EA of guys, end guy and post: typed, or both ends of what is built [kN]."""
-        ends = {}
-        for name, member in (
-            ("uphill", "uphill_guy"),
-            ("downhill", "downhill_guy"),
-            ("end guy", "end_guy"),
-        ):
+        """EA of guys, end guy and post [kN]: ropes whose EA nobody types are alike.
+
+        Of one construction, EA is the same multiple of their breaking forces: that of
+        the ropes that have both, else either end of what is built.
+        """
+        members = {
+            "uphill": "uphill_guy",
+            "downhill": "downhill_guy",
+            "end guy": "end_guy",
+        }
+        typed, force = {}, {}
+        for name, member in members.items():
             cells = self.cells.find("Ropes", "id", self.find_type(member, "edge"))
-            typed = cells.get("axial_stiffness")
-            force = cells["rope"]
-            ends[name] = (25.0 * force, 160.0 * force) if typed is None else (typed,)
+            force[name] = cells["rope"]
+            if cells.get("axial_stiffness") is not None:
+                typed[name] = cells["axial_stiffness"]
+        multiples = [typed[name] / force[name] for name in typed] or [25.0, 160.0]
         post = self.cells.find("Posts", "id", self.find_type("post", "edge"))
         area = post["area"] * 1e-4
-        ends["post"] = (area * resistance.STEEL,)
         return [
-            dict(zip(ends, chosen, strict=True))
-            for chosen in itertools.product(*ends.values())
+            {name: typed.get(name, one * force[name]) for name in members}
+            | {"post": area * resistance.STEEL}
+            for one in multiples
         ]
 
     def load_guy(self, side, position):
