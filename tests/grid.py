@@ -42,18 +42,14 @@ def sample(span, samples):
 
 
 def solve_site(site, run, runner=None, samples=SAMPLES):
-    """All net rows on a grid, as a search would give them."""
-    cases = build_cases(site.ranges, samples)
-    tasks = [
-        build_row_task(row, case, run.creep_law, run.settings)
-        for row in site.rows
-        for case in cases
-    ]
-    results, count = run_cases(tasks, runner), len(cases)
-    return [
-        wrap_results(site, row, results[place * count : (place + 1) * count], run)
-        for place, row in enumerate(site.rows)
-    ]
+    """All net rows on a grid over the ranges of each, as a search would give them."""
+    found = []
+    for row in site.rows:
+        at_row = site.at_row(row)
+        cases = build_cases(at_row.ranges, samples)
+        tasks = [build_row_task(row, one, run.creep_law, run.settings) for one in cases]
+        found.append(wrap_results(at_row, row, run_cases(tasks, runner), run))
+    return found
 
 
 def wrap_results(site, row, results, run):

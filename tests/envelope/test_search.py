@@ -9,7 +9,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
-from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.ranges import PARAMETERS, Case, Interval, Ranges
 from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
@@ -241,14 +241,21 @@ def test_a_search_of_refused_cases_is_not_closed():
 # --- a grid in lines of ascending friction -------------------------------------------
 
 
+def find_share(name, span, value):
+    """Share of a range at which a value lies: even in a power of it."""
+    power = PARAMETERS[name].power
+    low, high = span.low**power, span.high**power
+    return (value**power - low) / (high - low)
+
+
 def test_cases_of_a_grid_are_those_of_each_on_its_own(grid):
     for result in grid[::5]:
         if result.solution is None:
             continue
         values = result.case.density, result.case.friction_angle
         place = tuple(
-            (value - one.low) / (one.high - one.low)
-            for value, (_, one) in zip(values, RANGES.intervals, strict=True)
+            find_share(name, one, value)
+            for value, (name, one) in zip(values, RANGES.intervals, strict=True)
         )
         own = solve_case(build_point_task(TASK, place))
         for member, band in own.member_forces.items():

@@ -24,7 +24,8 @@ NOT_ASSUMED = (
     ("snow_layers", "layered"),
     ("snow_layers", "layered with temperatures"),
 )
-# To go once a row is judged at the corners of these ranges.
+# The worst of these lies at a corner to within some tenths of a per cent alone:
+# tests/study/test_variants.py.
 AT_CORNERS = (
     *("post_tilt", "post_base_distance", "guy_count", "guy_splay", "guy_anchors"),
     *("uphill_anchor_distance", "downhill_anchor_distance", "end_guy_angle"),
@@ -100,6 +101,8 @@ def is_unknown(line, key):
     is_of_end = "lateral_anchor" in line or "support_types" in line
     if key == "panel_system":
         return line[key] != "triangular"
+    if key == "post":  # its base may slide at less than what is assumed of friction
+        return line[key] != "plain"
     return key not in STATEMENTS and not (is_of_end and key in MEMBER_COLUMNS)
 
 
