@@ -25,7 +25,7 @@ from netdesign.structure.members import ROPE_OF
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
-from netdesign.study.row_knowledge import know_alone
+from netdesign.study.row_knowledge import know_alone, know_least
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.scopes import is_of_structure
 from netdesign.study.variants import list_layouts, place_variant, read_values
@@ -36,6 +36,7 @@ SEARCHED = ("slack", "net_stiffness")
 _SAGS = ("ridge_sag", "lower_sag")
 _PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a check
 _PARTS = 8  # of a range, among which is the value from which on a check passes
+_Know = Callable[[RowToCheck, NetRow, RowEnvelope], RowForces]
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
 
 
@@ -110,7 +111,8 @@ class _BestEnds:
             return replace(one, check=_leave_to_sags(check))
         if one.again is None or not is_beyond:
             return one
-        if check.verdict is Verdict.FAIL and self.searched:
+        is_open = bool(self.searched or self.task.row.panel_assumed)
+        if check.verdict is Verdict.FAIL and is_open:
             check = check.ease(self._find_least(one))
         if check.verdict is not Verdict.FAIL and (told := self._tell(one)):
             check = check.with_open(OpenKind.ASSUMED_DECIDES, told)
@@ -130,20 +132,26 @@ class _BestEnds:
         """Low end of the utilisation at the best corner of what is searched [-].
 
         In the case that governs the check, at its density, friction and inclination:
-        over all cases it is no less. 0 where that cannot be calculated.
+        over all cases it is no less. Of an assumed panel what any brings at least. 0
+        where that cannot be calculated.
         """
-        ends = product(*((each.low, each.high) for each in self.searched))
-        least = math.inf
-        for corner in ends:
-            names = (each.key for each in self.searched)
-            known = self._know_at(
-                (one.best or one.known).row, one, dict(zip(names, corner, strict=True))
-            )
-            found = self._judge(one, known)
-            low = found.utilisation_band[0] if found else None
-            if found is None or not found.is_unbounded:
-                least = min(least, low or 0.0)
-        return least
+        row = (one.best or one.known).row
+        if not self.searched:
+            return _find_low(self._judge(one, self._know_panels(row)))
+        names = [each.key for each in self.searched]
+        corners = product(*((each.low, each.high) for each in self.searched))
+        at = (dict(zip(names, corner, strict=True)) for corner in corners)
+        known = (self._know_at(row, one, x, know_least) for x in at)
+        return min(_find_low(self._judge(one, x)) for x in known)
+
+    def _know_panels(self, row: NetRow) -> RowForces | None:
+        """Knowledge of a corner by all cases, with the best of its assumed panels."""
+        key = (_name(row), know_least.__name__)
+        if key not in self.known:
+            place = list_layouts(self.task.row).index(row.layout)
+            solved = self.task.solved.at_layout(place)
+            self.known[key] = know_least(self.task, row, solved)
+        return self.known[key]
 
     def _judge(self, one: MemberCheck, known: RowForces | None) -> Check | None:
         if known is None or one.again is None:
@@ -257,7 +265,11 @@ class _BestEnds:
         return self.known[key]
 
     def _know_at(
-        self, row: NetRow, one: MemberCheck, values: Mapping[str, float]
+        self,
+        row: NetRow,
+        one: MemberCheck,
+        values: Mapping[str, float],
+        know: _Know = know_alone,
     ) -> RowForces | None:
         """Knowledge of a variant by the governing case of a check, at other values."""
         task = self.task
@@ -266,13 +278,13 @@ class _BestEnds:
         case = read_point(one.check.case)
         for name, value in values.items():
             case = case.with_value(name, value)
-        key = (_name(row), case)
+        key = (_name(row), case, know.__name__)
         if key not in self.known:
-            self.known[key] = self._know_case(row, case, values)
+            self.known[key] = self._know_case(row, case, values, know)
         return self.known[key]
 
     def _know_case(
-        self, row: NetRow, case: Case, values: Mapping[str, float]
+        self, row: NetRow, case: Case, values: Mapping[str, float], know: _Know
     ) -> RowForces | None:
         task = self.task
         if task.solver is None:
@@ -286,7 +298,7 @@ class _BestEnds:
         at = replace(task, site=replace(task.site, ranges=ranges))
         solved = _wrap(task.solved, result)
         place = list_layouts(task.row).index(row.layout)
-        return know_alone(at, row, solved.at_layout(place))
+        return know(at, row, solved.at_layout(place))
 
 
 def _name(row: NetRow) -> object:
@@ -308,6 +320,13 @@ def _scale(check: Check, here: float, there: float) -> float:
     """Utilisation elsewhere, in proportion to one that stands for that of a check."""
     whole = _rate(check)
     return there * whole / here if 0.0 < here < math.inf > whole else there
+
+
+def _find_low(check: Check | None) -> float:
+    """Low end of a utilisation [-]; endless without a bound, 0 of none."""
+    if check is not None and check.is_unbounded:
+        return math.inf
+    return (check.utilisation_band[0] if check else None) or 0.0
 
 
 def _rate(check: Check | None) -> float:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import NetRow
+from netdesign.structure.members import RopeForce
+from netdesign.study.case_records import LargestForce
 from netdesign.study.effects import find_effects
 from netdesign.study.member_force import (
     RowForces,
@@ -32,6 +35,7 @@ from netdesign.study.sideways import (
     list_states,
 )
 from netdesign.study.variants import list_variants
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 
@@ -63,6 +67,45 @@ def know_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     """Knowledge of a variant of a row by its envelope on that one's layout."""
     cases = gather_cases(task, row, solved)
     return know_row(cases, know_cases(cases))
+
+
+def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
+    """Knowledge of a variant with what any panel that is assumed of it brings at least.
+
+    That is what its section brings, and the pull of each rope in the panel that pulls
+    on it least. As `know_alone` where the panel is given.
+    """
+    cases = gather_cases(task, row, solved)
+    if not row.panel_assumed:
+        return know_row(cases, know_cases(cases))
+    heads = [one for one in cases.heads if one.panel is None]
+    cases = replace(cases, heads=heads, feet=measure_feet(heads))
+    base = know_cases(cases)
+    largest = _take_least(base.largest, solved.results)
+    floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
+    known = know_row(cases, replace(base, largest=largest, floor=floor))
+    end = known.at_end
+    if end is None:
+        return known
+    alone = replace(end, uphill_guy_kN=None, downhill_guy_kN=None)
+    return replace(known, end_guy=alone)
+
+
+def _take_least(
+    largest: Mapping[str, LargestForce], results: Sequence[CaseResult]
+) -> dict[str, LargestForce]:
+    """Largest forces by the section, and of each rope in the panel with the least."""
+    panels = [
+        one.panel.variants for one in results if isinstance(one.panel, PanelForces)
+    ]
+    found = {key: one for key, one in largest.items() if key not in PANEL_QUANTITIES}
+    for rope in RopeForce if panels else ():
+        most = (max(x.bands[rope].low for x in of) for of in zip(*panels, strict=True))
+        least = kilonewton_from_newton(min(most))
+        found[rope] = replace(
+            largest[rope], low_kN=least, value_kN=least, high_kN=least, bound_kN=least
+        )
+    return found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,13 +12,21 @@ from netdesign.calculation.steps import Step
 from netdesign.checks import Check, OpenKind, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
+from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.variants import place_variant
 from netdesign.words.message import say
-from tests.small_site import RANGES, RUN, build_row, build_site, resist
+from tests.small_site import (
+    RANGES,
+    RUN,
+    build_row,
+    build_site,
+    list_net_parts,
+    resist,
+)
 from tests.study.test_variants import KEYS, assume_all
 
 STANDARD = load_standard("swiss-guideline-2007")
@@ -122,6 +130,39 @@ def test_statics_that_decide_are_told_by_all_cases():
         values[column] = math.radians(value) if "tilt" in column else value
         alone = index(judge(place_variant(row, values), (0.05, 0.05)))[key]
         assert alone.utilisation_band[1] <= 1.0 + 1e-3, key
+
+
+PANELS = list_panels(
+    3.5,
+    cut=None,
+    sags=(None, None),
+    stiffnesses=(STIFFNESSES, STIFFNESSES),
+    has_mid_anchors=False,
+)[::4]
+
+
+def test_what_fails_fails_with_every_panel_that_is_assumed():
+    row = build_row(
+        "R1",
+        resistances=resist(1.6e5),
+        panels=PANELS,
+        net_parts=list_net_parts(6e4, has_ropes=True),
+    )
+    names = (say("column.Nets.net_cut"), say("column.Nets.ridge_sag"))
+    assumed = index(judge(replace(row, panel_assumed=names), (0.05, 0.05)))
+    alone = [
+        index(judge(replace(row, panels=(one,)), (0.05, 0.05))) for one in PANELS[::2]
+    ]
+    failing = [key for key, one in assumed.items() if one.verdict is Verdict.FAIL]
+    assert any("rope" in key for key in failing)
+    for checks in alone:
+        for key in failing:
+            assert checks[key].verdict is Verdict.FAIL, key
+        for key, one in checks.items():
+            if one.verdict is not Verdict.PASS:
+                assert assumed[key].verdict is not Verdict.PASS, key
+    beyond = [one for one in assumed.values() if one.eased is not None]
+    assert any(one.verdict is Verdict.NOT_PROVEN for one in beyond)
 
 
 def use(low, high, *points):
