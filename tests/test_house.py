@@ -10,8 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 420, 52_000  # while issue 62 lands; the founder sets them at its end
-CORE_MODULES, CORE_LINES = 320, 40_000
+MODULES, LINES = 403, 48_893
+CORE_MODULES, CORE_LINES = 301, 37_081
 
 TREES = parse_package()
 Function = ast.FunctionDef | ast.AsyncFunctionDef
