@@ -39,7 +39,7 @@ from netdesign.words.message import say
 
 Values = tuple[float, ...]
 
-MOST_PARAMETERS = 6
+MOST_PARAMETERS = 8
 # The first design sees features at least as wide at half their height, as a share of
 # a range; narrower ones may hide, and every result says so.
 RESOLVED_SHARE = 0.6
@@ -192,14 +192,14 @@ class MaximaSearch:
         Parameters
         ----------
         dimension : int
-            Number of parameters, 0 to 6.
+            Number of parameters, 0 to 8.
         settings : SearchSettings
             When to end.
 
         Raises
         ------
         ModelError
-            For more than 6 parameters.
+            For more than 8 parameters.
         """
         if dimension > MOST_PARAMETERS:
             raise ModelError(

@@ -138,8 +138,9 @@ def _refuse_crowd(
         for key, one in complete.items()
         if one.interval.low < one.interval.high and key in names
     ]
-    # what has no line of the usual three ranges, too
-    most = MOST_PARAMETERS - sum(one.key not in names for one in USUAL_QUANTITIES)
+    # what has no line of the usual three ranges, too; so may slack and stiffness
+    lacking = (*(one.key for one in USUAL_QUANTITIES), "slack", "net_stiffness")
+    most = MOST_PARAMETERS - sum(key not in names for key in lacking)
     if len(wide) <= most:
         return False
     accepted = say("range.at_most", most=MOST_PARAMETERS)
