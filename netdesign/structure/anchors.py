@@ -29,13 +29,7 @@ from netdesign.structure.head import (
     find_direction,
     hold_head,
 )
-from netdesign.structure.layout import (
-    ManyLayouts,
-    Point,
-    SupportLayout,
-    SupportPoints,
-    locate_base,
-)
+from netdesign.structure.layout import ManyLayouts, Point, SupportLayout, SupportPoints
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
@@ -296,10 +290,7 @@ def compute_many_forces(
     foot = _scale(foot_pull_per_m, layout.post_spacing)
     pull = _scale(head_pull_per_m, layout.post_spacing)
     ground = 0.0 * head[0]
-    if isinstance(layout, SupportLayout):
-        x_base = locate_base(layout, *head)
-    else:
-        x_base = layout.locate_bases(*head)
+    x_base = layout.locate_bases(*head)
     post = find_direction(head, (x_base, ground))
     held = hold_head(
         pull,

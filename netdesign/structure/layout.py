@@ -53,6 +53,10 @@ class SupportLayout:
         """Tangent of the post's angle from the slope normal [-]."""
         return math.tan(self.post_tilt)
 
+    def locate_bases(self, x_head: Floats, y_head: Floats) -> Floats:
+        """Post bases below many heads, as `locate_base` has them [m]."""
+        return locate_base(self, x_head, y_head)
+
     @property
     def anchors_at_foot(self) -> tuple[Member, ...]:
         """Anchors of the net's foot, on which the load along the row acts as well."""
