@@ -255,6 +255,8 @@ class AnchorType:
         dimensions are not given.
     lever : float or None
         Free length over which it bends [m]; None where none is given.
+    is_lever_assumed : bool
+        Nobody gives that length: any shorter one is better.
     ground_lever : float
         Lever that the ground's yielding adds to it, e_0 of (R9a) [m].
     has_tube : bool
@@ -273,6 +275,7 @@ class AnchorType:
     kind: str
     section: RoundSection | None
     lever: float | None
+    is_lever_assumed: bool = False
     ground_lever: float = 0.0
     has_tube: bool = False
     across: float | None = None

@@ -57,6 +57,7 @@ def _read_anchor(line: Row, ground: str = "") -> AnchorType:
         kind=line["kind"].word,
         section=section,
         lever=_find_lever(line, section),
+        is_lever_assumed=line["lever_arm"].state != "given",
         ground_lever=_yield_at_mouth(section, line, ground) if section else 0.0,
         has_tube=has_tube,
         across=line["head_across"].given_si,

@@ -50,7 +50,11 @@ from netdesign.study.member_force import MemberForce
 from netdesign.study.posts import find_plate_resistance, find_post_resistance
 from netdesign.study.row_to_check import Basis
 from netdesign.study.support_records import PullRecord
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    newton_from_kilonewton,
+)
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -98,13 +102,7 @@ def _find_bent_resistance(
         return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
     yields = 0.0 if anchor.is_in_block else anchor.ground_lever
     lever = free + yields
-    worst = min(
-        (
-            compute_bent_bar_resistance(section, angle=angle, lever=lever)
-            for angle in (pull.angle, _find_weakest(section, lever, pull.angle))
-        ),
-        key=lambda one: one.value,
-    )
+    worst = _bend(section, pull.angle, lever)
     key = "bending.of_block" if anchor.is_in_block else "bending.of_bar"
     told = say(
         "bending.of_tube" if anchor.has_tube else key,
@@ -114,7 +112,22 @@ def _find_bent_resistance(
         ground=1e3 * yields,
         length=find_least_tube(yields),
     )
-    return replace(given, value=worst.value, derivation=told)
+    best = doubt = None
+    if not anchor.kind:  # a rope turns to its pull
+        best, doubt = section.axial_resistance, say("bending.kind_assumed")
+    elif anchor.is_lever_assumed:
+        best = _bend(section, pull.angle, yields).value
+        doubt = say("bending.lever_assumed", free=1e3 * free)
+    return replace(given, value=worst.value, best=best, doubt=doubt, derivation=told)
+
+
+def _bend(section: RoundSection, largest: float, lever: float) -> BentBar:
+    """Least resistance to a pull beside the axis, by up to the largest angle."""
+    angles = (largest, _find_weakest(section, lever, largest))
+    found = (
+        compute_bent_bar_resistance(section, angle=one, lever=lever) for one in angles
+    )
+    return min(found, key=lambda one: one.value)
 
 
 def _find_head_resistance(
@@ -208,18 +221,23 @@ def settle_basis(
         replace(given, basis="computed"),
         replace(given, basis="tested", value=None, tests=single),
     ]
-    found: dict[str, tuple[float, Resistance]] = {}
+    found: list[tuple[float, float, Resistance]] = []
     for way in ways:
         strength = find_resistance(way, standard).low
         factor = find_partial_factor(way, standard)
         if factor is not None and strength is not None:
-            found[way.basis] = (strength / factor.value_si, way)
+            found.append((strength / factor.value_si, factor.value_si, way))
     if not found:
         return given, None
-    _, worse = min(found.values(), key=lambda one: one[0])
-    if len(found) == len(ways):
-        return worse, None
-    return worse, say("check.no_basis", name=say("column.Anchors.basis"))
+    design, factored, worse = min(found, key=lambda one: one[0])
+    name = say("column.Anchors.basis")
+    if len(found) < len(ways):
+        return worse, say("check.no_basis", name=name)
+    better = max(one for one, _, _ in found)
+    ends = (newton_from_kilonewton(one * factored) for one in (design, better))
+    value, best = ends
+    told = say("check.basis_decides", name=name)
+    return replace(worse, value=value, best=best, tests=None, doubt=told), None
 
 
 def shorten_bond(given: Resistance, standard: Standard) -> Resistance:

@@ -841,3 +841,19 @@ def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
     site = read_site(write_row(tmp_path, anchor=BAR))
     keys = [str(one.key) for one in list_missing(site.rows[0], site.links)]
     assert "column.Posts.foot_tension" not in keys
+
+
+@pytest.mark.parametrize("turn", [1.0, 4.0, 7.0, 15.0, 31.0])
+def test_what_nobody_says_of_a_bar_fails_only_where_its_best_fails_too(tmp_path, turn):
+    axis = {FOOT_AXIS: FOOT - turn}
+
+    def bend(**changes):
+        anchor = BAR | {"tendon resistance [kN]": 402} | changes
+        return judge(tmp_path, anchor=anchor, **axis)["foot_anchor.bending"]
+
+    best = bend(**{"lever arm [mm]": 0})
+    unsaid, of_no_kind = bend(), bend(**{"kind of anchor": None})
+    assert unsaid.utilisation_band[0] == pytest.approx(best.utilisation_band[0])
+    assert (unsaid.verdict is Verdict.FAIL) is (best.verdict is Verdict.FAIL)
+    assert of_no_kind.verdict is not Verdict.FAIL
+    assert unsaid.utilisation >= best.utilisation
