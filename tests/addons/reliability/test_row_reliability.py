@@ -17,7 +17,7 @@ from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.snowpack.model_code import compare_densities
 from netdesign.structure.members import ROPE_OF, RopeForce
-from netdesign.study import judgement
+from netdesign.study import worst_checks
 from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import read_document, write_document
@@ -191,7 +191,9 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
     followed = set()
     for task, known, *_ in follow(judge, monkeypatch):
         solved, width = task.solved.results, known.effects.find_support("second")
-        for one in judgement._judge_at(known, width, task.row.resistances_at("second")):
+        for one in worst_checks._judge_at(
+            [known], width, task.row.resistances_at("second")
+        ):
             on = one.force.on
             if on.push is None:
                 continue
