@@ -15,12 +15,10 @@ from netdesign.guideline.load_model import (
     load_guideline,
     read_load_model,
 )
-from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.assumed import Assumed, assume, assume_ends
-from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.ranges import RangesSheet
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Reading, Row
 from netdesign.site.statements import has_panel, list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
@@ -231,14 +229,3 @@ def find_own_ranges(assumed: Sequence[Assumed], row: Row) -> Ranges:
             low, high = (to_si(end, unit) for end in span)
             found[name] = Interval(low=low, high=high)
     return Ranges.of(**found)
-
-
-def refuse_crowd(
-    row: Row, own: Ranges, of_site: Ranges | None, findings: list[Finding]
-) -> None:
-    """Refuse a range of a row that is one too many for a search."""
-    every = of_site.replaced_by(own) if of_site else own
-    ranged = [one for one in row.values() if one.span is not None]
-    if ranged and len(every.axes) > MOST_PARAMETERS:
-        accepted = say("range.at_most", most=MOST_PARAMETERS)
-        refuse(ranged[-1], say("range.too_many"), accepted, findings)

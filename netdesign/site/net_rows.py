@@ -20,7 +20,6 @@ from netdesign.site.empty_cells import (
     fill_in_snow,
     find_own_ranges,
     list_typed,
-    refuse_crowd,
 )
 from netdesign.site.headings import Table
 from netdesign.site.lines import (
@@ -221,7 +220,6 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     found = (*assumed, *further, *assume_stiffness(row, lines.types["Ropes"]))
     found = (*found, *built.assumed, *list_typed(row, end))
     own = find_own_ranges(found, row)
-    refuse_crowd(row, own, lines.ranges.ranges, findings)
     return replace(built, assumed=found, ranges=own)
 
 
