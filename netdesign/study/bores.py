@@ -193,7 +193,12 @@ class BondInGround:
     @property
     def is_checked(self) -> bool:
         """Something of its ground is given on both sides of a comparison."""
-        return self._has_cover or self.edge is not None
+        return self._has_cover or self.edge is not None or self.leaves_ground
+
+    @property
+    def leaves_ground(self) -> bool:
+        """The bore runs above the surface: nothing holds its bond."""
+        return self.cover is not None and self.cover <= 0.0
 
     @property
     def _has_cover(self) -> bool:
@@ -203,7 +208,9 @@ class BondInGround:
         """What lies too near to the surface, or to an edge."""
         told = {"anchor": name_member(self.anchor)}
         cover, least = self.cover, self.least_cover
-        if cover is not None and least is not None and cover < least:
+        if cover is not None and self.leaves_ground:
+            yield say("bores.leaves_ground", **told, height=-cover)
+        elif cover is not None and least is not None and cover < least:
             yield say("bores.too_shallow", **told, cover=cover, least=least)
         edge, least = self.edge, self.least_edge
         if edge is not None and least is not None and edge < least:

@@ -169,7 +169,7 @@ def _list_of_ground(known: RowForces) -> Iterator[Condition]:
     if "anchor_ground" in known.standard.not_checked:
         return
     for bond in list_bonds(known.row, known.pulls):
-        if bond.least_cover is None and not bond.has_soil:
+        if bond.least_cover is None and not bond.has_soil and not bond.leaves_ground:
             yield _state("cover", bond.cover)
         elif bond.least_cover is not None and bond.cover is None:
             yield _state("depth", bond.least_cover)
