@@ -88,28 +88,25 @@ def check_approval(
         not state is not proven, and neither is a value that may exceed its own.
     """
     beyond: dict[Verdict, list[Message]] = {}
-    for key, (text, unit) in _LIMITS.items():
-        limit: StatedValue | None = getattr(approval, key)
-        name, (low, high) = say(text), actual[key]
+    for of, (text, unit) in _LIMITS.items():
+        limit: StatedValue | None = getattr(approval, of)
+        name, (low, high) = say(text), actual[of]
         if limit is None:
             told = say("approval.unstated", name=name)
             beyond.setdefault(Verdict.NOT_PROVEN, []).append(told)
             continue
         most = limit.value * (1.0 + _ROUNDING)
         met = judge(low, high, least=0.0, most=most)
-        told = say(
-            "approval.beyond" if low == high else "approval.may_be_beyond",
-            name=name,
-            low=low,
-            high=high,
-            limit=limit.value,
-            unit=unit,
-        )
+        key = "approval.beyond" if low == high else "approval.may_be_beyond"
+        if met is Verdict.PASS:
+            key = "approval.within"
+        told = say(key, name=name, low=low, high=high, limit=limit.value, unit=unit)
         beyond.setdefault(met, []).append(told)
     met = next(one for one in SEVERITY if one in beyond)
-    if met is Verdict.PASS:
-        finding = say("approval.inside", document=approval.document)
-    else:
-        key = "approval.outside" if met is Verdict.FAIL else "approval.open"
-        finding = say(key, values=tuple(beyond[met]), document=approval.document)
+    by_verdict = {Verdict.PASS: "approval.inside", Verdict.FAIL: "approval.outside"}
+    finding = say(
+        by_verdict.get(met, "approval.open"),
+        values=tuple(beyond[met]),
+        document=approval.document,
+    )
     return compare(MODE, met, finding)

@@ -60,7 +60,7 @@ def carry_out(
     run : CheckRun
         Settings, command line and time.
     outputs : Outputs
-        Places, language, detail and template of the reports.
+        Places, language, extent and template of the reports.
     read_instead : callable or None
         Gives the site with some cells replaced; None without ``--size``.
     asked : mapping

@@ -85,7 +85,7 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
         content = read_template(asked["template"])
     return ReportStyle(
         language=asked["language"],
-        detail=asked["detail"],
+        has_annexes=asked["annexes"],
         template=content,
     )
 
@@ -103,7 +103,7 @@ def report(study_file: Path, **asked: Any) -> None:
     netdesign report netdesign-out/study.json --out again
     netdesign report netdesign-out/study.json --verify --out verified
     netdesign report netdesign-out/study.json --language fr --out rapport
-    netdesign report netdesign-out/study.json --detail summary --no-excel --force
+    netdesign report netdesign-out/study.json --annexes --no-excel --force
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import name_files, render_files

@@ -75,11 +75,6 @@ def small(lines: Sequence[str]) -> Content:
     return tuple(Piece(line, SMALL) for line in lines if line)
 
 
-def keep_units(case: str) -> str:
-    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
-    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
-
-
 # Where a text is shown: everywhere, or in a page and not in a document.
 Medium = Literal["all", "page"]
 
@@ -236,11 +231,10 @@ class Figure:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Contents:
-    """Links to parts of the page by lines; a document lists its headings instead."""
+class Figures:
+    """Drawings that stand beside each other where there is room."""
 
-    heading: str
-    lines: tuple[Content, ...]
+    figures: tuple[Figure, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -257,7 +251,7 @@ class Part:
     fold: str = ""
 
 
-Block = Heading | Paragraph | Items | Pairs | Table | Figure | Contents | Part
+Block = Heading | Paragraph | Items | Pairs | Table | Figure | Figures | Part
 
 
 def section(

@@ -16,7 +16,6 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from netdesign.report.sections.whole import Detail
     from netdesign.study.records import Study
 
 
@@ -26,10 +25,10 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportStyle:
-    """Language, detail and look of the reports; the numbers do not depend on them."""
+    """Language, extent and look of the reports; the numbers do not depend on them."""
 
     language: Language = "en"
-    detail: Detail = "full"
+    has_annexes: bool = False
     template: bytes | None = None  # docx that report.docx is written into
     is_verified: bool = False  # a stored study was solved again in this run
 
@@ -80,7 +79,7 @@ def render_kind(kind: str, study: Study, style: ReportStyle) -> bytes:
     study : Study
         What is shown.
     style : ReportStyle
-        Language, detail and look.
+        Language, extent and look.
     """
     return _KINDS[kind](study, style)
 
@@ -99,7 +98,8 @@ def _render_page(study: Study, style: ReportStyle) -> bytes:
     from netdesign.report.page.html import render_html
 
     page = render_html(
-        *(study, style.language, style.detail),
+        *(study, style.language),
+        has_annexes=style.has_annexes,
         is_verified=style.is_verified,
     )
     return page.encode()
@@ -136,7 +136,8 @@ def _render_docx(study: Study, style: ReportStyle) -> bytes:
 
     require_docx()
     return render_document(
-        *(study, style.language, style.detail, style.template),
+        *(study, style.language, style.template),
+        has_annexes=style.has_annexes,
         is_verified=style.is_verified,
     )
 

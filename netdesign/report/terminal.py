@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.console import print_lines
 from netdesign.report.sections.additions import list_additions
-from netdesign.report.sections.annexes import describe_cases
 from netdesign.report.sections.basis import (
+    describe_cases,
     describe_floor,
     has_other_floor,
     list_notes,
@@ -24,7 +24,7 @@ from netdesign.report.sections.checks import (
     list_changes,
     name_case,
 )
-from netdesign.report.sections.decision import (
+from netdesign.report.sections.open_points import (
     list_conditions,
     list_open_points,
     show_line,

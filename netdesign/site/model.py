@@ -286,7 +286,10 @@ class StationWinter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """Identification printed on every output."""
+    """Identification printed on every output.
+
+    The documents say where snow heights, glide factors and the ground come from.
+    """
 
     name: str = ""
     number: str = ""
@@ -294,6 +297,9 @@ class Project:
     checker: str = ""
     revision: str = ""
     standard: str = ""
+    snow_document: str = ""
+    glide_document: str = ""
+    ground_document: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -424,6 +424,10 @@ def find_word(row: RowStudy, column: str) -> str:
     return value if isinstance(value, str) else ""
 
 
+_SHEETS = ("Nets", "rows", "net_types", "project")  # with columns of a net row
+
+
 def _find(row: RowStudy, column: str) -> float | str | None:
-    label = say(f"column.Nets.{column}")
-    return next((one.value for one in row.inputs if one.label == label), None)
+    labels = [say(f"column.{sheet}.{column}") for sheet in _SHEETS]
+    found = (one.value for one in row.inputs if one.label in labels)
+    return next((one for one in found if one != ""), None)

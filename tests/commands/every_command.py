@@ -21,7 +21,7 @@ COMMANDS = {
     "check": "check site.xlsx --out out --accuracy 0.1 --jobs 1 --docx --quiet",
     "what if": "check site.xlsx --out b --accuracy 0.1 --jobs 1 --quiet --no-excel "
     "--what-if {nets}.L2=9",
-    "summary": "report out/study.json --out short --detail summary",
+    "summary": "report out/study.json --out short --annexes",
     "table": "table site.xlsx --study out/study.json",
     "diff": "diff out/study.json b/what-if-study.json",
     "map": "map site.xlsx",

@@ -105,7 +105,7 @@ def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkey
         (place / "site" / "Nets.csv").write_text(changed, encoding="utf-8")
         monkeypatch.setenv("OMP_NUM_THREADS", drawn.choice("12"))
         asked = [*SITE, "--language", drawn.choice(["en", "de"])]
-        asked += ["--detail", drawn.choice(["full", "summary"])]
+        asked += drawn.choice([["--annexes"], []])
         asked += [one for one in ("--csv", "--no-html") if drawn.random() < 0.5]
         ended = call(*asked, "--out", f"kept{k}")
         bare = call(*asked, "--out", f"bare{k}", "--no-cache")

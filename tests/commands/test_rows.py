@@ -45,7 +45,7 @@ def test_a_row_that_passes_leaves_the_site_not_proven(site, call, language):
 
 def test_its_report_is_sound_and_an_altered_one_is_refused(site, call):
     call("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a", "--no-html")
-    options = ("--site", "site.xlsx", "--no-excel", "--detail", "summary")
+    options = ("--site", "site.xlsx", "--no-excel")
     assert call("report", "a/part-study.json", *options, "--out", "b").code == 4
     study = read_study(site / "a" / "part-study.json")
     for altered in ({"left_out": []}, {"left_out": [], "verdict": "pass"}):

@@ -43,7 +43,7 @@ def test_sizing_writes_the_study_that_a_what_if_makes(site, call):
     assert ended.code == 4, ended.err  # it proves nothing of the site
     assert [path.name for path in (site / "b").glob("[!.]*")] == ["what-if-study.json"]
     assert read_study(site / "b/what-if-study.json")["rows"] == sized["rows"]
-    options = ("--site", "site.xlsx", "--out", "c", "--no-excel", "--detail", "summary")
+    options = ("--site", "site.xlsx", "--out", "c", "--no-excel")
     again = call("report", "a/what-if-study.json", *options)
     assert again.code == 4, again.err
     assert [path.name for path in (site / "c").glob("[!.]*")] == ["what-if-report.html"]

@@ -1,20 +1,18 @@
 """Sections that a report must have, and those of its blocks that say something."""
 
-from netdesign.report.blocks import Figure, Heading, Items, Paragraph, Part
+from netdesign.report.blocks import Figure, Figures, Heading, Items, Paragraph, Part
 from netdesign.report.sections.basis import anchor_rows
 
-ROW = ("drawing", "checks", "worked", "changes")
-ANNEXES = ("checks", "model", "profile", "quality", "verify")
+ROW = ("checks", "worked")
+ANNEXES = ("checks", "quality", "cases", "profile", "verify")
 
 
-def list_sections(study, detail):
+def list_sections(study, *, has_annexes=False):
     """Ids of all sections that a report must have."""
-    if detail == "summary":
-        return ["decision", "todo", "quantities", "scope"]
     anchors = dict.fromkeys(anchor_rows(study).values())
     of_rows = [f"{anchor}-{name}" for anchor in anchors for name in ROW]
-    of_page = ["decision", "todo", "scope", "ranges", "schedule", "inputs"]
-    return [*of_page, *of_rows, *(f"annex-{name}" for name in ANNEXES)]
+    annexes = [f"annex-{name}" for name in ANNEXES] if has_annexes else []
+    return ["decision", "schedule", "basis", *of_rows, *annexes]
 
 
 def list_filled(blocks):
@@ -39,4 +37,6 @@ def _says(block):
             return bool(block.text)
         case Figure():
             return bool(block.svg)
+        case Figures():
+            return any(map(_says, block.figures))
     return True

@@ -25,21 +25,21 @@ SNOW = (0xF3, 0xF5, 0xF7)  # ground of some labels
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("language", "detail", "width"),
-    [("fr", "full", 1100), ("de", "summary", PHONE_PX)],
+    ("language", "has_annexes", "width"),
+    [("fr", True, 1100), ("de", False, PHONE_PX)],
 )
-def test_axe_finds_no_violation(language, detail, width, tmp_path):
-    page = render_html(build_study(rows=1), language, detail)
+def test_axe_finds_no_violation(language, has_annexes, width, tmp_path):
+    page = render_html(build_study(rows=1), language, has_annexes=has_annexes)
     assert list_violations(page, tmp_path, width) == []
 
 
 @pytest.mark.robustness
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("detail", ["summary", "full"])
+@pytest.mark.parametrize("has_annexes", [False, True])
 @pytest.mark.parametrize("width", [PHONE_PX, 1100])
-def test_axe_finds_no_violation_anywhere(language, detail, width, tmp_path):
+def test_axe_finds_no_violation_anywhere(language, has_annexes, width, tmp_path):
     """All pages: python -m pytest -m robustness tests/report/test_accessible.py."""
-    page = render_html(build_study(), language, detail)
+    page = render_html(build_study(), language, has_annexes=has_annexes)
     assert list_violations(page, tmp_path, width) == []
 
 

@@ -45,7 +45,7 @@ def test_page_opens_without_complaint(browser, tmp_path, language):
     page = render_html(study, language)
     (tmp_path / "report.html").write_text(page, encoding="utf-8")
     tree = run(browser, tmp_path, "--dump-dom")
-    for name in list_sections(study, "full"):
+    for name in list_sections(study):
         assert f'id="{name}"' in tree
     assert tree.count("<svg") == page.count("<svg")
     assert "<script" not in tree

@@ -16,7 +16,7 @@ STUDY = build_study(rows=1)
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_another_process_can_make_each_file(language):
     """From what was pickled comes what one process makes of all files together."""
-    style = ReportStyle(language=language, detail="summary")
+    style = ReportStyle(language=language)
     paths = [Path(f"one{kind}") for kind in KINDS]
     together = render_files([STUDY], [paths], style)
     assert set(together) == set(paths)

@@ -13,9 +13,9 @@ from netdesign.checks import load_standard
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.quality import build_bounds, build_cases
-from netdesign.report.sections.schedule import build_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook
+from netdesign.report.workbook.quantities import build_schedule
 from netdesign.study.document import read_document, write_document
 from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import Message, say

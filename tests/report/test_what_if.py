@@ -33,13 +33,13 @@ def test_every_output_says_that_it_is_no_site_as_built(language):
         verdict=texts[f"verdict.{STUDY.verdict}"]
     )
     assert title_pages(STUDY, words).startswith(mark)
-    page = render_html(STUDY, language, "summary").replace("&#39;", "'")
+    page = render_html(STUDY, language).replace("&#39;", "'")
     shown = {
         "page": page[page.index("<h1>") :],
         "terminal": print_out(STUDY, language),
     }
     if language == "fr":  # they show the same texts in each language
-        document = render_document(STUDY, language, "summary")
+        document = render_document(STUDY, language)
         book = render_workbook(STUDY, language)
         shown["document"] = unpack(document, "word/document.xml")
         shown["workbook"] = unpack(book, "xl/sharedStrings.xml")

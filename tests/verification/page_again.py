@@ -16,7 +16,7 @@ OF_ALL = {"E_d": "γ_E · E_k", "R_d": "R_k / γ_R", "μ": "E_d / R_d"}
 WITHOUT_INTERVAL = ("R_k",)
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 _VALUE = re.compile(rf"({_NUMBER}|∞|-)(?: \(({_NUMBER})–({_NUMBER})\))?(°| .*)?$")
-_LINE = re.compile(r"[✓✗?†] (.+?): (.*)$", re.DOTALL)
+_LINE = re.compile(r"[✓✗?†] (.+?) ?: (.*)$", re.DOTALL)
 # What begins after a semicolon: a step, or the case.
 _NEXT = re.compile(r"; (?:[^\W\d](?:_?\w)* = |[\d.]+ / |load case)")
 _SYMBOL = re.compile(r"[^\W\d](?:_?\w)*")
@@ -43,41 +43,26 @@ def read_annex(page):
     page = re.sub(r"<sub>(\w+)</sub>", r"_\1", page)
     start = page.index('id="annex-checks"')
     section = page[start : page.index("</section>", start)]
-    shared = Calculation("")
-    read_steps(shared, clean(re.search("<caption>(.*?)</caption>", section, re.S)[1]))
     for cell in re.findall(r'<th scope="row">(.*?)</th>', section, re.S):
-        head, *lines = clean(cell).split("\n")
-        name, _, steps = head.partition(": ")
-        for line in lines:
-            mode, told = _LINE.match(line).groups()
-            one = Calculation(f"{name.strip()}, {mode}")
-            one.printed |= shared.printed
-            read_steps(one, steps.rstrip("."))
-            read_steps(one, told)
-            yield one
+        steps, *_ = clean(cell).split("\n")  # below it stand resistance and case
+        name, told = _LINE.match(steps).groups()
+        mode = re.sub(r", (second support|end of the row)$", "", name.strip())
+        one = Calculation(f"{mode} (")
+        read_steps(one, told)
+        yield one
 
 
 def read_ratios(page):
     """Title, E_d, R_d and μ of every check in the tables of the net rows."""
     for section in re.findall(r'<section id="row-\d+-checks".*?</section>', page, re.S):
-        forces = {}
         for line in re.findall(r"<tr>(.*?)</tr>", section, re.S):
             cells = re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", line, re.S)
             if len(cells) != 7 or 'scope="row"' not in line:
                 continue
-            title, _, resistance, *places = map(clean, cells)
-            member = re.sub(r"^\S+ (PASS|FAIL|NOT PROVEN|PROVEN ELSEWHERE)", "", title)
-            member = member.strip().split(", ")[0]
-            forces.setdefault(member, []).append((places[0], places[2]))
-            for demand, used in (places[:2], places[2:]):
-                yield title, demand, resistance, used.split(" ")[0]
-        told = re.search(r"Also met.*? at its end\. (.*?)</p>", section, re.S)
-        for of_member in clean(told[1]).rstrip(".").split(" · ") if told else ():
-            member, _, modes = of_member.partition(": ")
-            for mode in modes.split("; "):
-                first, _, ratios = mode.rpartition(", ")
-                resistance = first.rpartition(" ")[2]
-                yield f"{member}, {first}", forces[member], resistance, ratios
+            member, mode, _, _, demand, resistance, _ = map(clean, cells)
+            found = re.search(r'class="ratio">([^<]*)<', cells[6])
+            used = found[1] if found else "-"
+            yield f"{member}, {mode}", demand, resistance, used
 
 
 def clean(text):
@@ -173,16 +158,10 @@ def work_out(checks):
 def divide(ratios):
     """Every utilisation that the net rows print, from its two forces in print."""
     again = Again()
-    for title, demands, resistance, used in ratios:
-        if isinstance(demands, str):
-            pairs = [[(demands, used)]]
-        else:  # beside the table: the line of its member that it shares a force with
-            ends = used.split(" / ")
-            pairs = [list(zip(one, ends, strict=True)) for one in demands]
-        again.count += sum(not {*one} & {"-", "∞"} for one in pairs[0])
-        fits = [all(_divides(*one, resistance) for one in pair) for pair in pairs]
-        if not any(fits):
-            again.wrong.append((title, demands, resistance, used))
+    for title, demand, resistance, used in ratios:
+        again.count += not {demand, resistance, used} & {"-", "∞"}
+        if not _divides(demand, used, resistance):
+            again.wrong.append((title, demand, resistance, used))
     return again
 
 

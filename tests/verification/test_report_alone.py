@@ -61,11 +61,13 @@ def judge(path, profile):
 
 @pytest.fixture(scope="module")
 def pages(studies):
-    return {name: render_html(study) for name, study in studies.items()}
+    return {
+        name: render_html(study, has_annexes=True) for name, study in studies.items()
+    }
 
 
-@pytest.mark.parametrize(("name", "least"), [("example", 250), ("untidy", 200)])
-def test_one_check_of_each_kind_follows_from_the_annex_alone(pages, name, least):
+@pytest.mark.parametrize(("name", "least"), [("example", 2500), ("untidy", 800)])
+def test_every_check_follows_from_the_annex_alone(pages, name, least):
     again = work_out(read_annex(pages[name]))
     assert again.wrong == []
     assert again.count >= least
@@ -75,17 +77,21 @@ def test_one_check_of_each_kind_follows_from_the_annex_alone(pages, name, least)
 def test_every_utilisation_follows_from_the_forces_beside_it(studies, pages, name):
     again = divide(read_ratios(pages[name]))
     assert again.wrong == []
-    checks = [one for row in studies[name].rows for one in row.checks]
-    known = [one for one in checks if one.used is not None and one.is_of_force]
-    assert again.count >= len([one for one in known if not one.is_unbounded]) > 50
+    members = {
+        (row.id, one.member)
+        for row in studies[name].rows
+        for one in row.checks
+        if one.utilisation is not None and one.is_of_force
+    }
+    assert again.count > 0.8 * len(members) > 15
 
 
 def test_a_utilisation_that_is_off_by_a_twentieth_is_noticed(pages):
     ratios = [one for one in read_ratios(pages["example"]) if one[1] != "-"]
-    for title, demands, resistance, used in ratios:
-        if isinstance(demands, str) and used != "-" and float(used) > 0.4:
+    for title, demand, resistance, used in ratios:
+        if used != "-" and float(used) > 0.4:
             changed = f"{1.05 * float(used):.2f}"
-            assert divide([(title, demands, resistance, changed)]).wrong, title
+            assert divide([(title, demand, resistance, changed)]).wrong, title
 
 
 def test_the_drawn_site_has_what_the_example_lacks(pages):
@@ -124,9 +130,13 @@ def test_a_number_that_is_off_by_a_hundredth_is_noticed(pages, name):
 def test_other_languages_print_the_same_numbers(studies, pages, language):
     for name, study in studies.items():
         mine, other = (
-            PageReader(page) for page in (pages[name], render_html(study, language))
+            PageReader(page)
+            for page in (pages[name], render_html(study, language, has_annexes=True))
         )
-        (table,), (theirs,) = (one.tables["annex-checks"] for one in (mine, other))
+        table, theirs = (
+            [line for one in page.tables["annex-checks"] for line in one]
+            for page in (mine, other)
+        )
         for line, shown in zip(table, theirs, strict=True):
             numbers = re.findall(r"= (\d+\.\d+)[;. ]", line[0])
             told = re.findall(r"= (\d+,\d+)[;. ]", shown[0])
@@ -153,22 +163,12 @@ def move_down(inputs):
 
 
 @pytest.mark.parametrize(
-    ("detail", "language", "most"),
-    [
-        ("full", "en", 22),
-        pytest.param("full", "fr", 23, marks=pytest.mark.long),
-        ("summary", "en", 3),
-        pytest.param("summary", "de", 3, marks=pytest.mark.long),
-    ],
+    "language",
+    ["en", *(pytest.param(x, marks=pytest.mark.long) for x in ("fr", "de"))],
 )
-def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):
-    """So many where a font as narrow as Arial is installed; others are wider.
-
-    Page 1 and what belongs to it take three, the schedule three, seven rows of a shape
-    of their own ten, inputs and annexes six. A row has 75 to 82 checks.
-    """
-    page = render_html(twelve, language, detail)
-    assert count_pages(page, tmp_path) <= most
+def test_twelve_rows_have_few_pages(twelve, tmp_path, language):
+    """So many where a font as narrow as Arial is installed; others are wider."""
+    assert count_pages(render_html(twelve, language), tmp_path) <= 14
 
 
 @pytest.fixture(scope="module")
@@ -182,22 +182,20 @@ def example(tmp_path_factory):
 @pytest.mark.long
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_example_has_few_pages(example, tmp_path, language):
-    """Its seven rows take nine to ten: second support, end and tests have lines."""
-    most = {"en": 19, "fr": 22, "de": 22}[language]
-    assert count_pages(render_html(example, language), tmp_path) <= most
+    """Decision, schedule with what it rests on, and a page for each of seven rows."""
+    assert count_pages(render_html(example, language), tmp_path) <= 9
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_verdict_stands_on_the_first_page(twelve, tmp_path, language):
-    page = render_html(twelve, language, "summary")
-    assert measure_bottom(page, ".card", tmp_path) <= PRINTED_PX
-    assert ".card { break-inside: avoid; }" in page  # one that is longer than a page
+def test_the_decision_stands_on_the_first_page(twelve, tmp_path, language):
+    page = render_html(twelve, language)
+    assert measure_bottom(page, ".key", tmp_path) <= PRINTED_PX
 
 
 @pytest.mark.long
 def test_no_page_but_the_last_is_three_quarters_empty(twelve, tmp_path):
     shares = measure_pages(render_html(twelve, "fr"), tmp_path)
-    assert len(shares) > 15
+    assert len(shares) > 8
     assert min(shares[:-1]) > 0.25
 
 
@@ -205,15 +203,20 @@ def test_no_page_but_the_last_is_three_quarters_empty(twelve, tmp_path):
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_nothing_is_wider_than_the_paper(twelve, tmp_path, language):
     """A browser would shrink the whole report so that its widest table fits."""
-    assert list_too_wide(render_html(twelve, language), PAPER_PX, tmp_path) == []
+    assert (
+        list_too_wide(
+            render_html(twelve, language, has_annexes=True), PAPER_PX, tmp_path
+        )
+        == []
+    )
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_on_a_phone_only_tables_are_moved_sideways(twelve, tmp_path, language):
-    page = render_html(twelve, language, "summary")
+    page = render_html(twelve, language)
     wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
     assert {one.split()[1] for one in wide} <= {"table", "svg"}
 
 
 def test_paper_leaves_out_nothing(twelve, tmp_path):
-    assert list_hidden(render_html(twelve), tmp_path) == set()
+    assert list_hidden(render_html(twelve, has_annexes=True), tmp_path) == set()

@@ -22,7 +22,7 @@ _W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 NAMESPACE = f'xmlns:w="{_W}"'
 POINT = 20  # twentieths of a point, in which widths are counted
 SMALLEST_PT = 7.5
-_CELL_PT = 8.0
+_CELL_PT = 7.5
 _MARGIN_PT = 3.0  # left and right of the text of a cell
 _TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
 _SIGN = 0.57  # width of a sign in sizes of the font
@@ -31,8 +31,8 @@ _LONGEST_WORD = 22
 _CAPITAL = 0.35  # more than the width of another sign
 _WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
 _PART = "xxxxx"  # of a word of a heading that may stand alone
-_FEW_LINES = 6  # of a table that may be turned
 # Looks that are bold in a document.
+_SMALL_PIECES = (SMALL, "beside")
 _BOLD = ("strong", "name", "ratio", "figure", "hidden")
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
@@ -81,7 +81,7 @@ def write_runs(
     written = ""
     for one in runs:
         look = "<w:b/>" if is_bold or one.look in _BOLD else ""
-        if is_small or (is_small is None and one.look == SMALL):
+        if is_small or (is_small is None and one.look in _SMALL_PIECES):
             look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>'
         lowered = look + '<w:vertAlign w:val="subscript"/>'
         parts = _SUBSCRIPT.split(one.text) if one.has_symbols else [one.text]
@@ -114,16 +114,13 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
     Parameters
     ----------
     grid : Grid
-        Turned where its columns do not fit on the paper.
+        Its text is smaller where its columns do not fit on the paper.
     styles : tuple of str
         Ids of the style of tables and of that of the paragraphs in a cell.
     width_pt : float
         Between the margins of the page [pt].
     """
     least, wanted = _measure_columns(grid)
-    if sum(least) > width_pt and _may_turn(grid):
-        grid = _turn(grid)
-        least, wanted = _measure_columns(grid)
     is_tight = sum(least) > width_pt
     if is_tight:
         least, wanted = _measure_tight(grid)
@@ -149,25 +146,6 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         f"<w:tblGrid>{columns}</w:tblGrid>"
         f"{''.join(head if grid.headings else [])}{''.join(lines)}</w:tbl>"
     )
-
-
-def _turn(grid: Grid) -> Grid:
-    """The same grid, its columns below each other: few lines of many cells."""
-    first, *further = grid.headings
-    return Grid(
-        headings=(first, *(cells[0] for cells in grid.lines)),
-        numbers=(False, *(True for _ in grid.lines)),
-        lines=tuple(
-            (heading, *(cells[place] for cells in grid.lines))
-            for place, heading in enumerate(further, 1)
-        ),
-    )
-
-
-def _may_turn(grid: Grid) -> bool:
-    """Few lines, all of them of single cells below headings."""
-    is_plain = all(len(line) == len(grid.headings) for line in grid.lines)
-    return is_plain and len(grid.lines) <= _FEW_LINES
 
 
 def _write_line(
@@ -198,11 +176,15 @@ def _write_line(
 def _measure_columns(
     grid: Grid, *, is_tight: bool = False
 ) -> tuple[list[float], list[float]]:
-    """Widths of the longest word and of the longest line of each column [pt]."""
+    """Widths of the longest word and of the longest line of each column [pt].
+
+    Headings may be broken between their words.
+    """
     lines = [line for line in (grid.headings, *grid.lines) if len(line) > 1]
     texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
+    first = bool(grid.headings)
     least = [_measure(_list_words(column), is_tight) for column in texts]
-    wanted = [_measure(_list_lines(column), is_tight) for column in texts]
+    wanted = [_measure(_list_lines(column[first:]), is_tight) for column in texts]
     return least, [max(pair) for pair in zip(least, wanted, strict=True)]
 
 

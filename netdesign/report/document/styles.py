@@ -11,22 +11,19 @@ if TYPE_CHECKING:
 
 TITLE, HEADING, SUBHEADING, CAPTION = "Title", "Heading 1", "Heading 2", "Caption"
 TEXT, ITEM, SMALL, CELL = "Normal", "List Bullet", "netdesign small", "netdesign cell"
-VERDICT, TABLE, CONTENTS = "netdesign verdict", "netdesign table", "toc 1"
-CONTENTS_HEADING = "TOC Heading"
+VERDICT, TABLE = "netdesign verdict", "netdesign table"
 
 # Size [pt], bold, space above and below [pt], stays with what follows.
 _LOOKS: dict[str, tuple[float, bool, float, float, bool]] = {
-    TITLE: (22.0, True, 0.0, 6.0, True),
-    HEADING: (15.0, True, 18.0, 6.0, True),
-    SUBHEADING: (11.5, True, 9.0, 3.0, True),
-    CAPTION: (8.5, False, 6.0, 2.0, True),
-    TEXT: (9.5, False, 0.0, 5.0, False),
-    ITEM: (9.5, False, 0.0, 2.0, False),
-    SMALL: (8.0, False, 2.0, 4.0, False),
-    CELL: (8.0, False, 0.4, 0.4, False),
-    VERDICT: (20.0, True, 6.0, 4.0, True),
-    CONTENTS: (9.5, False, 0.0, 2.0, False),
-    CONTENTS_HEADING: (15.0, True, 18.0, 6.0, True),
+    TITLE: (17.0, True, 0.0, 4.0, True),
+    HEADING: (14.0, True, 8.0, 3.0, True),
+    SUBHEADING: (9.5, True, 5.0, 2.0, True),
+    CAPTION: (7.5, False, 4.0, 1.0, True),
+    TEXT: (8.5, False, 0.0, 3.0, False),
+    ITEM: (8.0, False, 0.0, 1.0, False),
+    SMALL: (7.5, False, 1.0, 3.0, False),
+    CELL: (7.5, False, 0.2, 0.2, False),
+    VERDICT: (16.0, True, 4.0, 3.0, True),
 }
 NAMES = (*_LOOKS, TABLE)
 _OWN = "netdesign"  # beginning of the names that are ours
@@ -117,7 +114,7 @@ def _shape(style: Any, name: str) -> None:
 
 
 def _set_level(style: Any, level: int) -> None:
-    """Outline level, by which contents and readers aloud find a heading."""
+    """Outline level, by which readers aloud find a heading."""
     from docx.oxml import parse_xml
 
     from netdesign.report.document.markup import NAMESPACE

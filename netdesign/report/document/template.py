@@ -35,7 +35,7 @@ _TYPES = "[Content_Types].xml"
 _TEMPLATE = b"wordprocessingml.template.main+xml"
 _DOCUMENT = b"wordprocessingml.document.main+xml"
 _A4_MM = (210.0, 297.0)
-_MARGIN_MM = 20.0
+_MARGIN_MM = 15.0
 
 
 def require_docx() -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Sequence
-from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
@@ -19,8 +18,8 @@ from netdesign.report.blocks import (
     STRONG,
     Block,
     Cell,
-    Contents,
     Figure,
+    Figures,
     Heading,
     Items,
     Pairs,
@@ -42,7 +41,7 @@ from netdesign.report.document.markup import (
 )
 from netdesign.report.document.template import open_document, pack, set_properties
 from netdesign.report.drawing.raster import read_size, read_title, render_png
-from netdesign.report.sections.whole import Detail, build_report, list_properties
+from netdesign.report.sections.whole import build_report, list_properties
 from netdesign.report.words import VERDICTS, Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
@@ -112,10 +111,16 @@ def _add_svg(document: Document, svg: str, number: int) -> str:
     return document.part.relate_to(part, RELATIONSHIP_TYPE.IMAGE)
 
 
+_SHEET = "sheet"  # look of a part that begins a page
 _HIGHEST = 0.8  # of a page that a drawing may take
+_BETWEEN = 6.0  # drawings in one line [pt]
 _VERDICTS = tuple(signs.symbol for signs in VERDICTS.values())
-_STYLES = {"kind": styles.SMALL, "word": styles.VERDICT}  # of looks; else plain text
-_SMALL_LOOKS = ("small", "none", "caption")
+_STYLES = {
+    "kind": styles.SMALL,
+    "meta": styles.SMALL,
+    "word": styles.VERDICT,
+}  # of looks; else plain text
+_SMALL_LOOKS = ("small", "none", "key", "meaning")
 
 
 @dataclass(kw_only=True)
@@ -126,16 +131,13 @@ class Writer:
     words: Words
     headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
-    is_wide: bool = False  # on pages that stand across
     begins_page: bool = False  # the next heading
-    place_of_contents: Any = None
 
     @property
     def width_pt(self) -> float:
         """Width between the margins [pt]."""
         page: Any = self.document.sections[-1]
-        across = page.page_height if self.is_wide else page.page_width
-        return float(across - page.left_margin - page.right_margin) / _EMU
+        return float(page.page_width - page.left_margin - page.right_margin) / _EMU
 
     @cached_property
     def height_pt(self) -> float:
@@ -148,10 +150,9 @@ class Writer:
         return {name: styles.find_id(self.document, name) for name in styles.NAMES}
 
     def write(self, blocks: Sequence[Block]) -> None:
-        """All blocks, and the contents, which are known at the end."""
+        """All blocks."""
         for block in blocks:
             self._write_block(block)
-        self._fill_contents()
 
     def _write_block(self, block: Block) -> None:
         if isinstance(block, Heading | Paragraph) and block.on == "page":
@@ -163,7 +164,7 @@ class Writer:
             Pairs: lambda pairs: self._add_grid((), _list_pairs(pairs)),
             Table: self._write_table,
             Figure: self._write_figure,
-            Contents: self._open_contents,
+            Figures: self._write_figures,
             Part: self._write_part,
         }
         writers[type(block)](block)
@@ -171,15 +172,9 @@ class Writer:
     def _write_part(self, block: Part) -> None:
         if block.fold:
             return
-        if block.look == "wide":
-            self._end_section()
-            self.is_wide = True
-        self.begins_page = block.look == "row"
+        self.begins_page = self.begins_page or _SHEET in block.look.split()
         for one in block.blocks:
             self._write_block(one)
-        if block.look == "wide":
-            self._end_section()
-            self.is_wide = False
 
     def _write_items(self, block: Items) -> None:
         for number, item in enumerate(block.items, 1):
@@ -189,17 +184,12 @@ class Writer:
             else:
                 self._add_paragraph(runs, styles.ITEM)
 
-    def _open_contents(self, block: Contents) -> None:
-        """Heading of the contents, and a line in whose place they come."""
-        self._add_paragraph(list_runs(block.heading), styles.CONTENTS_HEADING)
-        self._add_paragraph((), styles.CONTENTS)
-        self.place_of_contents = self.document.element.body.sectPr.getprevious()
-
     def _write_heading(self, block: Heading) -> None:
         runs = list_runs(block.text)
         if block.level != 2:
             style = styles.TITLE if block.level == 1 else styles.SUBHEADING
             self._add_paragraph(runs, style)
+            self.begins_page = False
             return
         number = len(self.headings) + 1
         mark = f"_Toc{number:08d}"
@@ -230,58 +220,40 @@ class Writer:
         self._write_text(Paragraph(text=told, look="none"))
 
     def _write_figure(self, block: Figure) -> None:
-        self.pictures += 1
-        most = (self.width_pt, _HIGHEST * self.height_pt)
-        runs = write_picture(self.document, block.svg, self.pictures, most)
-        look = "<w:keepNext/>" if block.caption else ""
+        self._write_figures(Figures(figures=(block,)))
+
+    def _write_figures(self, block: Figures) -> None:
+        """Drawings in one line, smaller where that is too narrow; captions below."""
+        sizes = [read_size(one.svg) for one in block.figures]
+        room = self.width_pt - _BETWEEN * (len(sizes) - 1)
+        share = min(1.0, room / sum(width for width, _ in sizes))
+        runs = ""
+        for one, (width, _) in zip(block.figures, sizes, strict=True):
+            self.pictures += 1
+            most = (share * width, _HIGHEST * self.height_pt)
+            runs += write_picture(self.document, one.svg, self.pictures, most)
+        captions = [one.caption for one in block.figures if one.caption]
+        look = "<w:keepNext/>" if captions else ""
         self._add(write_paragraph(runs, self._ids[styles.TEXT], look))
-        if block.caption:
-            self._add_paragraph(list_runs(block.caption), styles.SMALL)
+        told = tuple(x for one in captions for x in (*list_runs(one), Piece(" ")))
+        if told:
+            self._add_paragraph(told, styles.SMALL)
 
     def _add(self, markup: str) -> None:
         """Put a paragraph or table at the end of the text."""
         self.document.element.body.sectPr.addprevious(parse(markup))
-
-    def _end_section(self) -> None:
-        """End of pages that stand upright, or across."""
-        from docx.oxml.ns import qn
-
-        page = deepcopy(self.document.element.body.sectPr)
-        size = page.find(qn("w:pgSz"))
-        if self.is_wide and size is not None:
-            width, height = (size.get(qn(f"w:{one}")) for one in ("w", "h"))
-            size.set(qn("w:w"), height)
-            size.set(qn("w:h"), width)
-            size.set(qn("w:orient"), "landscape")
-        last = parse(write_paragraph("", self._ids[styles.SMALL]))
-        last.get_or_add_pPr().append(page)
-        self.document.element.body.sectPr.addprevious(last)
 
     def _add_paragraph(self, runs: Runs, style: str) -> None:
         self._add(write_paragraph(write_runs(runs), self._ids[style]))
 
     def _add_grid(self, caption: Runs, grid: Grid) -> None:
         """Table below its caption; tables never touch, or a reader would join them."""
-        named = any(one.text for one in caption)
-        self._add_paragraph(caption if named else (Piece("\u00a0"),), styles.CAPTION)
+        last = self.document.element.body.sectPr.getprevious()
+        is_table = last is not None and last.tag.endswith("}tbl")
+        if is_table or any(one.text for one in caption):
+            self._add_paragraph(caption or (Piece("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
         self._add(write_table(grid, both, self.width_pt))
-
-    def _fill_contents(self) -> None:
-        """Lines of the contents: a field that Word keeps up to date."""
-        mark, last = self.place_of_contents, len(self.headings) - 1
-        if mark is None:
-            return
-        for number, (name, text) in enumerate(self.headings):
-            link = (
-                f'<w:hyperlink w:anchor="{name}"><w:r><w:t xml:space="preserve">'
-                f"{escape(make_printable(text))}</w:t></w:r></w:hyperlink>"
-            )
-            runs = (_OPEN_CONTENTS if number == 0 else "") + link
-            runs += _field("end") if number == last else ""
-            line = write_paragraph(runs, self._ids[styles.CONTENTS])
-            mark.addprevious(parse(line))
-        mark.getparent().remove(mark)
 
 
 def _list_pairs(block: Pairs) -> Grid:
@@ -328,13 +300,6 @@ def _instruct(text: str) -> str:
     return f'<w:r><w:instrText xml:space="preserve"> {text} </w:instrText></w:r>'
 
 
-_OPEN_CONTENTS = (
-    _field("begin", ' w:dirty="true"')
-    + _instruct(r'TOC \o "1-1" \h \z')
-    + _field("separate")
-)
-
-
 def write_field(instruction: str, shown: str = "") -> str:
     """Runs of a field that a word processor works out, as PAGE."""
     cached = f"<w:r><w:t>{escape(shown)}</w:t></w:r>" if shown else ""
@@ -350,9 +315,9 @@ def write_field(instruction: str, shown: str = "") -> str:
 def render_document(
     study: Study,
     language: Language = "en",
-    detail: Detail = "full",
     template: bytes | None = None,
     *,
+    has_annexes: bool = False,
     is_verified: bool = False,
 ) -> bytes:
     """Document of a study; the same study and template give the same bytes.
@@ -363,10 +328,10 @@ def render_document(
         What is shown.
     language : str
         ``en``, ``fr`` or ``de``.
-    detail : str
-        ``summary`` leaves out the pages of net rows and the annexes.
     template : bytes, optional
         Docx whose styles, page, header and footer are kept.
+    has_annexes : bool
+        All checks step by step, other laws, cases and profile follow.
     is_verified : bool
         The stored study was solved again in this run.
     """
@@ -376,7 +341,9 @@ def render_document(
     styles.set_language(document, language)
     to = Writer(document=document, words=words)
     _write_footer(to, properties["subject"])
-    blocks = build_report(study, words, detail, is_verified=is_verified)
+    blocks = build_report(
+        study, words, has_annexes=has_annexes, is_verified=is_verified
+    )
     to.write(blocks)
     set_properties(document, **properties)
     return pack(document)

@@ -61,7 +61,8 @@ GREY = "#7d838b"  # of lines; words of that grey are too pale to read
 SOFT = "#596069"
 PALE = "#d3d7dc"
 SNOW = "#f3f5f7"
-ACCENT = "#b23a1e"  # forces and what governs; nothing else
+ACCENT = "#b23a1e"  # what fails, and what governs; nothing else
+BLUE = "#1d4f80"  # of the model: its forces and pressures
 TEXT_PT = 8.0  # not less on paper, where a drawing is 180 mm wide
 WIDTH = 72.0 * 6.9  # of every chart: the print area of A4 [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
@@ -219,28 +220,16 @@ class Chart:
         *,
         stroke: str,
         width: float,
-        clip: str = "",
     ) -> None:
-        """Loose lines in one path; ``clip`` names an area that bounds them.
-
-        Those too short to be seen are left out.
-        """
+        """Loose lines in one path; those too short to be seen are left out."""
         path = "".join(
             _write_segment(a, b) for a, b in pairs if math.dist(a, b) > _SHORTEST
         )
-        within = f' clip-path="url(#{clip})"' if clip else ""
         if path:
             self.shapes.append(
                 f'<path d="{path}" fill="none" stroke="{stroke}" '
-                f'stroke-width="{width}"{within}/>'
+                f'stroke-width="{width}"/>'
             )
-
-    def clip_area(self, name: str, points: Sequence[Point]) -> None:
-        """Define an area that may bound other shapes."""
-        path = _list_points(points)
-        self.shapes.append(
-            f'<clipPath id="{name}"><polygon points="{path}"/></clipPath>'
-        )
 
     def arrow(
         self, start: Point, tip: Point, *, stroke: str = ACCENT, width: float = 1.5

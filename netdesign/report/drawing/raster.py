@@ -30,11 +30,10 @@ Look = Mapping[str, str]
 
 @dataclass(frozen=True, slots=True)
 class _Paper:
-    """Surface to draw on: a renderer, its height, areas that bound shapes."""
+    """Surface to draw on: a renderer and its height."""
 
     renderer: Any  # matplotlib's, which has no types
     height: float  # [pt]
-    clips: dict[str, Path]
 
 
 def read_size(svg: str) -> tuple[float, float]:
@@ -62,7 +61,7 @@ def render_png(svg: str) -> bytes:
     root = ElementTree.fromstring(svg)
     width, height = read_size(svg)
     size = (round(width * _SCALE), round(height * _SCALE))
-    paper = _Paper(new_renderer(*size, DOTS_PER_INCH), height, {})
+    paper = _Paper(new_renderer(*size, DOTS_PER_INCH), height)
     for shape, look in _list_shapes(root, {}):
         _draw(paper, shape, look)
     return _write_png(paper.renderer)
@@ -88,8 +87,6 @@ def _draw(paper: _Paper, shape: ElementTree.Element, look: Look) -> None:
     kind = _name(shape)
     if kind == "text":
         _write(paper, shape.text or "", look)
-    elif kind == "clipPath":
-        paper.clips[look["id"]] = _trace(paper, "polygon", shape[0].attrib)
     else:
         _paint(paper, _trace(paper, kind, look), look)
 
@@ -170,7 +167,7 @@ def _place(paper: _Paper, path: Path) -> Path:
 
 def _paint(paper: _Paper, path: Path, look: Look) -> None:
     from matplotlib.colors import to_rgba
-    from matplotlib.transforms import IdentityTransform, TransformedPath
+    from matplotlib.transforms import IdentityTransform
 
     pen = paper.renderer.new_gc()
     stroke, fill = look.get("stroke", "none"), look.get("fill", "none")
@@ -180,9 +177,6 @@ def _paint(paper: _Paper, path: Path, look: Look) -> None:
     pen.set_joinstyle("miter")
     if look.get("stroke-dasharray"):
         pen.set_dashes(0, [float(n) for n in look["stroke-dasharray"].split()])
-    if look.get("clip-path"):
-        name = look["clip-path"].removeprefix("url(#").removesuffix(")")
-        pen.set_clip_path(TransformedPath(paper.clips[name], IdentityTransform()))
     inside = None if fill == "none" else to_rgba(fill)
     paper.renderer.draw_path(pen, path, IdentityTransform(), inside)
 

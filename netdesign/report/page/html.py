@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from netdesign.report.blocks import link
 from netdesign.report.page.render import render_page
-from netdesign.report.sections.whole import (
-    Detail,
-    build_report,
-    title_pages,
-)
+from netdesign.report.sections.whole import build_report, title_pages
 from netdesign.report.what_if import mark_verdict
 from netdesign.report.words import Words
 from netdesign.study.records import Study
@@ -18,8 +14,8 @@ from netdesign.words.catalogue import Language
 def render_html(
     study: Study,
     language: Language = "en",
-    detail: Detail = "full",
     *,
+    has_annexes: bool = False,
     is_verified: bool = False,
 ) -> str:
     """Page of a study.
@@ -30,15 +26,17 @@ def render_html(
         What is shown.
     language : str
         ``en``, ``fr`` or ``de``.
-    detail : str
-        ``summary`` leaves out the pages of net rows and the annexes.
+    has_annexes : bool
+        All checks step by step, other laws, cases and profile follow.
     is_verified : bool
         The stored study was solved again in this run.
     """
     words = Words(language)
     running = title_pages(study, words)
     title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
-    blocks = build_report(study, words, detail, is_verified=is_verified)
+    blocks = build_report(
+        study, words, has_annexes=has_annexes, is_verified=is_verified
+    )
     return render_page(
         blocks,
         " - ".join(title),

@@ -169,13 +169,23 @@ def write_line(cells: Sequence[Cell], table: Table) -> Markup:
     if len(cells) == 1 < len(table.columns):
         form = '<tr class="more"><td colspan="{}">{}</td></tr>'
         return Markup(form).format(len(table.columns), _write_cell(cells[0], table))
-    looks = [f"{_mark_column(column)}>" for column in table.columns]
+    is_card = "cards" in table.look
+    looks = [
+        f"{_mark_column(column)}{_name_cell(column) if is_card else ''}>"
+        for column in table.columns
+    ]
     texts = [_write_cell(cell, table) for cell in cells]
     written = [
         f"<td{look}{text}</td>" for look, text in zip(looks[1:], texts[1:], strict=True)
     ]
     first = f'<th scope="row"{looks[0]}{texts[0]}</th>' if texts[0] else "<td></td>"
     return Markup(f"<tr>{first}{''.join(written)}</tr>")
+
+
+def _name_cell(column: Column) -> Markup:
+    """Heading of a cell, for screens on which its column has none."""
+    heading = column.heading.replace("\n", " ").replace("_", "")
+    return Markup(' data-h="{}"').format(heading)
 
 
 def _write_cell(cell: Cell, table: Table) -> str:

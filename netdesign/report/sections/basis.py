@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
-    Cell,
-    Column,
-    Heading,
-    Items,
     Pair,
     Pairs,
     Paragraph,
@@ -22,8 +19,9 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
+from netdesign.report.sections.assumed import ALTITUDE, DEFAULT
+from netdesign.report.sections.tested import show_tests
 from netdesign.report.words import (
-    MISSING,
     Words,
     name_heading,
     show_own,
@@ -35,10 +33,6 @@ from netdesign.site.model import InputEcho
 from netdesign.study.records import ProfileRecord, RowStudy, Study
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
-
-DEFAULT = "default"  # cell of an input that nobody typed
-_ACROSS = 8  # rows of nets beside each other on a page
-_BY_DEFAULT, _DERIVED = "*", "‡"
 
 
 def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Table:
@@ -63,74 +57,6 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
         ),
         empty=words("show.none"),
     )
-
-
-def show_inputs(study: Study, words: Words) -> Part:
-    """Section of all rows' inputs as understood, a column for each row."""
-    starts = range(0, max(len(study.rows), 1), _ACROSS)
-    tables = [_build_inputs(study.rows[k : k + _ACROSS], words) for k in starts]
-    return section(
-        "inputs",
-        words("heading.inputs_of_rows"),
-        *(one.shown("site-inputs") for one in tables),
-        look="wide",
-    )
-
-
-def _build_inputs(rows: Sequence[RowStudy], words: Words) -> Table:
-    """Inputs of some rows; one that all of them leave empty is left out."""
-    lines: dict[tuple[str, str], dict[str, InputEcho]] = {}
-    for row in rows:
-        for echo in row.inputs:
-            place = (words.show(echo.label), echo.unit)
-            lines.setdefault(place, {})[row.id] = echo
-    return Table(
-        caption=words("caption.site_inputs"),
-        columns=(
-            *key_columns(words, "heading.", ("input", "column_of", "unit")),
-            *(Column(heading=show_text(row.id)) for row in rows),
-        ),
-        rows=tuple(
-            (
-                text_cell(label),
-                text_cell(_name_column(list(by_row.values()))),
-                text_cell(show_unit(unit)),
-                *(_show_input(by_row.get(row.id), words) for row in rows),
-            )
-            for (label, unit), by_row in lines.items()
-            if any(echo.value not in ("", row_id) for row_id, echo in by_row.items())
-        ),
-        empty=words("show.none"),
-    )
-
-
-def _show_input(echo: InputEcho | None, words: Words) -> Cell:
-    if echo is None or echo.value == "":
-        return text_cell(MISSING)
-    mark = _BY_DEFAULT if echo.cell == DEFAULT else ""
-    text = show_value(echo, words)
-    return text_cell(text + mark + (_DERIVED if echo.derivation else ""))
-
-
-def show_value(echo: InputEcho, words: Words) -> str:
-    """Input as it was typed; a length that follows from others, in cm."""
-    value = understand(echo, words)
-    if isinstance(value, str):
-        return value
-    is_length = echo.unit == "m" and echo.derivation
-    return words.show_fixed(value, 2) if is_length else words.show_given(value)
-
-
-def _name_column(echoes: Sequence[InputEcho]) -> str:
-    """Sheet and column of an input, of the rows that have it: ``Nets!C``.
-
-    A cell that several rows share stands whole: its value holds for all of them.
-    """
-    cells = [echo.cell for echo in echoes if echo.cell != DEFAULT]
-    places = {
-        one if cells.count(one) > 1 else one.rstrip("0123456789") for one in cells
-    }
-    return ", ".join(sorted(places))
 
 
 _ASSUMED = "assumed"  # status of a value that nobody has confirmed
@@ -206,83 +132,94 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
 
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
-_READING = (
-    *("reading.checks", "caption.chains", "caption.arrows", "reading.pressure"),
-    *("panel_view.caption", "reading.search"),
-    "reading.directions",
-)
-# Left empty, its factor is taken by the guideline's load.
-_ALTITUDE = say("column.Nets.altitude")
+_READING = ("reading.checks", "reading.search", "reading.directions")
 _NAME = say("column.Nets.id")
 # Net rows of which each is named; of more, those that are left out may be fewer.
-_FEW_ROWS = 8
+_FEW_ROWS, _TWO = 8, 2
 
 
 def show_basis(study: Study, words: Words) -> Part:
-    """Statements that hold for all rows."""
-    reading = tuple(symbols(one) for one in list_reading(study, words))
-    defaults = list_defaults(study, words)
-    notes = list_notes(study, words)
-    listed: dict[str, tuple[Block, ...]] = {
-        "scope": list_scope(study, words),
-        "limit_profile": tuple(_list_profile(study, words)),
-        "ranges": (show_ranges(study, words).shown("inputs"),),
-        "not_typed": (_list(defaults, words),),
-        "notes": (_list(notes, words),),
-        "reading": (Items(items=reading, look="small"),),
-    }
-    sections = (
-        section(name, words(f"heading.{name}"), *blocks, level=3)
-        for name, blocks in listed.items()
-    )
-    heading = Heading(text=words("heading.basis"), level=2)
-    return Part(kind="article", id="basis", blocks=(heading, *sections))
-
-
-def list_scope(study: Study, words: Words) -> tuple[Block, ...]:
-    """Statements of what is treated, and who must check what is not."""
-    return Paragraph(text=words("scope.treated")), _tabulate_scope(study, words)
-
-
-def _list(sentences: Sequence[str], words: Words) -> Block:
-    if not sentences:
-        return Paragraph(text=words("show.none"), look="none")
-    return Items(items=tuple(sentences))
-
-
-def _tabulate_scope(study: Study, words: Words) -> Table:
-    """Topics that the study does not treat, those that its profile leaves out first."""
-    return Table(
-        caption=words("scope.decision"),
-        columns=key_columns(words, "heading.", ("not_treated", "who_checks")),
-        rows=tuple(
-            (text_cell(words(f"scope.{key}")), text_cell(words(f"scope.{key}_by")))
-            for key in (*study.profile.not_checked, *_SCOPE)
+    """Statements that hold for all rows: limits of the report, profile, tests."""
+    blocks: tuple[Block, ...] = (
+        Paragraph(text=words("scope.decision"), look="small"),
+        Pairs(pairs=tuple(_list_scope(study, words)), look="keys"),
+        Pairs(
+            pairs=(
+                *_list_documents(study, words),
+                *_list_approvals(study, words),
+                *_list_profile(study, words),
+            ),
+            look="keys",
         ),
-        look="scope",
+        *show_tests(study, words),
     )
+    return section("basis", words("heading.basis"), *blocks, level=3, look="basis")
 
 
-def _list_profile(study: Study, words: Words) -> Iterator[Block]:
+def _list_scope(study: Study, words: Words) -> Iterator[Pair]:
+    """Who must check what the study does not treat; what its profile leaves out first.
+
+    What one of them has to check stands together.
+    """
+    found: dict[str, list[str]] = {}
+    for key in (*study.profile.not_checked, *_SCOPE):
+        found.setdefault(words(f"scope.{key}_by"), []).append(words(f"scope.{key}"))
+    for who, topics in found.items():
+        yield Pair(name=who, text=words.join(topics))
+
+
+def _list_profile(study: Study, words: Words) -> Iterator[Pair]:
     """The limit profile in some lines, and the least load."""
     profile = study.profile
     assumed, count = count_assumed(study)
     told = {
         "limit_profile": name_profile(study, words),
-        "profile_version": profile.version,
-        "profile_choice": show_own(words, profile.choice_text or profile.choice),
+        "profile_choice": _name_choice(profile, words),
         "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
         "floor": describe_floor(study, words),
+        "odd_values": words.join(list_odd_values(profile, words)),
     }
-    pairs = tuple(
-        Pair(name=words(f"heading.{key}"), text=show_text(text))
-        for key, text in told.items()
-        if text
-    )
-    yield Pairs(pairs=pairs, look="keys")
-    odd = list_odd_values(profile, words)
-    if odd:
-        yield Items(items=odd)
+    for key, text in told.items():
+        if text:
+            named = words(f"heading.{key}")
+            yield Pair(name=named, text=symbols(show_text(text)))
+
+
+_DOCUMENTS = ("snow_document", "glide_document", "ground_document")
+
+
+def _list_documents(study: Study, words: Words) -> Iterator[Pair]:
+    """Where snow heights, glide factors and the ground come from."""
+    project = study.project
+    told = (project.snow_document, project.glide_document, project.ground_document)
+    lacking = []
+    for key, text in zip(_DOCUMENTS, told, strict=True):
+        name = words(f"documents.{key}")
+        if text:
+            yield Pair(name=name, text=show_text(text))
+        else:
+            lacking.append(name)
+    if lacking:
+        asked = words("documents.to_confirm", what=words.join(lacking))
+        yield Pair(name=words("documents.lacking"), text=asked)
+
+
+def _list_approvals(study: Study, words: Words) -> Iterator[Pair]:
+    """Values of rows beside the limits of their approvals."""
+    found: dict[str, list[str]] = {}
+    for row in study.rows:
+        for one in row.checks:
+            if one.mode == "approval" and one.finding is not None:
+                found.setdefault(words.show(one.finding), []).append(row.id)
+    if found:
+        told = label_rows(found, study, words)
+        yield Pair(name=words("documents.approvals"), text=symbols("\n".join(told)))
+
+
+def _name_choice(profile: ProfileRecord, words: Words) -> str:
+    """Set of factors in force; "" of a profile that has one alone."""
+    named = profile.choice_text or profile.choice
+    return show_own(words, named) if named else ""
 
 
 def has_other_floor(study: Study) -> bool:
@@ -332,45 +269,28 @@ def list_notes(study: Study, words: Words) -> list[str]:
     ]
 
 
-# Notes on what is known beside the verdict: they stand with the second opinions.
-_BESIDE = ("model_code", "loaded_net", "guys_in_snow")
-# Told among the points that are open; the schedule has the dip of every borehole.
-_OPEN = "row.borehole_rises"
+# Notes that ask nothing of anyone: no number of them decides.
+_BESIDE = (
+    *("row.model_code", "row.model_code_above", "row.loaded_net", "row.guys_in_snow"),
+    *("row.shared_sum", "row.base_friction"),
+)
+# The schedule has the dip of every bore, and marks what is flat or weak.
+_IN_SCHEDULE = ("row.borehole_flat", "row.drilled_along_pull", "row.weak_tendon")
 
 
 def is_of_row(note: Message) -> bool:
-    """A note for the page of its row: neither an open point nor beside the verdict."""
-    return note.key != _OPEN and not is_beside_verdict(note)
-
-
-def is_beside_verdict(note: Message) -> bool:
-    """A note that asks nothing of anyone, as no number of it decides."""
-    return note.key.rpartition(".")[2] in _BESIDE
+    """A note for the page of its row: not in the schedule, nor beside the verdict."""
+    return note.key not in (*_IN_SCHEDULE, *_BESIDE)
 
 
 def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
     """Notes that several rows have, word by word, with the rows: told once."""
-    notes = group_notes(study, words, is_beside=False)
-    return {note: ids for note, ids in notes.items() if len(ids) > 1}
-
-
-def group_notes(
-    study: Study, words: Words, *, is_beside: bool, but: Sequence[str] = ()
-) -> dict[str, list[str]]:
-    """Rows of each note, word by word: of those beside the verdict, or the others.
-
-    Left out are those with the keys ``but``.
-    """
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        notes = [
-            one
-            for one in row.notes
-            if one.key not in (_OPEN, *but) and is_beside_verdict(one) is is_beside
-        ]
-        for note in dict.fromkeys(words.show(one) for one in notes):
+        notes = (words.show(one) for one in row.notes if is_of_row(one))
+        for note in dict.fromkeys(notes):
             rows.setdefault(note, []).append(show_text(row.id))
-    return rows
+    return {note: ids for note, ids in rows.items() if len(ids) > 1}
 
 
 def list_reading(study: Study, words: Words) -> tuple[str, ...]:
@@ -405,7 +325,7 @@ def list_defaults(study: Study, words: Words) -> list[str]:
             if echo.cell == DEFAULT and echo.value != "":
                 shown = words.show_quantity(understand(echo, words), echo.unit)
                 found.setdefault((label, shown), []).append(place)
-            elif echo.label == _ALTITUDE and echo.value == "":
+            elif echo.label == ALTITUDE and echo.value == "":
                 shown = words("show.largest_altitude_factor")
                 found.setdefault((label, shown), []).append(place)
     return [
@@ -448,7 +368,7 @@ def label_rows(
 
 
 def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
-    """Names of net rows; of a large site all of them, or all but a few, in a phrase.
+    """Names of net rows; all of them, or of a large site all but a few, in a phrase.
 
     What is named beside them, such as the ranges, stands before.
     """
@@ -456,8 +376,16 @@ def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
     beside = [name for name in names if name not in ids]
     others = [name for name in ids if name not in names]
     is_short = len(names) <= len(others)
-    if len(ids) <= _FEW_ROWS or len(others) > _FEW_ROWS or is_short:
+    most = _FEW_ROWS if others else _TWO
+    if len(ids) <= most or len(others) > _FEW_ROWS or is_short:
         return ", ".join(names)
     key = "show.all_rows_but" if others else "show.all_rows"
     told = words(key, count=len(ids), others=", ".join(others))
     return ", ".join([*beside, told])
+
+
+def describe_cases(study: Study, words: Words) -> str:
+    """Cases with and without a result."""
+    cases = [case for row in study.rows for case in row.cases]
+    failed = sum(case.outcome is not Outcome.CONVERGED for case in cases)
+    return words("show.cases_solved", solved=len(cases) - failed, failed=failed)

@@ -1,4 +1,4 @@
-"""First page: the verdict of each row, what is open, room to sign."""
+"""First page: the decision, its matrix, what is to be done, room to sign."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import shlex
 from collections.abc import Iterator
 
 from netdesign.checks.check import Check
-from netdesign.outcome import SEVERITY, Verdict
+from netdesign.outcome import SEVERITY
 from netdesign.report.blocks import (
-    HIDDEN,
-    Badge,
+    SMALL,
     Block,
     Cell,
     Content,
@@ -22,94 +21,60 @@ from netdesign.report.blocks import (
     Piece,
     Table,
     key_columns,
-    masthead,
-    name_columns,
-    section,
     strong,
+    symbols,
     text_cell,
 )
+from netdesign.report.sections.assumed import list_assumed
+from netdesign.report.sections.bars import draw_bar, show_rated, sign
 from netdesign.report.sections.basis import (
     anchor_rows,
     count_assumed,
     describe_floor,
     has_other_floor,
-    label_rows,
-    list_defaults,
+    list_notes,
     name_profile,
     name_rows,
 )
-from netdesign.report.sections.checks import (
-    badge_cell,
-    describe_briefly,
-    describe_cause,
-    list_flips,
-    name_checks,
-    name_few,
-    show_used,
+from netdesign.report.sections.checks import describe_briefly, describe_cause
+from netdesign.report.sections.open_points import list_conditions, show_line
+from netdesign.report.sections.rated import (
+    ANCHORS,
+    find_deciding,
+    find_structure,
+    list_anchor,
+    rate,
+    rate_scope,
+    show_need,
 )
-from netdesign.report.sections.scopes import list_exceeding, show_scope
+from netdesign.report.sections.scopes import list_exceeding
 from netdesign.report.what_if import build_what_if, mark_verdict, name_kind, name_study
-from netdesign.report.words import (
-    MISSING,
-    VERDICTS,
-    Words,
-    show_check,
-    show_member,
-    show_text,
-)
-from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
+from netdesign.report.words import Words, show_text
 from netdesign.study.document import compute_digest
-from netdesign.study.governing import find_governing
-from netdesign.study.records import RowStudy, Study
-from netdesign.study.scopes import SCOPES
-from netdesign.study.to_do import ToDo
-from netdesign.words.names import name
+from netdesign.study.records import RowStudy, Study, find_input
+from netdesign.study.scopes import Scope
+from netdesign.study.to_do import WHO, list_to_do
+from netdesign.words.names import name, name_check
 
-_FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
-_FEW_ROWS = 8  # of more, a matrix of rows by members shows where to look
+_SHOWN = (0.95, 0.54)  # utilisations of the legend
 
 
-def show_title(study: Study, words: Words, *, is_verified: bool = False) -> Part:
-    """Name of the project; of a what-if, what was replaced."""
-    more: list[Block] = []
-    if study.what_if:
-        more.append(Paragraph(text=strong(words("what_if.mark")), look="word"))
-        more.append(build_what_if(study, words))
-    title = show_text(study.project.name)
-    return masthead(name_kind(study, words, is_verified=is_verified), title, *more)
-
-
-def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
-    """Verdict, rows, open points, signatures; links to pages of rows if it has any."""
-    verdict = mark_verdict(study, words)
-    card = Part(
-        kind="div",
-        look=f"card {verdict.style}",
-        blocks=(
-            Paragraph(text=(Badge(verdict, "word"),), look="word"),
-            Paragraph(text=verdict.meaning, look="meaning"),
-        ),
-    )
-    heading = Heading(text=words("heading.verdict"), level=2, look=HIDDEN, on="page")
-    matrix: tuple[Block, ...] = ()
-    has_forces = any(one.is_of_force for row in study.rows for one in row.checks)
-    if len(study.rows) > _FEW_ROWS and has_forces:
-        matrix = (build_matrix(study, words).shown("matrix"),)
-    todo = tuple(list_open_points(study, words)) or (words("todo.none"),)
-    pairs = tuple(Pair(name=a, text=b) for a, b in identify(study, words))
+def show_decision(study: Study, words: Words, *, is_verified: bool = False) -> Part:
+    """All of the first page; links to the pages of rows."""
     return Part(
         id="decision",
+        look="sheet",
         blocks=(
-            heading,
-            card,
-            Pairs(pairs=pairs, look="pairs"),
-            _tabulate_rows(study, words, has_rows=has_rows),
-            *matrix,
-            section(
-                "todo",
-                words("heading.todo"),
-                Items(items=todo, look="numbered"),
-                level=3,
+            *_show_title(study, words, is_verified=is_verified),
+            Paragraph(text=_name_rows_by_state(study, words), look="say"),
+            *_show_matrix(study, words),
+            Part(
+                kind="div",
+                look="two",
+                blocks=(
+                    Part(kind="div", blocks=tuple(_show_to_do(study, words))),
+                    _show_assumed(study, words),
+                ),
             ),
             *_show_conditions(study, words),
             _sign(study, words),
@@ -117,25 +82,199 @@ def show_decision(study: Study, words: Words, *, has_rows: bool) -> Part:
     )
 
 
-def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
-    """What has to hold beside the checks; nothing where there is none."""
-    lines = list_conditions(study, words)
-    if lines:
-        shown = Items(items=tuple(lines), look="numbered")
-        yield section("conditions", words("heading.conditions"), shown, level=3)
-
-
-def list_conditions(study: Study, words: Words) -> list[str]:
-    """What has to hold beside the checks, with who sees to it, and for which rows."""
-    return [
-        words(
-            "condition.line",
-            who=words.show(name("who", one.who)),
-            rows=show_text(name_rows(one.rows, study, words)),
-            text=words.show(one.message),
-        )
-        for one in study.conditions
+def _show_title(study: Study, words: Words, *, is_verified: bool) -> Iterator[Block]:
+    """Kind and title; of a what-if, what was replaced."""
+    project, verdict = study.project, mark_verdict(study, words)
+    kind = name_kind(study, words, is_verified=is_verified)
+    named = show_text(project.name)
+    title = words(f"decision.{study.verdict}", name=named)
+    number = show_text(project.number)
+    if project.revision:
+        revision = show_text(project.revision)
+        number = words("decision.revision", number=number, revision=revision)
+    facts = [
+        number,
+        words.join(filter(None, (study.provenance.started[:10], project.author))),
+        study.profile.id,
     ]
+    head = (Paragraph(text=kind, look="kind"), Heading(text=title, level=1))
+    meta = "\n".join(show_text(one) for one in facts if one)
+    yield Part(
+        kind="header",
+        look="head",
+        blocks=(Part(kind="div", blocks=head), Paragraph(text=meta, look="meta")),
+    )
+    if study.what_if:
+        yield Paragraph(text=strong(words("what_if.mark")), look="word")
+        yield build_what_if(study, words)
+    overall = words("show.overall", verdict=verdict.word)
+    told = f"{overall}. {verdict.meaning}"
+    yield Paragraph(text=told, look="meaning")
+
+
+def _name_rows_by_state(study: Study, words: Words) -> Content:
+    """Rows of each verdict, the worst first."""
+    told: list[Content] = []
+    for verdict in SEVERITY:
+        ids = [row.id for row in study.rows if row.verdict is verdict]
+        if ids:
+            named = show_text(name_rows(ids, study, words))
+            state = words("show.label", label=words(f"verdict.{verdict}"), text="")
+            told.append((sign(verdict, words), Piece(state), *strong(named)))
+    return tuple(one for content in told for one in (*content, Piece("   ")))
+
+
+def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
+    if not study.rows:
+        yield Paragraph(text=words("heading.no_rows"), look="none")
+        return
+    keys = (*ANCHORS, "structure", "siting", "governing")
+    anchors = anchor_rows(study)
+    yield Table(
+        caption="",
+        columns=key_columns(words, "matrix.", ("row", *keys)),
+        rows=tuple(_list_row(row, anchors[row.id], words) for row in study.rows),
+        look="matrix cards",
+        symbols="headings",
+    )
+    key: Content = (
+        Piece(words.show_fixed(_SHOWN[0], 2), "ratio"),
+        Piece(f" {words('matrix.used')} "),
+        draw_bar(*_SHOWN),
+        Piece(f" {words.show_fixed(_SHOWN[1], 2)} {words('matrix.by_guideline')} · "),
+        *(
+            one
+            for verdict in (*SEVERITY[::-1],)
+            for one in (
+                sign(verdict, words),
+                Piece(f"{words(f'verdict.{verdict}').lower()} "),
+            )
+        ),
+    )
+    yield Paragraph(text=key, look="key")
+
+
+def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
+    name: Content = (
+        sign(row.verdict, words),
+        Piece(show_text(row.id), "name", link=anchor),
+        Piece(_describe_row(row, words), SMALL, has_symbols=True),
+    )
+    groups = (list_anchor(row, members) for members in ANCHORS.values())
+    siting = row.scopes[Scope.SITING]
+    return (
+        Cell(content=name),
+        *(Cell(content=show_rated(rate(group), words)) for group in groups),
+        Cell(content=_show_structure(row, words)),
+        Cell(content=(sign(siting.verdict, words),)),
+        Cell(content=_tell_governing(row, words)),
+    )
+
+
+def _show_structure(row: RowStudy, words: Words) -> Content:
+    """Utilisation of the structure; the document that proves all of it."""
+    line = find_structure(row)
+    if line is None:
+        return show_rated(rate_scope(row, Scope.STRUCTURE), words)
+    first = sign(row.scopes[Scope.STRUCTURE].verdict, words)
+    if line.declared is None:
+        return (first, Piece(words("rated.nothing_given"), "beside"))
+    return (first, Piece(show_text(line.declared.document), "beside"))
+
+
+def _describe_row(row: RowStudy, words: Words) -> str:
+    """Slope and height of the net, by which a reader knows a row."""
+    slope, height = find_input(row, "slope_angle"), find_input(row, "net_height")
+    told = []
+    if slope is not None:
+        told.append(f"{words.show_given(slope)}°")
+    if height is not None:
+        told.append(f"D_K {words.show_fixed(height, 1)} m")
+    return " · ".join(told)
+
+
+def _tell_governing(row: RowStudy, words: Words) -> Content:
+    """Governing check; below it E_d against R_d, or what is needed."""
+    check = find_deciding(row)
+    if check is None or check.verdict is not row.verdict:
+        return (Piece(describe_briefly(row, words)),)
+    text = _compare(check, words)
+    named = words.show(name_check(check.member, check.mode))
+    return (Piece(named), Piece(text, SMALL, has_symbols=True))
+
+
+def _compare(check: Check, words: Words) -> str:
+    """``441 > 159 kN, needs R_k ≥ 602 kN``; else the reason in few words."""
+    demand, resistance = check.demand_kN, check.resistance_kN
+    if demand is None or check.is_unbounded:
+        return describe_cause(check, words)
+    force = words.show_number("demand_kN", demand)
+    if resistance is None:
+        told = f"{force} kN"
+        if check.declared:
+            return words.join((told, show_text(check.declared.document)))
+        needed = show_need(check, words)
+        return words.join((told, needed or describe_cause(check, words)))
+    relation = ">" if demand > resistance else "≤"
+    told = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
+    return words.join(filter(None, (told, show_need(check, words))))
+
+
+def _show_to_do(study: Study, words: Words) -> Iterator[Block]:
+    """Points by who has them."""
+    lines = list_to_do(study)
+    yield Heading(text=words("heading.todo"), level=3)
+    pairs = [
+        Pair(
+            name=words.show(name("who", who)),
+            text=symbols("\n".join(show_line(x, study, words) for x in own)),
+        )
+        for who in WHO
+        if (own := [x for x in lines if x.who == who])
+    ]
+    if pairs:
+        yield Part(
+            id="todo", kind="div", blocks=(Pairs(pairs=tuple(pairs), look="todo"),)
+        )
+    else:
+        yield Paragraph(text=words("todo.none"), look="none")
+
+
+def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
+    """What the engineer on site sees to, and notes on all rows or several."""
+    floor = [describe_floor(study, words)] if has_other_floor(study) else []
+    assumed, count = count_assumed(study)
+    if assumed:
+        floor.append(words("todo.unconfirmed", assumed=assumed, count=count))
+    told = (
+        *floor,
+        *list_conditions(study, words),
+        *list_exceeding(study, words),
+        *list_notes(study, words),
+    )
+    if told:
+        yield Heading(text=words("heading.conditions"), level=3)
+        yield Items(items=tuple(map(symbols, told)), look="conditions")
+
+
+def _show_assumed(study: Study, words: Words) -> Part:
+    """Ranges and values that hold for the study; whoever signs confirms them."""
+    rows = []
+    for one in list_assumed(study, words):
+        value: list[Piece] = [Piece(one.value)]
+        if one.rows:
+            named = show_text(name_rows(list(one.rows), study, words))
+            value.append(Piece(named, SMALL))
+        rows.append((text_cell(one.name), Cell(content=tuple(value))))
+    table = Table(
+        caption="",
+        columns=key_columns(words, "assumed_range.", ("name", "value")),
+        rows=tuple(rows),
+        empty=words("show.none"),
+        look="ranges",
+    )
+    heading = Heading(text=words("assumed_range.heading"), level=3)
+    return Part(kind="div", blocks=(heading, table))
 
 
 def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
@@ -151,170 +290,6 @@ def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
     return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
 
 
-def _tabulate_rows(study: Study, words: Words, *, has_rows: bool) -> Block:
-    if not study.rows:
-        return Paragraph(text=words("heading.no_rows"), look="none")
-    keys = (
-        *("net_row", "verdict", *(f"scope_{one}" for one in SCOPES)),
-        *("governing_check", "utilisation", "reason"),
-    )
-    anchors = anchor_rows(study)
-    return Table(
-        caption=words("caption.decision"),
-        columns=key_columns(words, "heading.", keys),
-        rows=tuple(
-            _list_row(row, anchors[row.id] if has_rows else "", words)
-            for row in study.rows
-        ),
-        look="summary",
-    )
-
-
-def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
-    check = find_governing(row.checks)
-    named = show_check(words, check) if check else words("heading.no_check")
-    used = Cell(content=show_used(check, words)) if check else text_cell(MISSING)
-    return (
-        Cell(content=(Piece(show_text(row.id), "name", link=anchor),)),
-        badge_cell(row.verdict, words),
-        *(text_cell(show_scope(row, scope, words)[0]) for scope in SCOPES),
-        text_cell(named),
-        used,
-        text_cell(describe_briefly(row, words)),
-    )
-
-
-def build_matrix(study: Study, words: Words) -> Table:
-    """Worst verdict and largest utilisation of each row by members, and the rest."""
-    known = {one.member for row in study.rows for one in row.checks if one.is_of_force}
-    members = [one for one in (*CARRYING_MEMBERS, *NetPart, *EndMember) if one in known]
-    columns = [show_member(words, one) for one in members]
-    headings = [words("heading.net_row"), *columns, words("heading.rest")]
-    return Table(
-        caption=words("caption.matrix"),
-        columns=name_columns(headings, numbers=()),
-        rows=tuple(
-            (
-                text_cell(row.id),
-                *(_sum_up(_list_of(row, one), words) for one in members),
-                _sum_up([one for one in row.checks if not one.is_of_force], words),
-            )
-            for row in study.rows
-        ),
-        empty=words("heading.no_rows"),
-    )
-
-
-def _list_of(row: RowStudy, member: str) -> list[Check]:
-    return [one for one in row.checks if one.member == member and one.is_of_force]
-
-
-def _sum_up(checks: list[Check], words: Words) -> Cell:
-    """Symbol of the worst verdict, and the largest utilisation that is known."""
-    if not checks:
-        return text_cell(MISSING)
-    worst = min((one.verdict for one in checks), key=SEVERITY.index)
-    known = [one.used for one in checks if one.used is not None]
-    symbol = VERDICTS[worst].symbol
-    if not known:
-        return text_cell(symbol)
-    most = words.show_number("utilisation", max(known))
-    return text_cell(f"{symbol} {most}")
-
-
-def show_line(line: ToDo, study: Study, words: Words) -> str:
-    """What is to be done, after the net rows that need it."""
-    rows = show_text(name_rows(list(line.rows), study, words))
-    return words("to_do.line", rows=rows, text=words.show(line.text))
-
-
-def list_open_points(study: Study, words: Words) -> Iterator[str]:
-    """Points to settle before the report can be signed, the worst first."""
-    yield from _list_open_checks(study, Verdict.FAIL, words)
-    yield from _list_open_checks(study, Verdict.NOT_PROVEN, words)
-    yield from list_exceeding(study, words)
-    yield from _list_open_rows(study, words)
-    yield from _list_declared(study, words)
-    if has_other_floor(study):
-        floor = words("heading.floor")
-        yield words("show.label", label=floor, text=describe_floor(study, words))
-    for topic in study.profile.not_checked:
-        who = words(f"scope.{topic}_by")
-        yield words("todo.not_checked", what=words(f"scope.{topic}"), who=who)
-    assumed, count = count_assumed(study)
-    if assumed:
-        yield words("todo.unconfirmed", assumed=assumed, count=count)
-    panels = [row.id for row in study.rows if row.panel and row.panel.assumed]
-    if panels:
-        yield words("todo.panels", rows=name_rows(panels, study, words))
-    yield from _list_rising(study, words)
-    defaults = len(list_defaults(study, words))
-    if defaults:
-        yield words("todo.defaults", count=defaults)
-
-
-def _list_rising(study: Study, words: Words) -> Iterator[str]:
-    """Anchors whose boreholes are so flat that mortar may run out of them."""
-    rising = [
-        (row.id, show_member(words, one.anchor))
-        for row in study.rows
-        for one in row.pulls
-        if one.dip_deg < _FLAT_DEG - 1e-9
-    ]
-    if rising:
-        ids, anchors = (list(dict.fromkeys(one)) for one in zip(*rising, strict=True))
-        named = show_text(name_rows(ids, study, words))
-        yield words("todo.rising", anchors=words.join(anchors), rows=named)
-
-
-def _list_open_checks(study: Study, verdict: Verdict, words: Words) -> Iterator[str]:
-    """Checks of one verdict; checks with one cause, and rows alike, share a point."""
-    points: dict[tuple[str, str], list[str]] = {}
-    for row in study.rows:
-        causes: dict[str, list[Check]] = {}
-        for check in row.checks:
-            if check.verdict is verdict:
-                is_by_force = check.is_of_force and verdict is Verdict.FAIL
-                told = (
-                    words("todo.fail") if is_by_force else describe_cause(check, words)
-                )
-                causes.setdefault(told, []).append(check)
-        for cause, checks in causes.items():
-            told = _add_change(checks, cause, words)
-            points.setdefault((name_few(checks, words), told), []).append(row.id)
-    for (named, told), ids in points.items():
-        place = f"{show_text(name_rows(ids, study, words))}, {named}"
-        yield words("show.label", label=place, text=told)
-
-
-def _add_change(checks: list[Check], cause: str, words: Words) -> str:
-    """Cause of a point; of a single check with what makes it pass."""
-    flips = list_flips(checks[0], words) if len(checks) == 1 else ()
-    return words("todo.with_change", what=cause, change=flips[0]) if flips else cause
-
-
-def _list_open_rows(study: Study, words: Words) -> Iterator[str]:
-    """Laws that rows do not meet; those that rows share are told once."""
-    rows: dict[str, list[str]] = {}
-    for row in study.rows:
-        for reason in row.unmet:
-            rows.setdefault(words.show(reason), []).append(row.id)
-    yield from label_rows(rows, study, words)
-
-
-def _list_declared(study: Study, words: Words) -> Iterator[str]:
-    """Documents that are said to prove checks, each with the checks."""
-    found: dict[tuple[str, str], list[Check]] = {}
-    for row in study.rows:
-        for check in row.checks:
-            if check.declared and check.verdict is Verdict.DECLARED:
-                proof = words.show(check.declared.describe())
-                found.setdefault((show_text(row.id), proof), []).append(check)
-    for (row_id, proof), checks in found.items():
-        place = f"{row_id}, {name_checks(checks, words)}"
-        yield words("todo.declared", checks=place, proof=proof)
-
-
 def _sign(study: Study, words: Words) -> Part:
     """Room for signatures, and what ties them to the study."""
     project = study.project
@@ -323,18 +298,12 @@ def _sign(study: Study, words: Words) -> Part:
         "checked": project.checker,
         "approved": "",
     }
-    keys = ("role", "name", "date", "signature")
+    room = words("decision.room")
+    names = (show_text(one) if one.strip() else "" for one in people.values())
     table = Table(
-        caption=words("heading.signatures"),
-        columns=key_columns(words, "heading.", keys),
-        rows=tuple(
-            (
-                Cell(text=words(f"heading.{role}")),
-                Cell(text=show_text(name) if name.strip() else ""),
-                *(Cell(), Cell()),
-            )
-            for role, name in people.items()
-        ),
+        caption=words("decision.signing"),
+        columns=key_columns(words, "heading.", tuple(people)),
+        rows=(tuple(Cell(content=(Piece(f"{x}\n{room}\n"),)) for x in names),),
         look="sign",
     )
     tied = words("show.signed_study", digest=compute_digest(study))

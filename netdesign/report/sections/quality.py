@@ -1,8 +1,8 @@
-"""Annex of numerical quality: solutions, bounds, uncertainty, second opinions."""
+"""Annexes of other models and of all cases, which the workbook has as sheets."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from netdesign.checks.check import CasePoint
 from netdesign.outcome import Outcome
@@ -11,11 +11,9 @@ from netdesign.report.blocks import (
     Cell,
     Column,
     Items,
-    Paragraph,
     Part,
     Table,
     fixed_cell,
-    given_cell,
     key_columns,
     name_columns,
     number_cell,
@@ -24,7 +22,7 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.sections.basis import group_notes, label_rows
+from netdesign.report.sections.basis import label_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -33,103 +31,20 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord, LargestForce
-from netdesign.study.governing import list_failed
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
-from netdesign.words.message import Message
-from netdesign.words.names import name
 
 _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
 
 def show_quality(study: Study, words: Words) -> Part:
-    """Annex with the quality of the solutions, and what else was calculated."""
-    searched = tuple(
-        Paragraph(text=text, look="small")
-        for text in dict.fromkeys(_describe_search(one, words) for one in study.rows)
-        if text
-    )
-    rows: tuple[Table, ...] = (
-        stack_rows(words("caption.bounds"), study, build_bounds, words),
-    )
+    """Annex with the forces by other models, and the bounds of the largest ones."""
+    bounds = stack_rows(words("caption.bounds"), study, build_bounds, words)
     return section(
         "annex-quality",
         words("heading.annex_quality"),
-        _build_quality(study, words).shown("quality"),
-        _build_failed(study, words),
-        *searched,
-        *(one.shown("extremes") for one in rows),
-        *_list_refused(study, words),
         build_opinions(study, words).shown("extremes"),
-        *_list_differences(study, words),
-        *_list_notes(study, words),
-    )
-
-
-def _build_quality(study: Study, words: Words) -> Table:
-    """Worst numerical quality of each row."""
-    counts = ("cases", "without_result")
-    error = add_unit(words("heading.largest_error"), "%")
-    return Table(
-        caption=words("caption.quality"),
-        columns=(
-            Column(heading=words("heading.net_row")),
-            *key_columns(words, "heading.", counts, numbers=counts),
-            number_column("balance_residual", words("heading.largest_residual")),
-            number_column("error_percent", error),
-            Column(heading=words("heading.independent_checks")),
-        ),
-        rows=tuple(_quality_row(row, words) for row in study.rows),
-        empty=words("show.none"),
-    )
-
-
-def _quality_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
-    return (
-        text_cell(row.id),
-        given_cell(words, len(row.cases)),
-        given_cell(words, len(list_failed(row))),
-        number_cell(words, "balance_residual", _find_worst(row, "balance_residual")),
-        number_cell(words, "error_percent", _find_worst(row, "error_percent")),
-        text_cell(_count_laws(row, words)),
-    )
-
-
-def _count_laws(row: RowStudy, words: Words) -> str:
-    """Independent laws that the drawn case obeys; those that it does not, by name."""
-    unmet = [words.show(name("law", x.name)) for x in row.independent if not x.is_met]
-    if unmet:
-        return words("show.laws_unmet", laws=tuple(unmet))
-    count = len(row.independent)
-    return words("show.laws_counted", met=count, count=count) if count else MISSING
-
-
-def _find_worst(row: RowStudy, key: str) -> float | None:
-    """Largest error of some kind of the cases with a result."""
-    solved = (one for one in row.cases if one.outcome is Outcome.CONVERGED)
-    known = (getattr(case, key) for case in solved)
-    return max((one for one in known if one is not None), default=None)
-
-
-def _build_failed(study: Study, words: Words) -> Table:
-    """Cases without a result, by name."""
-    keys = ("net_row", "case", "outcome", "reason")
-    has_cases = any(row.cases for row in study.rows)
-    return Table(
-        caption=words("caption.failed"),
-        columns=key_columns(words, "heading.", keys),
-        rows=tuple(
-            (
-                text_cell(row.id),
-                Cell(text=words.name_case(case.case)),
-                text_cell(words(f"ended.{case.outcome}")),
-                explain_case(case, words),
-            )
-            for row in study.rows
-            for case in list_failed(row)
-        ),
-        empty=words(
-            "heading.every_case_converged" if has_cases else "heading.no_case_run"
-        ),
+        *_list_refused(study, words),
+        bounds.shown("extremes"),
     )
 
 
@@ -178,19 +93,6 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
 
 def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
     return tuple(number_cell(words, *one) for one in case.values.items())
-
-
-def _describe_search(row: RowStudy, words: Words) -> str:
-    """Way to the largest forces, and basis of their bound."""
-    record = row.envelope
-    closed = words("show.closed") if record.is_closed else words("show.not_closed")
-    return words(
-        "show.searched",
-        closed=closed,
-        gap=record.gap_asked_percent,
-        certainty=record.certainty,
-        share=record.resolved_share,
-    )
 
 
 def build_bounds(row: RowStudy, words: Words) -> Table:
@@ -309,76 +211,6 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
         band=words.show_band("solved_kN", *ends),
         count=sum(one.ratio is not None for one in record.variants),
     )
-
-
-def _list_differences(study: Study, words: Words) -> Iterator[Block]:
-    """Causes why guideline and coupled calculation differ, each with its net rows."""
-    rows: dict[str, list[str]] = {}
-    for row in study.rows:
-        told = row.guideline.sentence if row.guideline else None
-        causes = told.arguments.get("causes", (told,)) if told else ()
-        for cause in causes if isinstance(causes, tuple) else ():
-            if isinstance(cause, Message):
-                rows.setdefault(words.show(cause), []).append(row.id)
-    yield from _list_by_rows(rows, study, words)
-
-
-# Notes of which each row has its own numbers: a line of a table for each row.
-_MODEL_CODE, _LOADED = "row.model_code", "row.loaded_net"
-_ON_GUYS = "row.guys_in_snow"
-
-
-def _list_notes(study: Study, words: Words) -> Iterator[Block]:
-    """Notes on the rows that no verdict rests on."""
-    told = (_MODEL_CODE, _LOADED, _ON_GUYS)
-    yield _tabulate_notes(study, words).shown("extremes")
-    notes = group_notes(study, words, is_beside=True, but=told)
-    yield from _list_by_rows(notes, study, words)
-
-
-def _tabulate_notes(study: Study, words: Words) -> Table:
-    """Density by a model code, loaded net and snow on guys, a line for each row."""
-    keys = ("code_density", "loaded_net", "of_net", "of_snow", "pressure", "guys")
-    lines = [(row.id, _read_notes(row, words)) for row in study.rows]
-    return Table(
-        caption=words("beside.caption"),
-        columns=(
-            Column(heading=words("heading.net_row")),
-            *key_columns(words, "beside.", keys, numbers=keys[:5]),
-        ),
-        rows=tuple(
-            (text_cell(row_id), *cells)
-            for row_id, cells in lines
-            if any(cell.text != MISSING for cell in cells)
-        ),
-        empty=words("show.none"),
-    )
-
-
-def _read_notes(row: RowStudy, words: Words) -> tuple[Cell, ...]:
-    """Numbers of a row's notes, in the order of their columns."""
-    notes: dict[str, Mapping[str, object]] = {x.key: x.arguments for x in row.notes}
-    code, net = notes.get(_MODEL_CODE, {}), notes.get(_LOADED, {})
-    on_guys = notes.get(_ON_GUYS, {})
-    guys = on_guys.get("guys", ())
-    found = guys if isinstance(guys, tuple) else ()
-    named = (words.show(one) for one in found if isinstance(one, Message))
-    return (
-        _show_share(code, "density", 1.0, 0, words),
-        _show_share(net, "height", 1.0, 2, words),
-        _show_share(net, "of_net", 100.0, 0, words),
-        _show_share(net, "of_snow", 100.0, 0, words),
-        _show_share(on_guys, "pressure", 1.0, 1, words),
-        text_cell(words.join(named) or MISSING),
-    )
-
-
-def _show_share(
-    told: Mapping[str, object], key: str, times: float, decimals: int, words: Words
-) -> Cell:
-    value = told.get(key)
-    number = times * value if isinstance(value, (int, float)) else None
-    return fixed_cell(words, number, decimals)
 
 
 def stack_rows(

@@ -1,174 +1,75 @@
-"""One net row as blocks: drawing, inputs, checks, worked check, envelope, changes."""
+"""Page of a net row: sketch, loads, governing checks, one worked out, conditions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from netdesign.checks.check import Check, SingleTest, TestSeries
+from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
     Badge,
     Block,
     Cell,
-    Column,
+    Content,
     Figure,
+    Figures,
     Heading,
     Items,
     Paragraph,
     Part,
     Piece,
     Table,
-    keep_units,
+    force_cell,
     key_columns,
-    name_columns,
-    number_cell,
     section,
-    small,
     symbols,
     text_cell,
 )
-from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.charts import (
-    describe_monitoring,
-    draw_monitoring,
+from netdesign.report.drawing.pressure_figure import (
+    draw_pressure,
+    find_friction,
+    find_larger_case,
 )
-from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.sections.basis import is_of_row, show_value
-from netdesign.report.sections.checks import (
-    CheckLine,
-    describe_loads,
-    list_lines,
-    name_few,
-    part_lines,
-    show_changes,
-    show_used,
+from netdesign.report.sections.bars import show_answer
+from netdesign.report.sections.basis import is_of_row
+from netdesign.report.sections.checks import list_flips, name_case, name_few
+from netdesign.report.sections.rated import (
+    ANCHOR_MEMBERS,
+    PARTS,
+    Rated,
+    find_deciding,
+    find_demand,
+    find_structure,
+    find_worked,
+    list_anchor,
+    list_part,
+    rate,
 )
-from netdesign.report.sections.schedule import find_largest, show_proof_load
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
-    MISSING,
     Words,
-    append_unit,
     name_row,
     show_check,
     show_member,
     show_text,
     show_verdict,
+    understand,
 )
-from netdesign.study.governing import find_shown, is_far_from_limit
-from netdesign.study.records import RowStudy
-from netdesign.words.message import Message
+from netdesign.study.records import RowStudy, find_input
+from netdesign.study.scopes import STRUCTURE, is_of_structure
+from netdesign.words.message import say
+from netdesign.words.names import name_check, name_mode
 
-_Tested = list[tuple[Check, TestSeries, float | None]]
-
-
-def show_tests(row: RowStudy, words: Words) -> Iterator[Table]:
-    """Tables of the anchor types that were tested; none without tests."""
-    tested = list(_list_types(row))
-    if tested:
-        yield _tabulate_tested(tested, words)
-    if any(tests.singles for _, tests, _ in tested):
-        yield _tabulate_singles(tested, words)
-
-
-def _list_types(
-    row: RowStudy,
-) -> Iterator[tuple[Check, TestSeries, float | None]]:
-    """First check of each tested type, its tests, and the largest design force [kN]."""
-    checks: dict[str, list[Check]] = {}
-    for check in row.checks:
-        if check.tests is not None:
-            checks.setdefault(check.resistance_type, []).append(check)
-    for first, *others in checks.values():
-        if first.tests is not None:
-            yield first, first.tests, find_largest([first, *others], "E_d")
-
-
-def _tabulate_tested(tested: _Tested, words: Words) -> Table:
-    heading = "R_k [kN]"
-    headings = [words("heading.type"), words("tests.number"), heading]
-    rows: list[tuple[Cell, ...]] = []
-    for check, tests, _ in tested:
-        kind, count = text_cell(check.resistance_type), text_cell(f"{tests.count}")
-        resistance = number_cell(words, "resistance_kN", check.read("R_k"))
-        rows.append((kind, count, resistance))
-        held = sum(one.is_held is True for one in tests.singles)
-        if held:
-            key = "tests.all_held" if held == tests.count else "tests.some_held"
-            remark = words(key, held=held, count=tests.count)
-            rows.append((Cell(content=(Piece(remark, "small"),)),))
-    return Table(
-        caption=words("tests.resistance"),
-        columns=name_columns(headings, numbers=(heading,)),
-        rows=tuple(rows),
-        look="tests",
-        symbols="headings",
-    )
-
-
-def _tabulate_singles(tested: _Tested, words: Words) -> Table:
-    keys = ("load", "proof", "displacement", "outcome", "wanted", "accepted")
-    return Table(
-        caption=words("tests.acceptance"),
-        columns=(
-            *key_columns(words, "", ("heading.type", "tests.cell")),
-            *key_columns(words, "tested.", keys, numbers=(*keys[:3], "wanted")),
-        ),
-        rows=tuple(
-            _show_single(check, one, tests.proof_factor, force, words)
-            for check, tests, force in tested
-            for one in tests.singles
-        ),
-        look="tests",
-        symbols="headings",
-    )
-
-
-def _show_single(
-    check: Check,
-    one: SingleTest,
-    factor: float | None,
-    force: float | None,
-    words: Words,
-) -> tuple[Cell, ...]:
-    wanted = None if factor is None or force is None else factor * force
-    moved = one.displacement_mm
-    outcome = {True: "held", False: "pulled", None: "not_said"}[one.is_held]
-    return (
-        text_cell(check.resistance_type),
-        text_cell(show_text(one.cell)),
-        number_cell(words, "demand_kN", one.load_kN),
-        number_cell(words, "demand_kN", one.proof_load_kN),
-        text_cell(MISSING if moved is None else words.write(f"{moved:.1f}")),
-        text_cell(words(f"tested.{outcome}")),
-        show_proof_load(wanted, [check], words),
-        text_cell(words(f"tested.{_judge(one, wanted)}")),
-    )
-
-
-def _judge(one: SingleTest, wanted: float | None) -> str:
-    """Acceptance of an anchor by its test: yes, no, or open."""
-    if one.is_held is False:
-        return "no"
-    loads = [load for load in (wanted, one.proof_load_kN) if load is not None]
-    if loads and one.load_kN < max(loads):
-        return "no"
-    return "yes" if one.is_held and wanted is not None else "open"
-
-
-# Inputs beside the drawing; all of them stand in the table of all rows.
-_SHOWN = (
-    *("slope_angle", "snow_thickness", "snow_height", "upslope_length", "ground_law"),
-    *("slip_length", "glide_factor", "net_height", "net_stiffness", "slack"),
-    *("post_spacing", "post_tilt", "panel_system", "gap"),
-)
+_MOST_REASONS = 6  # of the points of a row that its page has room for
+_DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 
 
 @dataclass(frozen=True, slots=True)
-class RowSections:
-    """Builds the sections of one row, the notes that are ``told`` elsewhere left out.
+class RowPage:
+    """Builds the page of one row, the notes that are ``told`` elsewhere left out.
 
     ``anchor`` is its place in the page, ``ids`` are the names of all rows like it.
     """
@@ -180,198 +81,258 @@ class RowSections:
     told: frozenset[str]
 
     def build(self) -> Part:
-        """All sections of the row."""
-        row, t = self.row, self.words
-        name = name_row(", ".join(map(show_text, self.ids)), t, count=len(self.ids))
-        title = (
-            Piece(name, "name"),
-            Piece(" "),
-            Badge(show_verdict(row.verdict, t)),
+        """All of the page."""
+        t = self.words
+        ids = ", ".join(map(show_text, self.ids))
+        name = name_row(ids, t, count=len(self.ids))
+        shown = find_worked(self.row)
+        says = self._tell(find_deciding(self.row))
+        title: Content = (Piece(name, "name"), Piece(f" {says}", "says"))
+        head = Part(
+            kind="header",
+            blocks=(
+                Heading(text=title, level=2),
+                Paragraph(text=symbols(self._list_facts()), look="meta"),
+            ),
         )
-        heading, changes = show_changes(row, t)
+        sides = tuple(self._show_sides(shown))
         return Part(
             kind="article",
             id=self.anchor,
-            look="row",
+            look="sheet row",
             blocks=(
-                Heading(text=title, level=2),
-                Part(
-                    id=f"{self.anchor}-drawing",
-                    blocks=tuple(self._show_drawing()),
-                ),
-                self._section("checks", t("heading.checks"), *self._show_checks()),
-                self._section(
-                    "worked", t("heading.worked_check"), *self._show_worked()
-                ),
-                *self._show_further(),
-                self._section("changes", heading, *changes),
-                *self._show_notes(),
-                Paragraph(text=name, look="running", on="page"),
+                head,
+                *self._show_figures(),
+                self._section("checks", t("row_page.checks"), *self._show_checks()),
+                self._section("worked", *self._show_worked(shown)),
+                Part(kind="div", look="two", blocks=sides),
             ),
         )
 
     def _section(self, name: str, heading: str, *blocks: Block) -> Part:
         return section(f"{self.anchor}-{name}", heading, *blocks, level=3)
 
-    def _none(self, key: str) -> Paragraph:
-        return Paragraph(text=self.words(key), look="none")
-
-    def _show_drawing(self) -> Iterator[Block]:
-        """Section to scale, and the inputs that it shows."""
-        t, row = self.words, self.row
-        if row.drawing:
-            case = keep_units(t.name_case(row.drawing.case))
-            caption = t("caption.section", case=case)
-            svg = draw_section(row.drawing, self.anchor, t)
-            yield Figure(svg=svg, caption=caption)
-        else:
-            yield self._none("heading.no_case_converged")
-        yield Paragraph(text=t.join(self._list_inputs()), look="given")
-
-    def _list_inputs(self) -> Iterator[str]:
+    def _tell(self, shown: Check | None) -> str:
+        """``passes, 0.95: Net anchor (foot), pull-out``."""
         t = self.words
-        for echo in self.row.inputs:
-            label = echo.label
-            key = label.key.rpartition(".")[2] if isinstance(label, Message) else ""
-            if key in _SHOWN and echo.value != "":
-                value = append_unit(show_value(echo, t), echo.unit.replace("-", ""))
-                yield t("show.label", label=t.show(label), text=value)
+        told = t(f"row_page.{self.row.verdict}")
+        if shown is None:
+            return told
+        used = t.show_number("utilisation", shown.used)
+        if shown.used is None:
+            used = t.show_with_unit("demand_kN", shown.demand_kN)
+        named = t.show(name_check(shown.member, shown.mode))
+        return t("row_page.title", verdict=told, used=used, check=named)
+
+    def _list_facts(self) -> str:
+        """What a reader knows the row by."""
+        t, row = self.words, self.row
+        glide = find_input(row, "glide_factor")
+        pairs = [
+            ("slope", find_input(row, "slope_angle"), 0),
+            ("net", _find_height(row), 2),
+            ("snow", _find_snow(row), 2),
+            ("posts", find_input(row, "post_spacing"), 2),
+            ("upslope", find_input(row, "upslope_length"), 1),
+            ("altitude", find_input(row, "altitude"), 0),
+        ]
+        told = [
+            t(f"row_page.{key}", value=t.show_fixed(value, decimals))
+            for key, value, decimals in pairs
+            if value is not None
+        ]
+        ground = f"N {t.show_given(glide)}" if glide is not None else self._name_law()
+        told[3:3] = [ground] if ground else []
+        return " · ".join(told)
+
+    def _name_law(self) -> str:
+        """Law of the ground, in the reader's language; "" where none is given."""
+        label = say("column.Nets.ground_law")
+        laws = [one for one in self.row.inputs if one.label == label and one.value]
+        return str(understand(laws[0], self.words)) if laws else ""
+
+    def _show_figures(self) -> Iterator[Block]:
+        """Section to scale; beside it the pressures, with the loads in words."""
+        t, row = self.words, self.row
+        if row.drawing is None:
+            yield Paragraph(text=t("heading.no_case_converged"), look="none")
+            return
+        case = t.name_case(row.drawing.case)
+        svg = draw_section(row.drawing, row.pulls, self._list_forces(), t)
+        drawn = Figure(svg=svg, caption=symbols(t("row_page.shown", case=case)))
+        height, record = _find_height(row), row.guideline
+        pressure = draw_pressure(record, height, t) if record and height else ""
+        beside = Figure(svg=pressure, caption=self._tell_loads())
+        yield Figures(figures=(drawn, beside) if pressure else (drawn,))
+
+    def _list_forces(self) -> dict[str, tuple[float, str]]:
+        """Largest design force of each drawn member, with its utilisation."""
+        found = {}
+        for member in _DRAWN:
+            checks = [one for one in self.row.checks if one.member == member]
+            force, rated = find_demand(checks), rate(checks)
+            if force is not None and rated is not None:
+                shown = self.words.show_with_unit("demand_kN", force)
+                used = self.words.show_number("utilisation", rated.used)
+                if rated.used is None or rated.verdict is Verdict.DECLARED:
+                    used = show_verdict(rated.verdict, self.words).symbol
+                found[member] = (force, f"{shown} · {used}")
+        return found
+
+    def _tell_loads(self) -> str:
+        """Load along the slope by the model and by the guideline, per metre."""
+        t, record = self.words, self.row.guideline
+        if record is None:
+            return ""
+        friction, larger = find_friction(record), find_larger_case(record)
+        loads = {"model": record.solved_load_kN_per_m, "friction": friction}
+        same = next(
+            (x.load_kN_per_m for x in record.cases if x.name == "same_snow"), None
+        )
+        loads["same"] = same
+        shown = {k: t.show_number("load_kN_per_m", x) for k, x in loads.items()}
+        told = [t("row_page.load_model", **shown)]
+        if larger is not None:
+            load = t.show_number("load_kN_per_m", larger.load_kN_per_m)
+            case = t(f"load_case.{larger.name}")
+            told.append(t("row_page.load_guideline", load=load, case=case, **shown))
+        return " ".join(told)
 
     def _show_checks(self) -> Iterator[Block]:
         row, t = self.row, self.words
-        lines = tuple(list_lines(row.checks))
-        if row.reasons and not row.checks:
-            reasons = tuple(t.show(one) for one in row.reasons)
-            yield Items(items=reasons, look="reasons")
-        if lines:
-            alone, beside = part_lines(lines)
-            yield self._tabulate_checks(alone)
-            if beside:
-                yield Paragraph(text=symbols(self._list_beside(beside)), look="small")
-            yield Figure(svg=draw_chains(row, t))
-        further = [one for one in row.checks if not one.is_of_force]
-        if further:  # on paper they stand beside the figure: nothing comes between
-            yield from self._show_requirements(further)
-        if lines:
-            yield from show_tests(row, t)
+        groups = [(list_anchor(row, (x,)), x) for x in ANCHOR_MEMBERS]
+        links = [x for x in list_part(row, ANCHOR_MEMBERS) if x.is_of_force]
+        whole = find_structure(row)
+        if whole is None:
+            groups += [(links, ""), *((list_part(row, (x,)), x) for x in PARTS)]
+        rated = [
+            (member, one)
+            for checks, member in groups
+            if (one := rate([x for x in checks if x.is_of_force]))
+        ]
+        if whole is not None and (one := rate([whole])):
+            rated.append((whole.member, one))
+        if rated:
+            yield self._tabulate(rated)
+        told = {one.check.id for _, one in rated if _says_all(one.check)}
+        others = [one for one in row.checks if one.id not in told]
+        if whole is not None and whole.declared:  # what it proves is information
+            others = [one for one in others if not is_of_structure(one)]
+        yield from self._show_others(others)
         if not row.checks:
-            yield self._none("heading.no_check")
+            reasons = tuple(t.show(one) for one in row.reasons)
+            yield Items(items=reasons or (t("heading.no_check"),), look="reasons")
 
-    def _tabulate_checks(self, checks: Sequence[CheckLine]) -> Table:
+    def _tabulate(self, rated: Sequence[tuple[str, Rated]]) -> Table:
         t = self.words
-        lines: list[tuple[Cell, ...]] = []
-        for line in checks:
-            verdict = Badge(show_verdict(line.verdict, t), "sign")
-            first = line.checks[0]
+        numbers = ("demand", "resistance")
+        keys = ("member", "mode", "type", "place", *numbers, "used")
+        lines = []
+        for member, one in rated:
+            check = one.check
+            place = "at_end" if check.position == "edge" else "inside"
+            if check.position == "second":
+                place = "second"
+            named = show_member(t, member) if member else t("row_page.links")
+            proof = check.declared if member == STRUCTURE else None
+            kind = proof.document if proof else check.resistance_type
             lines.append(
                 (
-                    Cell(content=(verdict, Piece(line.name(t), "name"))),
-                    text_cell(first.resistance_type),
-                    number_cell(t, "resistance_kN", first.resistance_kN),
-                    *self._show_place(line.inside),
-                    *self._show_place(line.end),
+                    text_cell(named),
+                    text_cell(t.show(name_mode(check.mode))),
+                    text_cell(kind),
+                    text_cell(t(f"row_page.{place}")),
+                    force_cell(t, check.demand_kN),
+                    force_cell(t, check.resistance_kN),
+                    Cell(content=show_answer(one, t)),
                 )
             )
-            remarks = line.list_remarks(t)
-            if remarks:
-                lines.append((Cell(content=small(remarks)),))
         return Table(
-            caption=t("caption.checks_of_row"),
-            columns=tuple(self._list_columns()),
+            caption="",
+            columns=key_columns(t, "row_page.", keys, numbers=numbers),
             rows=tuple(lines),
-            look="checks",
+            look="checks cards",
             symbols="headings",
         )
 
-    def _list_beside(self, lines: Mapping[str, Sequence[CheckLine]]) -> str:
-        """Modes that share the design force of a more used one, by member."""
+    def _show_others(self, checks: Sequence[Check]) -> Iterator[Block]:
+        """Checks that are not shown: those that are met by number, others at length."""
         t = self.words
-        members = (
-            t.join(
-                t("show.label", label=show_member(t, member), text=one.describe(t))
-                if place == 0
-                else one.describe(t)
-                for place, one in enumerate(of_member)
-            )
-            for member, of_member in lines.items()
-        )
-        return t("show.less_used", checks=" · ".join(members))
-
-    def _list_columns(self) -> Iterator[Column]:
-        t = self.words
-        yield Column(heading=t("heading.check"))
-        yield Column(heading=t("heading.type"))
-        yield Column(heading="R_d\n[kN]", is_number=True)
-        for place in ("inside", "at_end"):
-            name = t(f"heading.{place}")
-            yield Column(heading="E_d\n[kN]", is_number=True)
-            yield Column(heading=f"{t('heading.utilisation')}\n{name}")
-
-    def _show_place(self, check: Check | None) -> tuple[Cell, Cell]:
-        """Design force and utilisation of a check; of none that there is none."""
-        if check is None:
-            return text_cell(MISSING), text_cell(MISSING)
-        demand = number_cell(self.words, "demand_kN", check.demand_kN)
-        is_near = not is_far_from_limit(check)
-        return demand, Cell(content=show_used(check, self.words, with_interval=is_near))
-
-    def _show_requirements(self, checks: Sequence[Check]) -> Iterator[Block]:
-        """Checks without a force: those that are met by name, the others at length."""
-        t = self.words
-        met = [show_check(t, x) for x in checks if x.verdict is Verdict.PASS]
-        if met:
-            text = t("show.requirements_met", names=t.join(met))
-            yield Paragraph(text=text, look="small")
         others: dict[tuple[Verdict, str], list[Check]] = {}
         for one in checks:
             if one.verdict is not Verdict.PASS:
-                others.setdefault((one.verdict, t.show(one.reason)), []).append(one)
-        if others:
-            told = tuple(
-                (
-                    Badge(show_verdict(verdict, t)),
-                    Piece(" "),
-                    Piece(t("show.label", label=name_few(shared, t), text=reason)),
-                )
-                for (verdict, reason), shared in others.items()
-            )
-            yield Items(items=told, look="reasons")
+                reason = "" if _says_all(one) else t.show(one.told)
+                others.setdefault((one.verdict, reason), []).append(one)
+        told: list[Content] = []
+        for (verdict, reason), shared in list(others.items())[:_MOST_REASONS]:
+            named = name_few(shared, t)
+            text = t("show.label", label=named, text=reason) if reason else named
+            if not reason:
+                text = self._name_used(shared)
+            told.append((Badge(show_verdict(verdict, t), "sign"), Piece(text)))
+        rest = len(others) - len(told)
+        if rest > 0:
+            told.append((Piece(t("row_page.more", count=rest)),))
+        met = sum(one.verdict is Verdict.PASS for one in checks)
+        if told:
+            yield Items(items=tuple(told), look="reasons")
+        if met:
+            yield Paragraph(text=t("row_page.met", count=met), look="small")
 
-    def _show_worked(self) -> Iterator[Block]:
-        t, check = self.words, find_shown(self.row.checks)
-        if check is None:
-            yield self._none("heading.no_utilisation")
-            return
-        yield work_out(check, t)
-        loads = describe_loads(check, t)
-        if loads:
-            yield Paragraph(text=loads, look="small")
+    def _name_used(self, checks: Sequence[Check]) -> str:
+        """Checks that say no more than their utilisations, with these."""
+        t = self.words
+        told = [
+            f"{show_check(t, x)} {t.show_number('utilisation', x.used)}"
+            for x in checks[:_MOST_REASONS]
+        ]
+        rest = len(checks) - len(told)
+        return t.join(told + ([t("to_do.more_checks", count=rest)] if rest > 0 else []))
 
-    def _show_further(self) -> Iterator[Part]:
-        """Panel and measurements, of a row that has them."""
-        t, row = self.words, self.row
-        panel = draw_panel(row.panel, t) if row.panel else ""
-        if panel:
-            yield self._section("panel", t("panel_view.title"), Figure(svg=panel))
-        monitoring = draw_monitoring(row.monitoring, t)
-        if monitoring:
-            caption = describe_monitoring(row.monitoring, t)
-            figure = Figure(svg=monitoring, caption=caption)
-            yield self._section("monitoring", t("heading.monitoring"), figure)
+    def _show_worked(self, shown: Check | None) -> tuple[str, Block]:
+        t = self.words
+        if shown is None:
+            none = Paragraph(text=t("heading.no_utilisation"), look="none")
+            return t("heading.worked_check"), none
+        heading = t.join((show_check(t, shown), name_case(shown, t)))
+        return heading, work_out(shown, t)
 
-    def _show_notes(self) -> Iterator[Part]:
-        notes = tuple(self._list_notes())
-        if notes:
-            heading = self.words("heading.notes")
-            yield self._section("notes", heading, Items(items=notes))
+    def _show_sides(self, shown: Check | None) -> Iterator[Part]:
+        """What the governing check passes with, and what the row asks of the site."""
+        t = self.words
+        flips = list_flips(shown, t) if shown else ()
+        passes = self.row.verdict in (Verdict.PASS, Verdict.DECLARED)
+        heading = t("row_page.passes_while" if passes else "row_page.would_pass")
+        lists = {heading: flips, t("heading.conditions"): tuple(self._list_notes())}
+        for title, items in lists.items():
+            empty = "row_page.no_value" if title == heading else "show.none"
+            none = Paragraph(text=t(empty), look="none")
+            blocks = Items(items=tuple(map(symbols, items))) if items else none
+            yield Part(kind="div", blocks=(Heading(text=title, level=3), blocks))
 
     def _list_notes(self) -> Iterator[str]:
-        """Notes that this row alone has, and cases that gave no numbers."""
-        t, row = self.words, self.row
-        for note in row.notes:
-            text = t.show(note)
-            if text not in self.told and is_of_row(note):
+        """What has to hold of the row, and notes that it alone has, each once."""
+        t = self.words
+        if self.row.conditions:
+            yield t.join(t.show(one.message) for one in self.row.conditions)
+        for text in dict.fromkeys(t.show(x) for x in self.row.notes if is_of_row(x)):
+            if text not in self.told:
                 yield text
-        if row.panel and row.panel.assumed:
-            names = tuple(map(t.show, row.panel.assumed))
-            yield t("panel.assumed", names=names)
+
+
+def _says_all(check: Check) -> bool:
+    """The numbers of a check are all that it says."""
+    return check.verdict is Verdict.PASS or not (check.open or check.gaps)
+
+
+def _find_height(row: RowStudy) -> float | None:
+    """Height of the net, normal to the slope [m]."""
+    given = find_input(row, "net_height")
+    return row.drawing.head_m[1] if given is None and row.drawing else given
+
+
+def _find_snow(row: RowStudy) -> float | None:
+    """Vertical height of the snow that was drawn [m]."""
+    if row.drawing is None:
+        return None
+    return row.drawing.snow_thickness_m / math.cos(math.radians(row.drawing.slope_deg))

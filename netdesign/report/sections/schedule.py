@@ -1,352 +1,303 @@
-"""Anchor schedule: forces of each part; what is ordered of each type."""
+"""Anchor schedule: what is drilled, with its forces; what is ordered of each type."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from netdesign.checks.check import Check
+from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
+    Block,
     Cell,
-    Column,
+    Items,
+    Paragraph,
     Part,
     Table,
-    fixed_cell,
+    force_cell,
     key_columns,
-    name_columns,
-    number_cell,
     section,
+    strong,
+    symbols,
     text_cell,
 )
-from netdesign.report.sections.basis import name_rows
-from netdesign.report.words import (
-    MISSING,
-    Words,
-    add_unit,
-    append_unit,
-    show_member,
+from netdesign.report.sections.bars import show_answer
+from netdesign.report.sections.rated import (
+    ANCHOR_MEMBERS,
+    Rated,
+    find_demand,
+    list_anchor,
+    rate,
 )
-from netdesign.structure.members import EndMember, Member, NetPart
-from netdesign.study.parts import PartRecord
-from netdesign.study.records import RowStudy, Study, find_input, find_word
-from netdesign.words.message import say
-from netdesign.words.names import name_mode
+from netdesign.report.words import MISSING, Words, append_unit, show_member, show_text
+from netdesign.study.records import RowStudy, Study
 
-_PUSHED = ("post", "post_base")
-_END = "edge"
-_PER_POST = "schedule.per_post"
-_MID_ANCHORS = say("column.Nets.mid_anchors")
-_SIDES = ("uphill", "downhill")
+_FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
+_UPRIGHT_DEG = 90.0
+_PARTS = {"mid_anchor": "foot_anchor"}  # counted with another part
 
 
-def build_schedule(study: Study, words: Words) -> Table:
-    """Parts of each row with the forces that they are built for.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchorLine:
+    """Anchors of one type in one place of a row.
 
-    Every force is the upper end of its interval, per anchor, as its check takes it.
+    Attributes
+    ----------
+    demand_kN : float or None
+        Largest design force of all cases and supports [kN].
+    proof_kN : float or None
+        Load of the test that accepts one [kN].
+    notes : tuple of str
+        Keys of what is to be known of it.
     """
-    numbers = [
-        f"{words(f'heading.{place}')}\n{symbol} [kN]"
-        for place in ("inside", "at_end")
-        for symbol in ("E_k", "E_d")
+
+    row: str
+    member: str
+    type_id: str
+    rated: Rated
+    demand_kN: float | None
+    count: int | None
+    length_m: float | None
+    dips_deg: tuple[float, ...]
+    proof_kN: float | None
+    proof_limit_kN: float | None
+    notes: tuple[str, ...]
+
+
+def list_anchors(study: Study) -> Iterator[AnchorLine]:
+    """Lines of the schedule, by row, anchor and type."""
+    for row in study.rows:
+        for member in ANCHOR_MEMBERS:
+            checks = list_anchor(row, (member,))
+            of_type: dict[str, list[Check]] = {}
+            for one in checks:
+                if one.is_of_force:
+                    of_type.setdefault(one.resistance_type, []).append(one)
+            for type_id, forces in of_type.items():
+                beside = [one for one in checks if not one.is_of_force]
+                rated = rate([*forces, *beside])
+                if rated:
+                    yield _build_line(row, member, type_id, rated, forces, study)
+
+
+def _build_line(
+    row: RowStudy,
+    member: str,
+    type_id: str,
+    rated: Rated,
+    forces: Sequence[Check],
+    study: Study,
+) -> AnchorLine:
+    parts = [
+        one
+        for one in row.parts
+        if _PARTS.get(one.part, one.part) == member and one.type_id == type_id
     ]
-    headings = (
-        *("member", "type", "schedule_place", "schedule_force"),
-        *("directions", "schedule_dip"),
-    )
-    return Table(
-        caption=words("caption.schedule"),
-        columns=(
-            Column(heading=words("heading.net_row")),
-            *key_columns(words, "heading.", headings),
-            *name_columns(numbers, numbers=numbers),
-            Column(heading=add_unit(words("heading.schedule_needed"), "kN")),
-        ),
-        rows=tuple(line for row in study.rows for line in _list_lines(row, words)),
-        empty=words("heading.no_check"),
-        symbols="headings",
-    )
-
-
-def _list_lines(row: RowStudy, words: Words) -> Iterator[tuple[Cell, ...]]:
-    """Line of each part of a row that a force loads."""
-    lines: dict[tuple[str, str, str], list[Check]] = {}
-    for check in row.checks:
-        if check.is_of_force:
-            place = (check.member, check.resistance_type, _name_force(check))
-            lines.setdefault(place, []).append(check)
-    for (member, kind, force), checks in lines.items():
-        yield (
-            text_cell(row.id),
-            text_cell(show_member(words, member)),
-            text_cell(kind),
-            text_cell(_describe_place(row, member, words)),
-            text_cell(words(f"schedule.{force}")),
-            text_cell(_show_pulls(row, member, words)),
-            text_cell(_show_dips(row, member, words)),
-            *_show_forces([one for one in checks if one.position != _END], words),
-            *_show_forces([one for one in checks if one.position == _END], words),
-            text_cell(describe_needed(checks, words)),
-        )
-
-
-def _describe_place(row: RowStudy, member: str, words: Words) -> str:
-    """Number of a part for each post or row end, and where it stands."""
-    if member in (*EndMember,):
-        return words("schedule.per_end")
-    if member in (*NetPart,):
-        return words("schedule.along")
-    side = next((one for one in _SIDES if member.startswith(one)), None)
-    if side is None:
-        return words(_name_foot(row) if member == "foot_anchor" else _PER_POST, count=1)
-    count = find_input(row, "guy_count")
-    if "guy" in member:
-        return words(
-            "schedule.per_post", count=MISSING if count is None else f"{count:.0f}"
-        )
-    distance = find_input(row, f"{side}_anchor_distance")
-    is_shared = count == 2.0 and find_word(row, "guy_anchors") == "shared"
-    return words(
-        f"schedule.{'shared' if is_shared else 'per_post'}_{side}",
-        count=MISSING if count is None else f"{count:.0f}",
-        distance=MISSING if distance is None else words.write(f"{distance:.2f}"),
-    )
-
-
-def _name_foot(row: RowStudy) -> str:
-    """Words for the number of foot anchors: there may be one in mid-panel, too."""
-    if row.panel is None:
-        return _PER_POST
-    if _MID_ANCHORS in row.panel.assumed:
-        return "schedule.mid_not_given"
-    return "schedule.with_mid" if row.panel.has_mid_anchors else _PER_POST
-
-
-def _name_force(check: Check) -> str:
-    if check.mode == "sliding":
-        return "across"
-    return "push" if check.member in _PUSHED else "pull"
-
-
-def _show_pulls(row: RowStudy, member: str, words: Words) -> str:
-    """Directions of the pulls on an anchor, from the slope surface."""
+    counts = [one.count for one in parts if one.count is not None]
     pulls = [one for one in row.pulls if one.anchor == member]
-    return _show_span(
-        [x for one in pulls for x in (one.least_deg, one.largest_deg)], words
+    pulled = [one for one in forces if one.mode == "pull_out"]
+    proof = _find_proof(pulled, study.profile.proof_factor)
+    limits = [x.proof_limit_kN for x in pulled if x.proof_limit_kN is not None]
+    dips = tuple(dict.fromkeys(round(one.dip_deg, 1) for one in pulls))
+    limit = min(limits, default=None)
+    return AnchorLine(
+        row=row.id,
+        member=member,
+        type_id=type_id,
+        rated=rated,
+        demand_kN=find_demand(forces),
+        count=sum(counts) if counts and len(counts) == len(parts) else None,
+        length_m=next((one.size for one in parts if one.size is not None), None),
+        dips_deg=dips,
+        proof_kN=proof,
+        proof_limit_kN=limit,
+        notes=(
+            *_list_notes(rated, pulled, dips),
+            *(("tendon",) if limit is not None and (proof or 0.0) > limit else ()),
+            *(("weak",) if type_id in _find_weak(row) else ()),
+        ),
     )
 
 
-def _show_dips(row: RowStudy, member: str, words: Words) -> str:
-    """Dip of an anchor's borehole below the horizontal; negative where it rises."""
-    pulls = [one for one in row.pulls if one.anchor == member]
-    return _show_span([one.dip_deg for one in pulls], words)
+def _find_proof(pulled: Sequence[Check], factor: float | None) -> float | None:
+    """Load of the test: the profile's factor on the upper end of the design force."""
+    ends = [x for one in pulled if (x := one.read_band("E_d")[1]) is not None]
+    return None if factor is None or not ends else factor * max(ends)
 
 
-def _show_span(angles: Sequence[float], words: Words) -> str:
-    """Least and largest of some angles [deg]; one where both look alike."""
-    if not angles:
-        return MISSING
-    low, high = min(angles), max(angles)
-    shown = [words.show_number("least_deg", end) for end in (low, high)]
-    is_one = shown[0] == shown[1]
-    return append_unit(
-        shown[0] if is_one else words.show_band("least_deg", low, high), "°"
-    )
+def _find_weak(row: RowStudy) -> set[str]:
+    """Types whose tendon bears less than the ground holds."""
+    weak = (one for one in row.notes if one.key == "row.weak_tendon")
+    return {str(one.arguments["type"]) for one in weak}
 
 
-def _show_forces(checks: Sequence[Check], words: Words) -> Iterator[Cell]:
-    """Largest characteristic and design force of checks at one place [kN]."""
-    for symbol in ("E_k", "E_d"):
-        yield number_cell(words, "demand_kN", find_largest(checks, symbol))
-
-
-def find_largest(checks: Sequence[Check], symbol: str) -> float | None:
-    """Largest upper end of a force of some checks [kN]; None unless all are known."""
-    return _find_most(one.read_band(symbol)[1] for one in checks)
-
-
-def _find_most(values: Iterable[float | None]) -> float | None:
-    """Largest of some values; None unless all are known."""
-    every = list(values)
-    known = [one for one in every if one is not None]
-    return max(known) if known and len(known) == len(every) else None
-
-
-def describe_needed(checks: Sequence[Check], words: Words) -> str:
-    """Least characteristic resistance that carries the design forces, by modes [kN].
-
-    One number where all modes need the same. What the head of a rope anchor needs is
-    told by its check: it takes a part of the force.
-    """
-    shown: dict[str, str] = {}
-    for mode in dict.fromkeys(x.mode for x in checks if x.mode != "direction"):
-        most = _find_most(_find_needed(check) for check in checks if check.mode == mode)
-        if most is not None:
-            shown[words.show(name_mode(mode))] = words.show_minimum(most)
-    if len(set(shown.values())) == 1:
-        return next(iter(shown.values()))
-    return words.join(f"{mode} {number}" for mode, number in shown.items())
-
-
-def _find_needed(check: Check) -> float | None:
-    """R_k at which the utilisation is 1 at its upper end [kN]."""
-    _, demand = check.read_band("E_d")
-    factor = check.read("γ_R")
-    return None if demand is None or factor is None else demand * factor
-
-
-# What a member is ordered as.
-_KINDS: Mapping[str, str] = {
-    part: kind
-    for kind, parts in {
-        "anchor": (
-            *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
-            *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR, "mid_anchor"),
-        ),
-        "rope": (
-            *(Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY),
-            *("ridge_rope", "lower_rope"),
-        ),
-        "post": (Member.POST, Member.POST_BASE, Member.POST_FOOT),
-        "net": ("net",),
-    }.items()
-    for part in parts
-}
-_ORDER = ("anchor", "rope", "post", "net")
-PRICES = ("price", "amount")
-
-
-@dataclass(slots=True)
-class _Line:
-    """Parts of one type, its net rows and the checks of its forces."""
-
-    parts: list[PartRecord] = field(default_factory=list)
-    rows: dict[str, None] = field(default_factory=dict)
-    checks: list[Check] = field(default_factory=list)
+def _list_notes(
+    rated: Rated, pulled: Sequence[Check], dips: Sequence[float]
+) -> Iterator[str]:
+    """Keys of what is to be known of an anchor, in the order of their letters."""
+    if any(dip < _FLAT_DEG for dip in dips):
+        yield "flat"
+    if any(dip > _UPRIGHT_DEG for dip in dips):
+        yield "leans"
+    if rated.verdict is Verdict.FAIL:
+        yield "fails"
+    elif any(one.resistance_kN is None for one in pulled):
+        yield "untested"
 
 
 def show_schedule(study: Study, words: Words) -> Part:
-    """Section with what is built in each row, and what is ordered of each type."""
-    return section(
-        "schedule",
-        words("heading.schedule"),
-        build_schedule(study, words).shown("schedule"),
-        build_quantities(study, words).shown("schedule quantities"),
-        look="wide",
-    )
+    """Section with the anchors of each row, and what is ordered of each type."""
+    lines = list(list_anchors(study))
+    letters = _letter_notes(lines)
+    notes = tuple(f"{x}: {words(f'anchors.{key}')}" for key, x in letters.items())
+    blocks: list[Block] = [
+        Paragraph(text=words("anchors.reading"), look="meta"),
+        _tabulate(lines, letters, words),
+    ]
+    if notes:
+        blocks.append(Items(items=notes, look="notes-of small"))
+    blocks.append(_tabulate_order(lines, study, words))
+    return section("schedule", words("heading.schedule"), *blocks, look="sheet")
 
 
-def show_quantities(study: Study, words: Words) -> Part:
-    """Section with what is ordered of each type alone."""
-    table = build_quantities(study, words).shown("schedule quantities")
-    return section("quantities", words("quantities.heading"), table)
+def _letter_notes(lines: Sequence[AnchorLine]) -> dict[str, str]:
+    """Letter of each note that some line has."""
+    keys = dict.fromkeys(note for one in lines for note in one.notes)
+    return {key: "abcdefgh"[place] for place, key in enumerate(keys)}
 
 
-def build_quantities(study: Study, words: Words, *, has_prices: bool = False) -> Table:
-    """Types of all net rows with their largest design force, numbers and metres.
+_RIGHT = ("count", "demand", "resistance", "dip", "length", "proof")
 
-    ``has_prices`` adds empty columns for prices and amounts.
-    """
-    prices = PRICES if has_prices else ()
-    counts = ("count", "each", "total")
-    return Table(
-        caption=words("quantities.caption"),
-        columns=(
-            *key_columns(words, "quantities.", ("part", "type", "rows")),
-            Column(heading="E_d [kN]", is_number=True),
-            *key_columns(words, "quantities.", ("proof",), numbers=("proof",)),
-            *key_columns(words, "quantities.", counts, numbers=counts),
-            *key_columns(words, "quantities.", prices, numbers=prices),
-            Column(heading=words("quantities.needed")),
-        ),
-        rows=tuple(
+
+def _tabulate(
+    lines: Sequence[AnchorLine], letters: dict[str, str], words: Words
+) -> Table:
+    keys = ("row", "anchor", "type", *_RIGHT[:3], "used", *_RIGHT[3:], "notes")
+    rows, before = [], ""
+    for one in lines:
+        name = "" if one.row == before else show_text(one.row)
+        before = one.row
+        notes = " ".join(sorted(letters[key] for key in one.notes))
+        rows.append(
             (
-                *_show(kind, type_id, line, study, words),
-                *(Cell() for _ in prices),
-                text_cell(describe_needed(line.checks, words) or MISSING),
+                Cell(text=name),
+                text_cell(show_member(words, one.member)),
+                text_cell(one.type_id),
+                _count_cell(one.count, words),
+                Cell(content=strong(words.show_number("demand_kN", one.demand_kN))),
+                force_cell(words, one.rated.check.resistance_kN),
+                Cell(content=show_answer(one.rated, words)),
+                text_cell(show_dips(one.dips_deg, words)),
+                text_cell(words.show_fixed(one.length_m, 1)),
+                text_cell(_show_proof(one, words)),
+                Cell(text=notes),
             )
-            for (kind, type_id), line in _gather(study)
-        ),
-        empty=words("show.none"),
+        )
+    return Table(
+        caption="",
+        columns=key_columns(words, "anchors.", keys, numbers=_RIGHT),
+        rows=tuple(rows),
+        empty=words("heading.no_check"),
+        look="schedule cards",
         symbols="headings",
     )
 
 
-def _gather(study: Study) -> list[tuple[tuple[str, str], _Line]]:
-    lines: dict[tuple[str, str], _Line] = {}
-    for row in study.rows:
-        for part in row.parts:
-            line = lines.setdefault((_KINDS[part.part], part.type_id), _Line())
-            line.parts.append(part)
-            line.rows[row.id] = None
-        for check in row.checks:
-            key = (_KINDS.get(check.member, ""), check.resistance_type)
-            if check.is_of_force and key in lines:
-                lines[key].checks.append(check)
-    return sorted(lines.items(), key=lambda one: _ORDER.index(one[0][0]))
+def _count_cell(count: int | None, words: Words) -> Cell:
+    return text_cell(MISSING if count is None else words.show_given(count))
 
 
-def _show(
-    kind: str, type_id: str, line: _Line, study: Study, words: Words
-) -> tuple[Cell, ...]:
-    counts = [part.count for part in line.parts]
-    sizes = [part.size for part in line.parts]
-    pairs = zip(counts, sizes, strict=True)
-    products = [
-        None if count is None or size is None else count * size for count, size in pairs
-    ]
-    unit = "m²" if kind == "net" else "m"
-    return (
-        text_cell(words(f"quantities.{kind}")),
-        text_cell(type_id or MISSING),
-        text_cell(name_rows(list(line.rows), study, words)),
-        number_cell(words, "demand_kN", find_largest(line.checks, "E_d")),
-        _show_proof(line, study.profile.proof_factor, words),
-        text_cell(MISSING) if kind == "net" else _sum(counts, words, 0),
-        text_cell(MISSING) if kind == "net" else _show_each(sizes, words),
-        _sum(products, words, 0 if kind == "net" else 1, unit),
+def show_dips(dips_deg: Sequence[float], words: Words) -> str:
+    """Bores below the horizontal; one beyond upright from its other side."""
+    if not dips_deg:
+        return MISSING
+    whole = [180.0 - x if x > _UPRIGHT_DEG else x for x in dips_deg]
+    shown = [words.show_fixed(end, 0) for end in (min(whole), max(whole))]
+    return append_unit("–".join(dict.fromkeys(shown)), "°")
+
+
+def _show_proof(one: AnchorLine, words: Words) -> str:
+    """Load of its test; none of an anchor that fails, and no more than a tendon has."""
+    if one.rated.verdict is Verdict.FAIL or one.proof_kN is None:
+        return MISSING
+    limit = one.proof_limit_kN
+    load = one.proof_kN if limit is None else min(one.proof_kN, limit)
+    if load < one.proof_kN:
+        return words.show_fixed(math.floor(load), 0)
+    return words.show_minimum(load)
+
+
+def _tell_tests(check: Check | None, words: Words) -> str:
+    """Pull-out tests of a type, with what follows from them."""
+    if check is None or check.tests is None:
+        return MISSING
+    least = words.show_number("resistance_kN", check.tests.least_kN)
+    known = words.show_number("resistance_kN", check.read("R_k"))
+    count = check.tests.count
+    return words("anchors.tested", count=count, least=least, resistance=known)
+
+
+@dataclass(slots=True)
+class _Order:
+    """Anchors of one type over all rows."""
+
+    lines: list[AnchorLine] = field(default_factory=list)
+
+    @property
+    def count(self) -> int | None:
+        """Number of all, if each is known."""
+        counts = [one.count for one in self.lines]
+        known = [one for one in counts if one is not None]
+        return sum(known) if len(known) == len(counts) else None
+
+
+def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> Table:
+    """Types with their numbers, metres and loads; what fails is not ordered."""
+    orders: dict[str, _Order] = {}
+    for one in lines:
+        if one.rated.verdict is not Verdict.FAIL and one.type_id:
+            orders.setdefault(one.type_id, _Order()).lines.append(one)
+    numbers = ("count", "length", "total", "demand", "proof")
+    tested = {
+        one.resistance_type: one
+        for row in study.rows
+        for one in row.checks
+        if one.tests is not None
+    }
+    return Table(
+        caption=words("anchors.order"),
+        columns=key_columns(
+            words, "anchors.", ("type", *numbers, "tests", "rows"), numbers=numbers
+        ),
+        rows=tuple(
+            _show_order(kind, order, tested.get(kind), words)
+            for kind, order in sorted(orders.items())
+        ),
+        empty=words("show.none"),
+        look="order",
+        symbols="headings",
     )
 
 
-def _show_proof(line: _Line, factor: float | None, words: Words) -> Cell:
-    """Load to which a test of the type proves it in all its net rows [kN]."""
-    pulled = [one for one in line.checks if one.mode == "pull_out"]
-    force = find_largest(pulled, "E_d")
-    load = None if factor is None or force is None else factor * force
-    return show_proof_load(load, pulled, words)
-
-
-def show_proof_load(load: float | None, pulled: Sequence[Check], words: Words) -> Cell:
-    """Load of a test [kN]; no more than the tendon allows, and what it would take."""
-    known = [one.proof_limit_kN for one in pulled if one.proof_limit_kN is not None]
-    wanted = words.show_minimum(load)
-    if load is None or not known or load <= min(known):
-        return Cell(text=wanted, number=load)
-    limit = math.floor(min(known))
-    told = words("quantities.proof_limited", limit=f"{limit}", load=wanted)
-    return Cell(text=told, number=float(limit))
-
-
-def _show_each(sizes: Sequence[float | None], words: Words) -> Cell:
-    """Length of one, from the shortest to the longest [m]."""
-    known = [one for one in sizes if one is not None]
-    if not known or len(known) < len(sizes):
-        return text_cell(MISSING)
-    if max(known) - min(known) < 0.005:
-        return fixed_cell(words, known[0], 2)
-    low, high = (words.show_fixed(end, 2) for end in (min(known), max(known)))
-    return text_cell(f"{low} – {high}")
-
-
-def _sum(
-    values: Iterable[float | None], words: Words, decimals: int, unit: str = ""
-) -> Cell:
-    """Sum; at least what is known of it, where something is not given."""
-    every = list(values)
-    known = [one for one in every if one is not None]
-    if not known:
-        return text_cell(MISSING)
-    total = sum(known)
-    shown = " ".join(one for one in (words.show_fixed(total, decimals), unit) if one)
-    is_whole = len(known) == len(every)
-    return Cell(text=shown, number=total) if is_whole else text_cell(f"≥ {shown}")
+def _show_order(
+    kind: str, order: _Order, tested: Check | None, words: Words
+) -> tuple[Cell, ...]:
+    lengths = [one.length_m for one in order.lines if one.length_m is not None]
+    is_known = order.count is not None and len(lengths) == len(order.lines)
+    total = sum((x.count or 0) * (x.length_m or 0.0) for x in order.lines)
+    demands = [one.demand_kN for one in order.lines if one.demand_kN is not None]
+    worst = max(order.lines, key=lambda one: one.proof_kN or 0.0)
+    rows = dict.fromkeys(show_text(one.row) for one in order.lines)
+    ends = (min(lengths), max(lengths)) if lengths else (None,)
+    each = [words.show_fixed(end, 1) for end in ends]
+    return (
+        text_cell(kind),
+        _count_cell(order.count, words),
+        text_cell("–".join(dict.fromkeys(each))),
+        text_cell(words.show_fixed(total if is_known else None, 0)),
+        force_cell(words, max(demands, default=None)),
+        text_cell(_show_proof(worst, words)),
+        Cell(content=symbols(_tell_tests(tested, words))),
+        text_cell(", ".join(rows)),
+    )

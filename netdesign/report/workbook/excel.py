@@ -31,18 +31,14 @@ from netdesign.report.sections.basis import (
     show_ranges,
 )
 from netdesign.report.sections.checks import describe_briefly, list_changes, name_case
-from netdesign.report.sections.decision import (
-    identify,
-    list_open_points,
-    name_verification,
-)
+from netdesign.report.sections.decision import identify, name_verification
+from netdesign.report.sections.open_points import list_open_points
 from netdesign.report.sections.quality import (
     build_bounds,
     build_cases,
     stack_rows,
     stack_tables,
 )
-from netdesign.report.sections.schedule import build_quantities, build_schedule
 from netdesign.report.sections.scopes import describe_scopes, describe_study_scopes
 from netdesign.report.sections.whole import list_properties, title_pages
 from netdesign.report.what_if import build_what_if, mark_title, name_kind
@@ -57,6 +53,7 @@ from netdesign.report.workbook.check_sheet import (
     add_check_sheet,
     count_block,
 )
+from netdesign.report.workbook.quantities import build_quantities, build_schedule
 from netdesign.report.workbook.writer import (
     BETWEEN_TABLES,
     DEFAULT_FONT,

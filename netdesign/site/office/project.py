@@ -76,7 +76,7 @@ def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
     given = {
         key: lines[key] for key in (*_TEXTS, *_DOCUMENTS) if lines[key].state == "given"
     }
-    values = {key: one.word for key, one in given.items() if key in _TEXTS}
+    values = {key: one.word for key, one in given.items()}
     return Project(**values), {key: one.place for key, one in given.items()}
 
 

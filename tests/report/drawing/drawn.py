@@ -9,22 +9,15 @@ import numpy as np
 
 from netdesign.addons.winter.figure import draw_winter
 from netdesign.checks.check import CasePoint
-from netdesign.outcome import Verdict
-from netdesign.report.drawing.chain_figure import draw_chains
-from netdesign.report.drawing.charts import draw_monitoring
-from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.pressure_figure import draw_pressure
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.study.records import MonitoringRecord, RowStudy
+from netdesign.study.case_records import GuidelineRecord
 from netdesign.study.support_records import (
     Arrow,
     Drawing,
-    PanelDrawing,
-    PanelRecord,
-    RopeRecord,
+    PullRecord,
 )
-from netdesign.words.message import say
-from tests.report.build_study import build_row
-from tests.turn import turn
+from tests.report.build_study import build_study
 
 AXES = {
     "density_kg_m3": (203.7, 487.3),
@@ -40,49 +33,58 @@ AXES = {
 
 def draw_all(rng: random.Random, words) -> list[str]:
     """Every kind of drawing once, of values drawn with ``rng``."""
+    section = build_section(rng)
     return [
-        draw_section(build_section(rng), "s", words),
-        draw_panel(build_panel(rng), words),
-        draw_chains(build_chains(rng), words),
+        draw_section(section, build_pulls(rng), build_forces(rng), words),
+        draw_pressure(build_guideline(rng), section.head_m[1], words),
         draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
-        draw_monitoring([build_monitoring(rng)], words),
     ]
 
 
-MODES = {
-    "foot_anchor": ("tendon", "pull_out", "bent"),
-    "uphill_guy": ("rope",),
-    "uphill_anchor": ("tendon", "pull_out"),
-    "post": ("compression", "compression_bending"),
-    "post_base": ("bearing", "sliding"),
-    "end_guy": ("rope",),
-    "lateral_anchor": ("tendon",),
-}
-
-
-def build_chains(rng: random.Random) -> RowStudy:
-    """Row with checks of many members, some without a resistance."""
-    row = build_row("A", 3, scale=1.0)
-    of_force = next(one for one in row.checks if one.is_of_force)
-    used = [
-        rng.choice([None, 10 ** rng.uniform(-3.0, 1.2)])
-        for modes in MODES.values()
-        for _ in modes
-    ]
-    places = [(member, mode) for member, modes in MODES.items() for mode in modes]
-    checks = [
-        replace(
-            turn(of_force, judge_used(one), utilisation=one), member=member, mode=mode
+def build_pulls(rng: random.Random) -> list[PullRecord]:
+    """Pulls and bores of the anchors of a section."""
+    found = []
+    for anchor in ("foot_anchor", "uphill_anchor", "downhill_anchor"):
+        least = rng.uniform(-5.0, 60.0)
+        found.append(
+            PullRecord(
+                anchor=anchor,
+                position="intermediate",
+                kind="bar",
+                least_deg=least,
+                largest_deg=least + rng.uniform(0.0, 25.0),
+                axis_deg=rng.uniform(10.0, 95.0),
+                is_axis_given=False,
+                angle_deg=12.0,
+                dip_deg=20.0,
+            )
         )
-        for (member, mode), one in zip(places, used, strict=True)
+    return found
+
+
+def build_forces(rng: random.Random) -> dict[str, tuple[float, str]]:
+    """Design forces of any size; a slack anchor has none."""
+    members = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
+    sizes = {one: rng.choice([0.0, 10 ** rng.uniform(-0.5, 3.2)]) for one in members}
+    return {one: (size, f"{size:.3g} kN · 0.73") for one, size in sizes.items()}
+
+
+def build_guideline(rng: random.Random) -> GuidelineRecord:
+    """Pressures over a height, beside those of the guideline."""
+    record = next(x.guideline for x in build_study().rows if x.guideline)
+    high, most = rng.uniform(0.8, 5.9), 10 ** rng.uniform(-0.3, 1.9)
+    along = [(high * k / 9, rng.uniform(-0.1, 1.0) * most) for k in range(10)]
+    cases = [
+        replace(
+            record.cases[0],
+            name=name,
+            load_kN_per_m=rng.uniform(0.2, 1.4) * most * high,
+            loaded_share=rng.uniform(0.6, 1.0),
+        )
+        for name in ("load_case_1", "load_case_2")
     ]
-    return replace(row, checks=checks)
-
-
-def judge_used(used: float | None) -> Verdict:
-    if used is None:
-        return Verdict.NOT_PROVEN
-    return Verdict.PASS if used <= 1.0 else Verdict.FAIL
+    load = 0.6 * most * high
+    return replace(record, along_net=along, cases=cases, solved_load_kN_per_m=load)
 
 
 def build_section(rng: random.Random) -> Drawing:
@@ -137,44 +139,6 @@ def _pull(rng, name, at, head):
     )
 
 
-def build_panel(rng: random.Random) -> PanelRecord:
-    """Panel from flat to tall."""
-    half, height = rng.uniform(1.0, 3.5), rng.uniform(1.5, 5.5)
-    head = (height * math.tan(math.radians(rng.uniform(0.0, 38.0))), height)
-    places = np.linspace(0.05, half, 9).tolist()
-    size = 10 ** rng.uniform(0.5, 3.0)
-    tensions = [size * (1.0 + 0.01 * k) for k in range(9)]
-    ropes = [
-        RopeRecord(**_fill_rope(name, f"2 x {rng.choice(['B22', 'GALFAN 26'])}"))
-        for name in ("lower", "upper")
-    ]
-    pull = (rng.uniform(0, size), rng.uniform(0, size))
-    drawing = PanelDrawing(
-        case=CasePoint(density_kg_m3=400.0, friction_deg=15.0, inclination_deg=25.0),
-        places_m=places,
-        post_head_m=head,
-        lower_m=[(0.2 * z, 0.05 * z) for z in places],
-        upper_m=[(head[0] + 0.2 * z, head[1] - 0.2 * z) for z in places],
-        mid_net_m=[(0.0, 0.0), head],
-        rope_places_m=places,
-        lower_tensions_kN=tensions,
-        upper_tensions_kN=[0.9 * one for one in tensions],
-        foot_kN=pull,
-        mid_foot_kN=pull,
-        head_kN=(pull[0], -pull[1]),
-        lower_along_kN=rng.uniform(0.5, 1.5) * size,
-        upper_along_kN=rng.uniform(0.5, 1.5) * size,
-    )
-    return PanelRecord(cut="upper", has_mid_anchors=False, ropes=ropes, drawing=drawing)
-
-
-def _fill_rope(name, kind):
-    return {
-        "rope": name, "type": kind, "stiffness_kN": 1e4, "sag": 0.06,
-        "along_kN": 90.0, "tension_kN": 100.0, "breaking_kN": 300.0, "cell": "Ends!B2",
-    }  # fmt: skip
-
-
 def build_winter(rng: random.Random) -> dict:
     """Some weeks to more than a year of snow, its marks anywhere."""
     first, count = date(2022, 10, 3), rng.choice([21, 160, 400])
@@ -200,22 +164,3 @@ def build_winter(rng: random.Random) -> dict:
         "height_max_date": f"{rng.choice(days)}",
         "governing_date": f"{rng.choice(days)}",
     }
-
-
-def build_monitoring(rng: random.Random) -> MonitoringRecord:
-    """Measured series of days or of months."""
-    last = rng.uniform(3.0, 200.0)
-    times = [last * k / 9 for k in range(10)]
-    return MonitoringRecord(
-        member="uphill_guy",
-        source="Monitoring!A2",
-        times_d=times,
-        tensions_kN=[10.0 + k for k in range(10)],
-        air_temperatures_C=[-5.0 - k for k in range(10)],
-        model=say("monitoring.needs_winter"),
-    )
-
-
-def without_pressure(drawing: Drawing) -> Drawing:
-    """The same section as an earlier version kept it."""
-    return replace(drawing, pressure_kPa=[])

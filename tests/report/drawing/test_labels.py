@@ -14,7 +14,6 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.report.drawing.drawn import (
     build_section,
     draw_all,
-    without_pressure,
 )
 from tests.report.printing import list_meeting
 
@@ -26,6 +25,6 @@ SEED, ROWS = 20261122, 8
 def test_no_label_meets_another_or_leaves_its_drawing(language, tmp_path):
     rng, words = random.Random(SEED), Words(language)
     drawings = [svg for _ in range(ROWS) for svg in draw_all(rng, words)]
-    drawings.append(draw_section(without_pressure(build_section(rng)), "o", words))
+    drawings.append(draw_section(build_section(rng), [], {}, words))
     assert all(drawings)
     assert list_meeting(drawings, tmp_path) == []

@@ -39,16 +39,6 @@ def test_shapes_stand_where_the_drawing_has_them():
     assert look(picture, 20, 30) == look(picture, 40, 15) == (255, 255, 255)
 
 
-def test_an_area_bounds_loose_lines():
-    sketch = Chart()
-    sketch.clip_area("half", [(0, 0), (72, 0), (72, 72), (0, 72)])
-    ends = [((10.0, 36.2), (130.0, 36.2))]
-    sketch.segments(ends, stroke="#1b1e22", width=5.0, clip="half")
-    picture = draw(sketch)
-    assert look(picture, 40, 36.2) == (0x1B, 0x1E, 0x22)
-    assert look(picture, 100, 36.2) == (255, 255, 255)
-
-
 @pytest.mark.parametrize("shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>'])
 def test_an_unknown_shape_is_a_fault_never_a_gap(shape):
     svg = Chart().write(72.0, "A", width=144.0).replace("</svg>", f"{shape}</svg>")

@@ -18,7 +18,5 @@ def test_without_the_library_the_wish_is_refused(monkeypatch):
 )
 @pytest.mark.filterwarnings("ignore")  # of the library's own
 def test_page_becomes_a_pdf():
-    content = files.render_kind(
-        ".pdf", build_study(rows=1), files.ReportStyle(detail="summary")
-    )
+    content = files.render_kind(".pdf", build_study(rows=1), files.ReportStyle())
     assert content.startswith(b"%PDF")

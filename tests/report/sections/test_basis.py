@@ -36,7 +36,8 @@ def with_altitude(value, text=""):
 def test_altitude_that_is_not_given_is_an_assumption(language):
     words, study = Words(language), with_altitude("")
     (told,) = [one for one in list_defaults(study, words) if TOLD[language] in one]
-    assert study.rows[0].id in told
+    ids = [row.id for row in study.rows]
+    assert name_rows(ids, study, words) in told
     given = list_defaults(with_altitude(1873.0, "1873"), words)
     assert not any(TOLD[language] in one for one in given)
 
@@ -63,8 +64,9 @@ def test_all_rows_of_a_large_site_are_named_in_a_phrase(language, told):
 
 def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
     """Of few rows, and where many are left out: no name is lost."""
-    few, named = name_of((), "en", rows=8)
+    few, named = name_of((3,), "en", rows=8)
     assert few.split(", ") == named
+    assert name_of((), "en", rows=8)[0] == "all 8 net rows"
     half, named = name_of(range(0, 23, 2), "en")
     assert half.split(", ") == named
 

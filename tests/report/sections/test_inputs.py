@@ -6,8 +6,8 @@ import pytest
 
 from netdesign.checks import list_standards, load_standard
 from netdesign.report.sections.annexes import build_provenance
-from netdesign.report.sections.basis import build_inputs, name_profile, show_inputs
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.sections.basis import build_inputs, name_profile
+from netdesign.report.words import Words
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.model import InputEcho
 from netdesign.snow.creep_law import BOUTILLIER_2004
@@ -85,26 +85,3 @@ def test_the_provenance_names_profile_and_law_as_the_pages_do(profile, language)
     is_english = language == "en"
     assert ("written for netdesign" in title) is is_english
     assert any(name_law(BOUTILLIER_2004) == one for one in told.values()) is is_english
-
-
-def test_inputs_of_all_rows_stand_beside_each_other():
-    study = build_study(rows=1)
-    many = replace(study, rows=[replace(study.rows[0], id=f"N{k}") for k in range(17)])
-    tables = [x for x in show_inputs(many, ENGLISH).blocks if hasattr(x, "columns")]
-    headings = [
-        c.heading for table in tables for c in table.columns if c.heading[:1] == "N"
-    ]
-    assert headings == [f"N{k}" for k in range(17)]
-    lines = {cells[0].text: cells for cells in tables[0].rows}
-    for echo in study.rows[0].inputs:
-        label = ENGLISH.show(echo.label)
-        if echo.value == "":
-            assert label not in lines
-            continue
-        text = (
-            echo.value
-            if isinstance(echo.value, str)
-            else ENGLISH.show_given(echo.value)
-        )
-        assert lines[label][3].text.startswith(text)
-        assert lines[label][3].text.endswith("*") is (echo.cell == "default")

@@ -1,109 +1,147 @@
-"""The anchor schedule: what is built and the forces that it is built for."""
+"""The anchor schedule: forces, numbers, proof loads; what fails is not ordered."""
 
+import random
 import re
 from dataclasses import replace
 
 import pytest
 
-from netdesign.report.sections.schedule import build_schedule
+from netdesign.outcome import Verdict
+from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor
+from netdesign.report.sections.schedule import (
+    list_anchors,
+    show_dips,
+    show_schedule,
+)
 from netdesign.report.words import ENGLISH, Words, show_member
-from netdesign.site.model import InputEcho
-from netdesign.study.support_records import PanelRecord
+from netdesign.study.parts import PartRecord
 from netdesign.words.catalogue import LANGUAGES
-from netdesign.words.message import say
-from netdesign.words.names import name_mode
 from tests.report.build_study import build_study
 
-STUDY = build_study()
-MEMBERS = ("uphill_anchor", "uphill_guy", "downhill_anchor", "post")
+BUILT = build_study()
+FACTOR = 1.37
+
+
+def draw_study(seed):
+    """The study with numbers and lengths for most of its anchors."""
+    dice = random.Random(seed)
+    rows = []
+    for row in BUILT.rows:
+        types = {
+            (one.member, one.resistance_type)
+            for one in row.checks
+            if one.member in ANCHOR_MEMBERS and one.is_of_force
+        }
+        parts = [
+            PartRecord(
+                part=member,
+                type_id=kind,
+                count=dice.choice((None, dice.randrange(1, 40))),
+                size=dice.choice((None, round(dice.uniform(2.0, 9.0), 2))),
+            )
+            for member, kind in sorted(types)
+        ]
+        rows.append(replace(row, parts=parts))
+    profile = replace(BUILT.profile, proof_factor=FACTOR)
+    return replace(BUILT, rows=rows, profile=profile)
+
+
+@pytest.fixture(params=range(3))
+def study(request):
+    return draw_study(request.param)
+
+
+def read_tables(study, language="en"):
+    """Texts of schedule and order list."""
+    part = show_schedule(study, Words(language))
+    tables = [one for one in part.blocks if hasattr(one, "rows")]
+    return [[[read(cell) for cell in line] for line in one.rows] for one in tables]
+
+
+def read(cell):
+    return cell.text or "".join(getattr(one, "text", "") for one in cell.content)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_part_with_a_force_has_a_line(language):
+def test_every_anchor_with_a_force_has_its_line(study, language):
     words = Words(language)
-    lines = [[cell.text for cell in x] for x in build_schedule(STUDY, words).rows]
-    for row in STUDY.rows:
+    schedule, _ = read_tables(study, language)
+    lines = list(list_anchors(study))
+    assert len(schedule) == len(lines)
+    for row in study.rows:
         for check in row.checks:
-            if check.is_of_force:
-                named = [row.id, show_member(words, check.member)]
-                kinds = [line[2] for line in lines if line[:2] == named]
-                assert (check.resistance_type or "-") in kinds
+            if check.member in ANCHOR_MEMBERS and check.is_of_force:
+                assert any(
+                    (x.row, x.member, x.type_id)
+                    == (row.id, check.member, check.resistance_type)
+                    for x in lines
+                )
+    for cells, line in zip(schedule, lines, strict=True):
+        assert cells[1] == show_member(words, line.member)
+        assert cells[4] == words.show_number("demand_kN", line.demand_kN)
 
 
-def test_forces_are_the_upper_ends_of_their_checks():
-    for row in STUDY.rows:
-        lines = [x for x in build_schedule(STUDY, ENGLISH).rows if x[0].text == row.id]
-        for line in lines:
-            ends = [
-                one.read_band("E_d")[1]
-                for one in row.checks
-                if one.is_of_force
-                and one.position != "edge"
-                and show_member(ENGLISH, one.member) == line[1].text
-            ]
-            known = [end for end in ends if end is not None]
-            assert line[8].number == (max(known) if known else None)
+def test_the_force_of_a_line_is_the_largest_of_its_checks(study):
+    rows = {row.id: row for row in study.rows}
+    for line in list_anchors(study):
+        checks = list_anchor(rows[line.row], (line.member,))
+        own = [x for x in checks if x.resistance_type == line.type_id and x.is_of_force]
+        known = [x.demand_kN for x in own if x.demand_kN is not None]
+        assert line.demand_kN == max(known, default=None)
 
 
-def test_the_least_resistance_passes_and_anything_below_does_not():
-    for row in STUDY.rows:
-        for line in build_schedule(STUDY, ENGLISH).rows:
-            if line[0].text != row.id:
-                continue
-            for check in row.checks:
-                if show_member(ENGLISH, check.member) != line[1].text:
-                    continue
-                _, demand = check.read_band("E_d")
-                factor = check.read("γ_R")
-                if demand and factor:
-                    mode = ENGLISH.show(name_mode(check.mode))
-                    found = re.search(rf"(?:{mode} |^)([\d.]+)", line[-1].text)
-                    least = float(found[1])
-                    assert demand * factor <= least < 1.01 * demand * factor
+def test_a_proof_load_is_the_factor_on_the_upper_end_of_the_pull(study):
+    rows, shown = {row.id: row for row in study.rows}, 0
+    for line in list_anchors(study):
+        pulls = [
+            x.read_band("E_d")[1]
+            for x in rows[line.row].checks
+            if x.member == line.member
+            and x.resistance_type == line.type_id
+            and x.mode == "pull_out"
+            and x.read_band("E_d")[1] is not None
+        ]
+        if pulls:
+            assert line.proof_kN == pytest.approx(FACTOR * max(pulls))
+            shown += 1
+    assert shown
 
 
-def echo(column, value):
-    label = say(f"column.Nets.{column}")
-    return InputEcho(label=label, unit="", text=f"{value}", value=value, cell="Nets!A2")
+def test_what_fails_is_not_ordered_and_the_rest_is_added_up(study):
+    _, orders = read_tables(study)
+    lines = [x for x in list_anchors(study) if x.type_id]
+    kept = [x for x in lines if x.rated.verdict is not Verdict.FAIL]
+    assert [line[0] for line in orders] == sorted({x.type_id for x in kept})
+    for kind, count, *_ in orders:
+        counts = [x.count for x in kept if x.type_id == kind]
+        wanted = "-" if None in counts else f"{sum(counts)}"
+        assert count == wanted
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_each_part_has_its_number_and_place(language):
-    words = Words(language)
-    inputs = [echo("guy_count", 2.0), echo("uphill_anchor_distance", 3.27)]
-    of_force = next(one for one in STUDY.rows[0].checks if one.is_of_force)
-    checks = [replace(of_force, member=one) for one in MEMBERS]
-    row = replace(STUDY.rows[0], inputs=inputs, checks=checks)
-    lines = build_schedule(replace(STUDY, rows=[row]), words).rows
-    places = {line[1].text: line[3].text for line in lines}
-    at = {one: places[show_member(words, one)] for one in MEMBERS}
-    assert at["uphill_anchor"].startswith("2 ")
-    assert words.write("3.27 m") in at["uphill_anchor"]
-    assert at["uphill_guy"].startswith("2 ")
-    assert "3" not in at["uphill_guy"]
-    assert at["post"].startswith("1 ")
-    # nobody gave the other distance
-    assert " - m" in at["downhill_anchor"]
+def test_a_flat_bore_has_a_note_and_an_upright_one_none():
+    row = next(x for x in BUILT.rows if any(p.anchor == "foot_anchor" for p in x.pulls))
+    for dip, notes in ((-7.3, {"flat"}), (21.4, set()), (97.2, {"leans"})):
+        pulls = [replace(x, dip_deg=dip) for x in row.pulls]
+        study = replace(BUILT, rows=[replace(row, pulls=pulls)])
+        found = {
+            note
+            for line in list_anchors(study)
+            for note in line.notes
+            if line.dips_deg and note in ("flat", "leans")
+        }
+        assert found == notes
 
 
-@pytest.mark.parametrize(
-    ("has_mid", "assumed", "shown"),
-    [
-        (False, [], "1 per post"),
-        (True, [], "1 per post, 1 in mid-panel"),
-        (True, ["mid_anchors"], "1 per post; in mid-panel: not given"),
-        (False, ["mid_anchors", "net_cut"], "1 per post; in mid-panel: not given"),
-    ],
-)
-def test_foot_anchors_in_mid_panel_are_counted(has_mid, assumed, shown):
-    of_force = next(one for one in STUDY.rows[0].checks if one.is_of_force)
-    panel = PanelRecord(
-        cut="upper",
-        has_mid_anchors=has_mid,
-        ropes=[],
-        assumed=[say(f"column.Nets.{one}") for one in assumed],
-    )
-    checks = [replace(of_force, member="foot_anchor")]
-    row = replace(STUDY.rows[0], checks=checks, panel=panel)
-    ((_, _, _, place, *_),) = build_schedule(replace(STUDY, rows=[row]), ENGLISH).rows
-    assert place.text == shown
+def test_a_bore_is_told_from_the_horizontal():
+    assert show_dips([], ENGLISH) == "-"
+    assert show_dips([21.6], ENGLISH) == "22°"
+    assert show_dips([97.2], ENGLISH) == "83°"
+    assert show_dips([14.7, 21.6], ENGLISH) == "15–22°"
+
+
+def test_every_letter_is_explained(study):
+    part = show_schedule(study, ENGLISH)
+    (notes,) = [one.items for one in part.blocks if hasattr(one, "items")] or [()]
+    schedule, _ = read_tables(study)
+    letters = {letter for line in schedule for letter in line[-1].split()}
+    assert letters == {re.match("[a-z]", one)[0] for one in notes}

@@ -6,15 +6,15 @@ import pytest
 
 from netdesign.checks.approval import Approval
 from netdesign.outcome import Verdict
-from netdesign.report.sections.decision import list_open_points
-from netdesign.report.sections.guideline import tabulate_used
+from netdesign.report.sections.open_points import list_open_points
+from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor, rate
 from netdesign.report.sections.scopes import (
     describe_scopes,
     describe_study_scopes,
     list_exceeding,
     show_scope,
 )
-from netdesign.report.words import ENGLISH, Words, show_member
+from netdesign.report.words import ENGLISH, Words
 from netdesign.study.scopes import SCOPES, Scope
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
@@ -93,21 +93,21 @@ def test_what_the_coupled_force_exceeds_is_named_with_its_factor():
 
 
 def test_every_anchor_stands_with_both_utilisations():
-    table = tabulate_used(STUDY, ENGLISH)
-    headings = [one.heading for one in table.columns]
-    for row, cells in zip(STUDY.rows, table.rows, strict=True):
-        shown = dict(zip(headings, (one.text for one in cells), strict=True))
-        for check in row.checks:
-            name = show_member(ENGLISH, check.member)
-            if name in shown and check.utilisation is not None:
-                most = max(
-                    one.utilisation_by_model or 0.0
-                    for one in row.checks
-                    if one.member == check.member and one.mode != "connection"
-                )
-                by_model, _, by_guideline = shown[name].partition(" / ")
-                assert by_model == ENGLISH.show_number("utilisation", most)
-                assert by_guideline
+    shown = 0
+    for row in STUDY.rows:
+        for member in ANCHOR_MEMBERS:
+            rated = rate(list_anchor(row, (member,)))
+            known = [
+                one.utilisation_by_guideline
+                for one in row.checks
+                if one.member == member
+                and one.mode != "connection"
+                and one.utilisation_by_guideline is not None
+            ]
+            if rated and known:
+                assert rated.by_guideline == max(known)
+                shown += 1
+    assert shown
 
 
 def test_a_load_that_decides_is_said_on_the_first_page():

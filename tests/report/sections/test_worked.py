@@ -1,11 +1,14 @@
-"""Checks worked out: lines of the governing one, and the annex of all kinds."""
+"""Checks worked out: lines of the deciding one, and all of them in the annex."""
 
 from dataclasses import replace
+
+import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import Items
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.worked import show_all, work_out
+from netdesign.report.sections.annexes import list_annexes
+from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.governing import find_shown
 from netdesign.words.message import say
@@ -21,55 +24,65 @@ def read(cell):
 
 
 def list_lines(check):
-    return [[read(cell) for cell in row] for row in work_out(check, ENGLISH).rows]
+    return {
+        read(row[1]): [read(cell) for cell in row]
+        for row in work_out(check, ENGLISH).rows
+    }
+
+
+def find(lines, symbol):
+    return next(line for text, line in lines.items() if text.startswith(f"{symbol} ="))
 
 
 def test_worked_check_shows_symbols_numbers_and_result():
     row = build_row("A", 2, scale=0.6)
-    *_, demand, derivation, resistance, ratio = list_lines(find_shown(ROW.checks))
-    assert derivation[0] == "R_k"
+    lines = list_lines(find_shown(ROW.checks))
     force = row.member_forces[0].value_kN
-    assert demand[1] == f"= 1.5 · {force:.4g} kN"
-    assert demand[2] == f"= {1.5 * force:.4g} kN"
-    assert resistance[2] == f"= {480 / 1.35:.4g} kN"
-    assert ratio[2].startswith(f"= {1.5 * force / (480 / 1.35):.2f} (")
+    name, _, numbers, result, _ = find(lines, "E_d")
+    assert name == ENGLISH("symbol.E_d")
+    assert numbers == f"= 1.5 · {force:.4g}"
+    assert result == f"{1.5 * force:.4g} kN"
+    assert find(lines, "R_d")[3] == f"{480 / 1.35:.4g} kN"
+    assert find(lines, "μ")[3] == f"{1.5 * force / (480 / 1.35):.2f}"
 
 
-def test_worked_steps_lead_from_the_solved_force_to_the_utilisation():
-    edge, coupled, floor, action, *others = list_lines(ROW.checks[0])
-    assert edge == [
-        "b_e = b / 2 + f_R · Δl",
-        "= 4 m / 2 + 1.6 · 1.5 m",
-        "= 4.4 m",
-    ]
-    assert coupled[0] == "E_c = E_s · b_e / b"
-    assert floor[0] == "E_g = E_g0 · b_e / b"
-    assert action[0] == "E_k = max(E_c; E_g)"
-    results = [one[2].removeprefix("= ") for one in (coupled, floor)]
-    assert action[1] == f"= max({'; '.join(results)})"
-    symbols = [one[0].partition(" = ")[0] for one in others]
-    assert symbols[0] == "E_d"
-    assert symbols[-2:] == ["R_d", "μ"]
-    assert list_lines(replace(ROW.checks[0], steps=[])) == []
+def test_only_the_load_that_governs_is_worked_out():
+    check = ROW.checks[0]
+    lines = list_lines(check)
+    load = {"coupled": "E_c", "guideline": "E_g"}[check.governs]
+    other = {"E_c": "E_g", "E_g": "E_c"}[load]
+    assert any(text.startswith(f"{load} =") for text in lines)
+    assert not any(text.startswith(f"{other} =") for text in lines)
+    assert other in next(text for text in lines if text.startswith("E_k ="))
+    assert list_lines(replace(check, steps=[])) == {}
 
 
-def test_the_annex_has_the_governing_check_of_every_kind():
-    page = PageReader(render_html(STUDY))
-    (table,) = page.tables["annex-checks"]
-    told = " ".join(cell for line in table for cell in line)
-    kinds = {}
-    for row in STUDY.rows:
-        for one in (one for one in row.checks if one.is_of_force):
-            way = one.resistance_derivation and one.resistance_derivation.key
-            kinds.setdefault((one.member, one.mode, one.position, way), []).append(one)
-    known = [any(one.used is not None for one in kind) for kind in kinds.values()]
-    assert told.count("μ =") == sum(known) > 5
-    for kind in kinds.values():
-        assert any(one.resistance_cell in told for one in kind)
+def test_without_a_resistance_the_least_one_is_told():
+    check = next(x for row in STUDY.rows for x in row.checks if x.is_of_force)
+    steps = [x for x in check.steps if x.symbol not in ("R_k", "R_d", "μ")]
+    lines = list_lines(replace(check, steps=steps, open=[]))
+    assert not any(text.startswith(("R_d", "μ")) for text in lines)
+
+
+@pytest.fixture(scope="module")
+def page():
+    return PageReader(render_html(STUDY, has_annexes=True))
+
+
+def test_the_annex_has_every_check_of_a_force(page):
+    tables = page.tables["annex-checks"]
+    assert len(tables) == len(STUDY.rows)
+    for table, row in zip(tables, STUDY.rows, strict=True):
+        forces = [one for one in row.checks if one.is_of_force]
+        assert len(table) - 1 == len(forces)
+        for line, check in zip(table[1:], forces, strict=True):
+            assert show_check(ENGLISH, check) in line[0]
+            assert check.resistance_cell in line[0]
+            assert ("μ =" in line[0]) is (check.utilisation is not None)
 
 
 def test_the_annex_has_each_requirement_without_a_force_once():
-    page = " ".join(PageReader(render_html(STUDY)).text)
+    page = " ".join(PageReader(render_html(STUDY, has_annexes=True)).text)
     annex = page[page.rindex(ENGLISH("heading.annex_checks")) :]
     wanted = {
         show_check(ENGLISH, one)
@@ -88,8 +101,13 @@ def test_one_reason_of_many_checks_of_a_row_stands_once_in_the_annex():
         for one in ROW.checks
     ]
     bare = replace(STUDY, rows=[replace(ROW, checks=checks)])
-    (items,) = (one for one in show_all(bare, ENGLISH).blocks if isinstance(one, Items))
+    annex = next(iter(list_annexes(bare, ENGLISH)))
+    (items,) = (one for one in annex.blocks if isinstance(one, Items))
     clauses = {(one.clause, one.verdict) for one in checks}
     assert len(items.items) == len(clauses) < len(checks)
     for one in checks:
         assert any(show_check(ENGLISH, one) in line for line in items.items)
+
+
+def test_without_annexes_there_is_none():
+    assert not any(x.startswith("annex") for x in PageReader(render_html(STUDY)).ids)

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.sections.schedule import build_quantities
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
+from netdesign.report.workbook.quantities import build_quantities
 from netdesign.study.parts import PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study

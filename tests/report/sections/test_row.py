@@ -1,0 +1,75 @@
+"""Page of a net row: every member once, the loads beside each other, what is open."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from netdesign.outcome import Verdict
+from netdesign.report.page.html import render_html
+from netdesign.report.sections.rated import find_worked
+from netdesign.report.words import ENGLISH, show_check, show_member
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import build_study
+from tests.report.reading import PageReader
+from tests.turn import turn
+
+STUDY = build_study()
+
+
+def read_page(study=STUDY, language="en"):
+    return PageReader(render_html(study, language))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_member_has_a_line_with_force_resistance_and_utilisation(language):
+    page = read_page(language=language)
+    for number, row in enumerate(STUDY.rows, 1):
+        (table,) = page.tables[f"row-{number}-checks"]
+        members = {x.member for x in row.checks if x.is_of_force}
+        links = {x.mode for x in row.checks if x.mode == "connection"}
+        assert len(table) - 1 == len(members) + len(links)
+
+
+def test_what_does_not_pass_is_named_on_the_page_of_its_row():
+    page = read_page()
+    told = " ".join(" ".join(page.text).split())
+    for row in STUDY.rows:
+        for check in row.checks:
+            if check.verdict is not Verdict.PASS:
+                assert show_member(ENGLISH, check.member) in told
+
+
+def test_a_requirement_that_fails_says_why():
+    row = STUDY.rows[0]
+    check = next(x for x in row.checks if not x.is_of_force)
+    failed = turn(check, Verdict.FAIL, reason="The net is too low by 0.37 m.")
+    checks = [failed if x is check else x for x in row.checks]
+    page = read_page(replace(STUDY, rows=[replace(row, checks=checks)]))
+    assert "The net is too low by 0.37 m." in " ".join(page.text)
+
+
+def test_the_deciding_check_is_worked_out():
+    page = read_page()
+    for number, row in enumerate(STUDY.rows, 1):
+        (table,) = page.tables[f"row-{number}-worked"]
+        check = find_worked(row)
+        symbols = {line[1].split(" ")[0] for line in table[1:]}
+        assert "E" in symbols
+        assert ("μ" in symbols) is (check.used is not None)
+        assert show_check(ENGLISH, check) in " ".join(" ".join(page.text).split())
+
+
+def test_model_and_guideline_have_their_loads_on_the_page():
+    told = " ".join(" ".join(read_page().text).split())
+    for row in STUDY.rows:
+        if row.guideline and row.drawing and row.guideline.along_net:
+            load = row.guideline.solved_load_kN_per_m
+            assert ENGLISH.show_number("load_kN_per_m", load) in told
+
+
+def test_rows_alike_share_a_page():
+    row = STUDY.rows[0]
+    study = replace(STUDY, rows=[row, replace(row, id="again")])
+    ids = [x for x in read_page(study).ids if re.fullmatch(r"row-\d+", x)]
+    assert ids == ["row-1"]
