@@ -58,8 +58,9 @@ class RowEnd:
         Of the end guy's anchor, as `EndGuy` has it [m].
     stiffnesses : tuple of tuple of float, shape (n, 4)
         EA that uphill guy, downhill guy, end guy and post there may have together [N].
-    ropes_slide : bool
-        The border ropes slide at the supports; not where nobody says so.
+    ropes_slide : bool or None
+        The border ropes slide at the supports; None, and the worse of both, where
+        nobody says it.
     lateral_distance, lateral_axis : float or None
         Of the lateral anchor from the foot anchor [m], and its inclination against the
         slope [rad]; None where none is given.
@@ -72,7 +73,7 @@ class RowEnd:
     guy_angle: float | None
     guy_from_base: float | None = None
     stiffnesses: tuple[tuple[float, ...], ...] = ()
-    ropes_slide: bool = False
+    ropes_slide: bool | None = None
     lateral_distance: float | None = None
     lateral_axis: float | None = None
     resistances: tuple[Resistance, ...]

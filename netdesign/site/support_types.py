@@ -144,7 +144,7 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
         guy_angle=steepest if angle is None else angle,
         stiffnesses=list_stiffnesses(at_end, end, types),
         guy_from_base=end["end_guy_place"].given_si,
-        ropes_slide=end["ropes_at_supports"].word == "slide",
+        ropes_slide=_read_sliding(end["ropes_at_supports"].word),
         lateral_distance=end["lateral_distance"].given_si,
         lateral_axis=end["lateral_axis"].given_si,
         resistances=(
@@ -153,6 +153,10 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
         ),
         anchors=tuple(anchors.items()),
     )
+
+
+def _read_sliding(word: str) -> bool | None:
+    return word == "slide" if word else None
 
 
 def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:

@@ -63,6 +63,21 @@ def settle(
     return [ends.settle(one) for one in judged]
 
 
+def _is_pulled_one_way(one: MemberCheck) -> bool:
+    """Ropes of which nobody says that they slide pull a support beside the end."""
+    end = one.known.row.row_end
+    is_beside = one.width.position == "second"
+    return is_beside and end is not None and end.ropes_slide is None
+
+
+def _slide(known: RowForces) -> RowForces:
+    """The row whose border ropes slide at its supports."""
+    end = known.row.row_end
+    pulls = tuple(one for one in known.pulls if one.position != "second")
+    sliding = end and replace(end, ropes_slide=True)
+    return replace(known, row=replace(known.row, row_end=sliding), pulls=pulls)
+
+
 def _leave_to_sags(check: Check) -> Check:
     return check.ease(0.0).with_open(OpenKind.ASSUMED_DECIDES, say("assumed.by_sags"))
 
@@ -111,6 +126,8 @@ class _BestEnds:
             return replace(one, check=_leave_to_sags(check))
         if one.again is None or not is_beyond:
             return one
+        if check.verdict is Verdict.FAIL and _is_pulled_one_way(one):
+            check = self._let_ropes_slide(one)
         is_open = bool(self.searched or self.task.row.panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
             check = check.ease(self._find_least(one))
@@ -127,6 +144,15 @@ class _BestEnds:
         is_pulled = check.member in ROPE_OF or not _PULLS.isdisjoint(check.known)
         sags = map(self.task.row.find_assumed, _SAGS)
         return is_pulled and is_of_structure(check) and any(sags)
+
+    def _let_ropes_slide(self, one: MemberCheck) -> Check:
+        """Check beside the row's end as it is where the border ropes slide there."""
+        found = self._judge(one, _slide(one.best or one.known))
+        low = found.utilisation_band[0] if found else None
+        if found is None or found.is_unbounded or low is None or low > 1.0:
+            return one.check
+        told = say("assumed.by_sliding", used=low)
+        return one.check.ease(low).with_open(OpenKind.ASSUMED_DECIDES, told)
 
     def _find_least(self, one: MemberCheck) -> float:
         """Low end of the utilisation at the best corner of what is searched [-].

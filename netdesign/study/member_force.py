@@ -326,7 +326,7 @@ def _list_rope_leaves(
     if row.row_end is None or width.position == "intermediate":
         return []
     if width.position == "second":
-        return _list_unbalanced(forces, member, slide=row.row_end.ropes_slide)
+        return _list_unbalanced(forces, member, slide=bool(row.row_end.ropes_slide))
     angle, at_end = _list_guy_angle(row), forces.at_end
     rope = forces.largest.get(RopeForce.UPPER_ALONG)
     if member not in PUSHED or at_end is None or rope is None:

@@ -168,7 +168,7 @@ def _rewrite_net(
         if key in ranged:
             net[key] = ranged[key]
     if end is not None:
-        net |= copy_cells(end, ("end_guy", "end_guy_angle"), told)
+        net |= copy_cells(end, ("end_guy", "end_guy_angle", "ropes_at_supports"), told)
     base, height = line["post_base_distance"], line["net_height"]
     if base.state == "given" and height.state == "given":
         net["post_tilt"] = _find_tilts(base, height)

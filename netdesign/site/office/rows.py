@@ -276,7 +276,11 @@ def join_ends(
             how = say("office.axis_of_dip", dip=found[0].number, place=found[0].place)
             field = find_field(ENDS, "lateral_axis")
             given["lateral_axis"] = work_out(found[0], field, found[1], how)
-        named = {key: net[key] for key in ("end_guy", "end_guy_angle") if key in net}
+        named = {
+            key: net[key]
+            for key in ("end_guy", "end_guy_angle", "ropes_at_supports")
+            if key in net
+        }
         ends.append(
             take(
                 ENDS,
