@@ -26,7 +26,7 @@ FAMILIES: tuple[str, ...] = (
     *("product_source.", "plausible.source_", "opinion.", "schedule."),
     *("scope.", "todo.", "who.", "condition.", "quantities.", "diff_part."),
     *("decision.", "matrix.", "anchors.", "row_page.", "worked.", "tests."),
-    *("assumed_range.", "documents.", "panel_view.", "rewrite.of_"),
+    *("assumed_range.", "rated.", "documents.", "panel_view.", "rewrite.of_"),
     *("assumed_word.", "assumed_source.", "assumed_effect."),
     *(
         "floor.profile_",

@@ -27,24 +27,45 @@ class AssumedLine:
     name: str
     value: str
     rows: tuple[str, ...] = ()
-    is_default: bool = False  # nobody typed it
 
 
 def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
-    """Ranges that were searched, then values that nobody typed, each once."""
-    yield from _list_ranges(study, words)
-    found: dict[tuple[str, str], list[str]] = {}
+    """Ranges that were searched, then what else nobody said, each name once.
+
+    Rows whose ranges differ share a line: least low end to largest high end.
+    """
+    found: dict[str, dict[str, None]] = {}
+    ends: dict[str, list[float]] = {}
+    rows: dict[str, dict[str, None]] = {}
+    units: dict[str, str] = {}
     for row in study.rows:
-        told = {words.show(x.input): words.show(x.text) for x in row.assumed}
+        for one in row.assumed:
+            name = words.show(one.input)
+            rows.setdefault(name, {})[row.id] = None
+            if one.low is None or one.high is None:
+                found.setdefault(name, {})[words.show(one.text)] = None
+            else:
+                ends.setdefault(name, []).extend((one.low, one.high))
+                units[name] = one.unit.removeprefix("-")
         for echo in row.inputs:
-            shown = _show_default(echo, words)
-            if shown:
-                told.setdefault(words.show(echo.label), shown)
-        for pair in told.items():
-            found.setdefault(pair, []).append(row.id)
-    for (label, shown), ids in found.items():
-        rows = () if len(ids) == len(study.rows) else tuple(ids)
-        yield AssumedLine(name=label, value=shown, rows=rows, is_default=True)
+            shown, name = _show_default(echo, words), words.show(echo.label)
+            if shown and row.id not in rows.get(name, {}):
+                rows.setdefault(name, {})[row.id] = None
+                found.setdefault(name, {})[shown] = None
+    yield from (x for x in _list_ranges(study, words) if x.name not in rows)
+    for name, ids in rows.items():
+        told = list(found.get(name, {}))
+        if name in ends:
+            told.append(_show_ends(ends[name], units[name], words))
+        some = () if len(ids) == len(study.rows) else tuple(ids)
+        yield AssumedLine(name=name, value=words.join(told), rows=some)
+
+
+def _show_ends(ends: list[float], unit: str, words: Words) -> str:
+    """Least and largest of some ends, to four digits, with their unit."""
+    low, high = (words.show_given(float(f"{x:.4g}")) for x in (min(ends), max(ends)))
+    text = low if low == high else words("show.from_to", low=low, high=high)
+    return append_unit(text, show_unit(unit)) if unit else text
 
 
 def _show_default(echo: InputEcho, words: Words) -> str:
@@ -67,16 +88,8 @@ def _list_ranges(study: Study, words: Words) -> Iterator[AssumedLine]:
             names[named.key] = named
     for key, echoes in ends.items():
         numbers = [one.value for one in echoes if isinstance(one.value, float)]
-        shown = [words.show_given(end) for end in (min(numbers), max(numbers))]
-        is_one = shown[0] == shown[1]
-        text = (
-            shown[0] if is_one else words("show.from_to", low=shown[0], high=shown[1])
-        )
-        yield AssumedLine(
-            name=words.show(names[key]),
-            value=append_unit(text, show_unit(echoes[0].unit)),
-            is_default=any(one.cell == DEFAULT for one in echoes),
-        )
+        shown = _show_ends(numbers, echoes[0].unit, words)
+        yield AssumedLine(name=words.show(names[key]), value=shown)
 
 
 def _is_message(echo: InputEcho) -> bool:

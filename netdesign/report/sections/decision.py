@@ -178,7 +178,8 @@ def _show_structure(row: RowStudy, words: Words) -> Content:
         return show_rated(rate_scope(row, Scope.STRUCTURE), words)
     first = sign(row.scopes[Scope.STRUCTURE].verdict, words)
     if line.declared is None:
-        return (first, Piece(words("rated.nothing_given"), "beside"))
+        key = "outside" if line.mode == "approval" else "nothing_given"
+        return (first, Piece(words(f"rated.{key}"), "beside"))
     return (first, Piece(show_text(line.declared.document), "beside"))
 
 
@@ -206,6 +207,8 @@ def _tell_governing(row: RowStudy, words: Words) -> Content:
 def _compare(check: Check, words: Words) -> str:
     """``441 > 159 kN, needs R_k ≥ 602 kN``; else the reason in few words."""
     demand, resistance = check.demand_kN, check.resistance_kN
+    if demand is None and check.declared:
+        return show_text(check.declared.document)
     if demand is None or check.is_unbounded:
         return describe_cause(check, words)
     force = words.show_number("demand_kN", demand)
@@ -264,7 +267,7 @@ def _show_assumed(study: Study, words: Words) -> Part:
         value: list[Piece] = [Piece(one.value)]
         if one.rows:
             named = show_text(name_rows(list(one.rows), study, words))
-            value.append(Piece(named, SMALL))
+            value.append(Piece(f" ({named})", "beside"))
         rows.append((text_cell(one.name), Cell(content=tuple(value))))
     table = Table(
         caption="",

@@ -112,6 +112,9 @@ def find_demand(checks: Sequence[Check]) -> float | None:
 
 def find_deciding(row: RowStudy) -> Check | None:
     """Check that decides a row: without a resistance, that of the largest force."""
+    whole = find_structure(row)
+    if whole is not None and whole.verdict is row.verdict is Verdict.DECLARED:
+        return whole
     forces = [one for one in row.checks if one.is_of_force]
     pool = [one for one in forces if one.verdict is row.verdict]
     return max(pool, key=_rank) if pool else find_governing(row.checks)

@@ -119,7 +119,9 @@ class RowPage:
         if shown is None:
             return told
         used = t.show_number("utilisation", shown.used)
-        if shown.used is None:
+        if shown.used is None and shown.declared:
+            used = show_text(shown.declared.document)
+        elif shown.used is None:
             used = t.show_with_unit("demand_kN", shown.demand_kN)
         named = t.show(name_check(shown.member, shown.mode))
         return t("row_page.title", verdict=told, used=used, check=named)
@@ -169,7 +171,8 @@ class RowPage:
         """Largest design force of each drawn member, with its utilisation."""
         found = {}
         for member in _DRAWN:
-            checks = [one for one in self.row.checks if one.member == member]
+            known = list_anchor if member in ANCHOR_MEMBERS else list_part
+            checks = known(self.row, (member,))
             force, rated = find_demand(checks), rate(checks)
             if force is not None and rated is not None:
                 shown = self.words.show_with_unit("demand_kN", force)

@@ -120,7 +120,7 @@ def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
         yield (
             text_cell(words("worked.needed")),
             Cell(content=symbols("R_k ≥ γ_R · E_d")),
-            text_cell(words("worked.upper_end", force=upper)),
+            Cell(content=symbols(words("worked.upper_end", force=upper))),
             Cell(
                 content=(
                     Piece(append_unit(words.show_minimum(needed), "kN"), "strong"),
