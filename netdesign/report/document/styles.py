@@ -16,13 +16,13 @@ VERDICT, TABLE = "netdesign verdict", "netdesign table"
 # Size [pt], bold, space above and below [pt], stays with what follows.
 _LOOKS: dict[str, tuple[float, bool, float, float, bool]] = {
     TITLE: (17.0, True, 0.0, 4.0, True),
-    HEADING: (14.0, True, 8.0, 3.0, True),
-    SUBHEADING: (9.5, True, 5.0, 2.0, True),
+    HEADING: (14.0, True, 0.0, 2.0, True),
+    SUBHEADING: (9.5, True, 4.0, 1.0, True),
     CAPTION: (7.5, False, 4.0, 1.0, True),
-    TEXT: (8.5, False, 0.0, 3.0, False),
-    ITEM: (8.0, False, 0.0, 1.0, False),
-    SMALL: (7.5, False, 1.0, 3.0, False),
-    CELL: (7.5, False, 0.2, 0.2, False),
+    TEXT: (8.5, False, 0.0, 2.0, False),
+    ITEM: (7.5, False, 0.0, 0.5, False),
+    SMALL: (7.5, False, 0.0, 2.0, False),
+    CELL: (7.5, False, 0.0, 0.0, False),
     VERDICT: (16.0, True, 4.0, 3.0, True),
 }
 NAMES = (*_LOOKS, TABLE)

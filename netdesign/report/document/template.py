@@ -35,7 +35,7 @@ _TYPES = "[Content_Types].xml"
 _TEMPLATE = b"wordprocessingml.template.main+xml"
 _DOCUMENT = b"wordprocessingml.document.main+xml"
 _A4_MM = (210.0, 297.0)
-_MARGIN_MM = 15.0
+_MARGIN_MM, _UPRIGHT_MM, _EDGE_MM = 15.0, 12.0, 6.0
 
 
 def require_docx() -> None:
@@ -110,7 +110,8 @@ def _set_paper(document: Document) -> None:
     section = document.sections[0]
     section.page_width, section.page_height = (Mm(side) for side in _A4_MM)
     section.left_margin = section.right_margin = Mm(_MARGIN_MM)
-    section.top_margin = section.bottom_margin = Mm(_MARGIN_MM)
+    section.top_margin = section.bottom_margin = Mm(_UPRIGHT_MM)
+    section.header_distance = section.footer_distance = Mm(_EDGE_MM)
 
 
 def _drop_text(document: Document) -> None:

@@ -142,9 +142,9 @@ def show_basis(study: Study, words: Words) -> Part:
     """Statements that hold for all rows: limits of the report, profile, tests."""
     blocks: tuple[Block, ...] = (
         Paragraph(text=words("scope.decision"), look="small"),
-        Pairs(pairs=tuple(_list_scope(study, words)), look="keys"),
         Pairs(
             pairs=(
+                *_list_scope(study, words),
                 *_list_documents(study, words),
                 *_list_approvals(study, words),
                 *_list_profile(study, words),
