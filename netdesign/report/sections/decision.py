@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY
 from netdesign.report.blocks import (
+    HIDDEN,
     SMALL,
     Block,
     Cell,
@@ -68,6 +69,7 @@ def show_decision(study: Study, words: Words, *, is_verified: bool = False) -> P
             *_show_title(study, words, is_verified=is_verified),
             Paragraph(text=_name_rows_by_state(study, words), look="say"),
             *_show_matrix(study, words),
+            Heading(text=words("heading.decision"), level=2, look=HIDDEN, on="page"),
             Part(
                 kind="div",
                 look="two",
@@ -235,12 +237,9 @@ def _show_to_do(study: Study, words: Words) -> Iterator[Block]:
         for who in WHO
         if (own := [x for x in lines if x.who == who])
     ]
-    if pairs:
-        yield Part(
-            id="todo", kind="div", blocks=(Pairs(pairs=tuple(pairs), look="todo"),)
-        )
-    else:
-        yield Paragraph(text=words("todo.none"), look="none")
+    none = Paragraph(text=words("todo.none"), look="none")
+    listed = Pairs(pairs=tuple(pairs), look="todo") if pairs else none
+    yield Part(id="todo", kind="div", blocks=(listed,))
 
 
 def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
