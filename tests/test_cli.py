@@ -172,7 +172,7 @@ def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
     assert result.code == 6, result.err
     proof = "Report G-17, B. Rüegg, 2026-03-09, cell Declared!B2"
     (row,) = [one for one in result.out.splitlines() if one.startswith("R1 ")]
-    assert row.split()[1:3] == ["PROVEN", "ELSEWHERE"]
+    assert "†" in row
     assert row.endswith("Report G-17")
     assert proof in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     book = read_workbook((tmp_path / "out" / "report.xlsx").read_bytes())

@@ -250,7 +250,7 @@ def check_gap(gap: float, standard: Standard) -> Check | None:
     Nor of a free end, beside which nobody says that there is a work: a condition.
     """
     most = standard.find(MAX_GAP)
-    if most is None or math.isinf(gap):
+    if most is None or gap == math.inf:
         return None
     met = judge(gap, gap, least=0.0, most=most.value)
     finding = say(_GAPS[met is Verdict.PASS], gap=gap, most=most.value)

@@ -280,6 +280,7 @@ DECIDED = {
 @settings(max_examples=100)
 def test_a_size_that_is_no_number_never_passes(row, name, bad):
     assume(not (name == "slope_angle" and math.isinf(bad)))  # has no tangent
+    assume(not (name == "gap" and bad == math.inf))  # a free end: a condition
     spoilt = check_geometry(replace(row, **{name: bad}), FULL)
     (check,) = (one for one in spoilt if one.mode == DECIDED[name])
     assert check.verdict is OPEN

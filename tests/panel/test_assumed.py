@@ -175,7 +175,7 @@ def assume_cut(spacing, sag):
 
 @pytest.mark.parametrize("seed", [305, 340])
 def test_an_assumed_panel_that_would_lie_on_the_ground_hangs_as_low_as_it_may(seed):
-    """With sags that are given nothing is known of it."""
+    """Of given sags the cuts that hang free count: the others are none that is built."""
     solve, spacing = draw_solver(seed)
     panels = assume_all(spacing)
     found = solve(panels)
@@ -191,4 +191,4 @@ def test_an_assumed_panel_that_would_lie_on_the_ground_hangs_as_low_as_it_may(se
         assert isinstance(solve([own]), PanelForces)
         assert isinstance(solve([panel]), FailedPanel)
     assert raised
-    assert isinstance(solve(assume_cut(spacing, SAGS[1])), FailedPanel)
+    assert isinstance(solve(assume_cut(spacing, SAGS[1])), PanelForces)

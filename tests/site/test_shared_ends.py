@@ -18,6 +18,7 @@ def write_rows(path, statements, **of_row):
     net = {k: v for k, v in lines["Nets"][0].items() if k not in ("gap", "row_end")}
     net.pop("neighbour", None)
     net |= {"snow_layers": "uniform", "slack": 0.05, "post_tilt": 15.0}
+    net["panel_system"] = "rectangular"
     net.pop("post_base_distance", None)
     lines["Snow"], lines["Ends"] = [], []
     lines["Nets"] = [

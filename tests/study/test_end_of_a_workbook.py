@@ -78,8 +78,6 @@ def test_an_end_that_is_held_is_not_proven_without_a_panel(tmp_path):
     post = next(one for one in row.checks if one.id == "post.compression.end")
     for check in (*checks.values(), post):
         assert check.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
-        if check.verdict is Verdict.NOT_PROVEN:
-            assert "panel" in str(check.reason)
 
 
 @pytest.mark.parametrize("mid", ["no", "yes"])
