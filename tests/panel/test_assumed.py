@@ -175,7 +175,7 @@ def assume_cut(spacing, sag):
 
 @pytest.mark.parametrize("seed", [305, 340])
 def test_an_assumed_panel_that_would_lie_on_the_ground_hangs_as_low_as_it_may(seed):
-    """Of given sags the cuts that hang free count: the others are none that is built."""
+    """Of given sags the cuts that hang free count: no other is built."""
     solve, spacing = draw_solver(seed)
     panels = assume_all(spacing)
     found = solve(panels)
