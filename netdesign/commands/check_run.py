@@ -25,6 +25,7 @@ from netdesign.edge.streams import print_json
 from netdesign.site.statements import list_missing
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
+from netdesign.words.names import as_given
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -33,7 +34,8 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.study.check_run import CheckRun
-    from netdesign.study.records import Study
+    from netdesign.study.check_site import OnRow
+    from netdesign.study.records import RowStudy, Study
     from netdesign.study.sizing import ReadInstead, SizedCell
 
     # smallest types under one profile; no study where nothing is replaced
@@ -75,7 +77,9 @@ def carry_out(
     sized: list[Sized] = []
     with open_run(site, run, asked, solved) as (runner, progress):
         if read_instead is None:
-            studies = check_site(site, profiles, run, runner, progress)
+            studies = check_site(
+                site, profiles, run, runner, progress, _tell_rows(progress, asked)
+            )
         else:
             studies, sized = _check_and_size(
                 site, profiles, run, read_instead, runner, progress
@@ -99,6 +103,25 @@ def carry_out(
         )
         print_next_steps(verdicts, site_name, is_sized=is_sized)
     return failed or find_exit_code(studies, asked["scopes"])
+
+
+def _tell_rows(progress: RunProgress, asked: Mapping[str, Any]) -> OnRow:
+    """Tell somebody at a terminal what a row is as soon as it is known."""
+    if asked["quiet"] or asked["as_json"] or not sys.stderr.isatty():
+        return lambda _: None
+    from netdesign.report.sections.scopes import show_scope
+    from netdesign.report.words import Words, show_text
+    from netdesign.study.scopes import SCOPES
+
+    words = Words(speak())
+
+    def tell_row(studies: Sequence[RowStudy]) -> None:
+        row = studies[0]
+        scopes = "  ".join(show_scope(row, one, words)[0] for one in SCOPES)
+        progress.clear()
+        tell(as_given(f"{show_text(row.id)}  {scopes}"), err=True)
+
+    return tell_row
 
 
 def _write_documents(studies: Sequence[Study]) -> str:
