@@ -274,9 +274,18 @@ class Check:
         The low end is that at the best ends of what is assumed.
         """
         low, high = self.read_band("μ")
-        if low is None or self.eased is None:
-            return low, high
-        return min(low, self.eased), high
+        return low if self.eased_low is None else self.eased_low, high
+
+    @property
+    def eased_low(self) -> float | None:
+        """Low end at the best ends of what is assumed [-]; None where it is no lower.
+
+        The steps, which are those of the worst ends, do not bring it.
+        """
+        low, _ = self.read_band("μ")
+        if low is None or self.eased is None or self.eased >= low:
+            return None
+        return self.eased
 
     @property
     def utilisation_by_model(self) -> float | None:

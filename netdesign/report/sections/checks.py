@@ -36,6 +36,14 @@ def describe_resistance(check: Check, words: Words) -> str:
     return show_text(", ".join(part for part in parts if part))
 
 
+def describe_eased(check: Check, words: Words) -> str:
+    """Low end of a utilisation at the best ends of what is assumed; "" of none."""
+    low = check.eased_low
+    if low is None:
+        return ""
+    return words("show.eased", used=words.show_number("utilisation", low))
+
+
 def name_case(check: Check, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
     if check.governs == "maker":

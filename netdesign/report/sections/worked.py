@@ -23,7 +23,12 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.checks import describe_resistance, name_case, name_checks
+from netdesign.report.sections.checks import (
+    describe_eased,
+    describe_resistance,
+    name_case,
+    name_checks,
+)
 from netdesign.report.sections.rated import find_needed
 from netdesign.report.words import (
     MISSING,
@@ -170,6 +175,7 @@ def _describe_check(check: Check, words: Words) -> Content:
     known = (one for one in check.steps if one.value is not None)
     told = [_describe_step(one, check, words) for one in known]
     beside = [describe_resistance(check, words), name_case(check, words)]
+    beside += [one for one in [describe_eased(check, words)] if one]
     if check.is_unbounded:
         beside.append(words.show(check.reason))
     return (

@@ -20,7 +20,11 @@ from netdesign.calculation.steps import (
 from netdesign.checks.check import Check
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Column
-from netdesign.report.sections.checks import describe_resistance, name_case
+from netdesign.report.sections.checks import (
+    describe_eased,
+    describe_resistance,
+    name_case,
+)
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
@@ -95,13 +99,14 @@ def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> N
     """Texts of a check: verdict, clause, case, reason and resistance."""
     words = book.words
     told = (check.clause, name_case(check, words), words.show(check.reason))
+    beside = (describe_resistance(check, words), describe_eased(check, words))
     texts = {
         "net_row": show_text(row),
         "check": show_check(words, check),
         "verdict": book.word(check.verdict),
         "symbol": words.join(one for one in told if one not in ("", MISSING)),
         "unit": "",
-        "source": describe_resistance(check, words),
+        "source": words.join(one for one in beside if one not in ("", MISSING)),
     }
     first, last = (_PLACES[name] for name in _REASON)
     form = book.text(text_wrap=True, top=1)
@@ -128,7 +133,11 @@ def _write_used(book: Book, sheet: Any, line: int, check: Check, cells: Cells) -
         shown = MISSING if used is None else UNBOUNDED if used == math.inf else used
         place = (line, _PLACES[name])
         if ("μ", 0) in cells:
-            sheet.write_formula(*place, f"={_find(cells, 'μ', end)}", form, shown)
+            cell = _find(cells, "μ", end)
+            is_eased = end < 0 and check.eased_low is not None
+            eased = f"IF(ISNUMBER({cell}),MIN({cell},{check.eased_low!r}),{cell})"
+            formula = f"={eased if is_eased else cell}"
+            sheet.write_formula(*place, formula, form, shown)
         else:
             sheet.write(*place, shown, form)
 
