@@ -93,6 +93,8 @@ STATEMENTS = (
     *("soil", "sleeve", "lateral_distance", "soil_cohesion", "soil_friction"),
     *("soil_weight", "soil_water", "foot_axis", "uphill_axis", "downhill_axis"),
     *("lateral_axis", "anchor_axes", "end_guy_angle", "sliding", "mid_anchors"),
+    # ropes whose stiffness nobody gives are of one construction with the others
+    "axial_stiffness",
 )
 
 
