@@ -201,15 +201,21 @@ def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
 
 
 def _build_alike(lines: Sequence[Row | None], multiple: float) -> tuple[float, ...]:
-    """EA of ropes of one construction [N]; of one that has no type the largest."""
+    """EA of ropes of one construction [N]: uphill guy, downhill guy, end guy.
+
+    Of no type a guy is as stiff as the stiffest, the end guy as the softest: so the
+    guys hold most.
+    """
     found: list[float | None] = []
     for line in lines:
         force = find_breaking(line) if line else None
         typed = line["axial_stiffness"].given_si if line else None
         found.append(typed or (multiple * force if force else None))
     known = [one for one in found if one is not None]
-    usual = max(known, default=math.sqrt(math.prod(STIFFNESSES)))
-    return tuple(usual if one is None else one for one in found)
+    usual = known or [math.sqrt(math.prod(STIFFNESSES))]
+    *guys, end = found
+    stiff = [max(usual) if one is None else one for one in guys]
+    return (*stiff, min(usual) if end is None else end)
 
 
 _POST_AREAS = (5e-4, 2e-2)  # that are built [m2]

@@ -35,6 +35,7 @@ RANK = {
 }
 PARTS = tuple(NetPart)
 SITES_IN_SUITE, SETS_A_SITE = 30, 10
+BEYOND_LENGTH = 1e-3  # of a force, by snow beyond the assumed upslope length
 FOUND = (1005, 1016, 1025, 1149)  # sites that showed a fault once
 
 
@@ -62,7 +63,7 @@ def list_improvements(before, after):
     found = []
     for name, row in before.items():
         now = after[name]
-        if RANK[now.verdict] > RANK[row.verdict]:
+        if RANK[now.verdict] > RANK[row.verdict] and not is_unsolved(row.checks):
             found.append((name, "row", row.verdict, now.verdict))
         checks = {one.id: one for one in now.checks}
         for check in row.checks:
@@ -81,6 +82,14 @@ def list_improvements(before, after):
     return found
 
 
+def is_unsolved(checks):
+    """Whether a panel that is typed has no forces in some case: it lies on the ground.
+
+    Of one that is assumed those count that hang free, as what is built does.
+    """
+    return any(one.has_open(OpenKind.UNSOLVED) for one in checks)
+
+
 def list_alike(check):
     """Ids under which the load of a support is told that has the types inside."""
     if check.position == "edge":
@@ -95,14 +104,14 @@ def compare(check, now):
     if now is None:
         yield check.id, "gone", check.verdict
         return
-    is_declared = check.declared is not None
+    is_declared = check.declared is not None or is_unsolved([check])
     if RANK[now.verdict] > RANK[check.verdict] and not is_declared:
         yield check.id, check.verdict, now.verdict, str(now.reason)
     used, less = check.utilisation, now.utilisation
     if used is None or less is None or now.has_open(OpenKind.UNSOLVED):
         return  # it says that the force may be larger
     low, high = check.utilisation_band
-    if less < used - (high - low) - 1e-9:
+    if less < (1.0 - BEYOND_LENGTH) * used - (high - low) - 1e-9:
         yield check.id, used, less
 
 
@@ -131,7 +140,7 @@ def assert_never_better(path, seed, count):
         after = judge(path, empty(lines, cells))
         if after is not None:
             better = list_improvements(before, after)
-            assert not better, (seed, cells, better[:4])
+            assert not better, f"{seed} {cells} {better[:4]}"
 
 
 @pytest.mark.parametrize(
