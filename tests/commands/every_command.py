@@ -17,11 +17,11 @@ from tests.report.reading import read_workbook
 
 ROW = "R4"
 COMMANDS = {
-    "init": "init site.xlsx --example",
+    "init": "init new.xlsx --example",
     "check": "check site.xlsx --out out --accuracy 0.1 --jobs 1 --docx --quiet",
     "what if": "check site.xlsx --out b --accuracy 0.1 --jobs 1 --quiet --no-excel "
     "--what-if {nets}.L2=9",
-    "summary": "report out/study.json --out short --annexes",
+    "summary": "report out/study.json --out c --annexes",
     "table": "table site.xlsx --study out/study.json",
     "diff": "diff out/study.json b/what-if-study.json",
     "map": "map site.xlsx",
@@ -52,6 +52,7 @@ def run_all(folder, language, patch):
     patch.chdir(folder)
     lines = shorten_example()
     patch.setattr(template, "load_example", lambda: lines)
+    template.write_site_workbook("site.xlsx", example=True, language=language)
     told = {}
     for name, line in COMMANDS.items():
         if name == "refused":

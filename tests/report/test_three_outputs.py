@@ -149,6 +149,8 @@ def is_shown(number, text):
     """A number of the workbook, rounded as the other output prints it."""
     if text is None or text == "-":
         return number in (None, "-")
+    if isinstance(number, str):
+        return False
     plain = text.replace(",", ".")
     assert PLAIN.match(plain), text
     decimals = len(plain.partition(".")[2])
