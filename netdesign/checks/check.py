@@ -276,7 +276,7 @@ class Check:
 
     @property
     def eased_low(self) -> float | None:
-        """Low end at the best ends of what is assumed [-]; None where it is no lower."""
+        """Low end at the best ends of what is assumed [-]; None if no lower."""
         low, eased = self.read_band("μ")[0], self.eased
         is_lower = low is not None and eased is not None and eased < low
         return eased if is_lower else None
