@@ -28,7 +28,11 @@ from netdesign.words.message import say
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
 GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
-_SEVERE = {"slack": 0.0, "net_stiffness": 1.0}  # share of the range that pulls hardest
+_SEVERE = {
+    "slack": 0.0,
+    "net_stiffness": 1.0,
+    "glide_factor": 1.0,
+}  # share of the range that pulls hardest
 _DISTANCES = ("uphill_anchor_distance", "downhill_anchor_distance")
 _SAGS = ("ridge_sag", "lower_sag")
 
@@ -51,7 +55,10 @@ def fill_in_assumed(row: Row) -> tuple[Row, tuple[Assumed, ...]]:
     filled = {one.key: _place(row[one.key], one) for one in found if one.key in row}
     glide = (assume("glide_factor"),) if _lacks_glide(row) else ()
     for one in glide:
-        law, how = row["ground_law"], say("assumed.worst_class", value=one.high)
+        law, how = (
+            row["ground_law"],
+            say("assumed.any_class", low=one.low, high=one.high),
+        )
         if law.state == "blank":
             law = replace(law, state="given", value="sliding", derivation=how)
         filled |= {"ground_law": law, one.key: _place(row[one.key], one)}

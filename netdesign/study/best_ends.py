@@ -32,7 +32,7 @@ from netdesign.study.variants import list_layouts, place_variant, read_values
 from netdesign.words.message import Message, say
 
 # What is searched with the cases, but is no design range.
-SEARCHED = ("slack", "net_stiffness")
+SEARCHED = ("slack", "net_stiffness", "glide_factor")
 _SAGS = ("ridge_sag", "lower_sag")
 _PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a check
 _PARTS = 8  # of a range, among which is the value from which on a check passes
@@ -63,19 +63,12 @@ def settle(
     return [ends.settle(one) for one in judged]
 
 
-def _is_pulled_one_way(one: MemberCheck) -> bool:
-    """Ropes of which nobody says that they slide pull a support beside the end."""
-    end = one.known.row.row_end
-    is_beside = one.width.position == "second"
-    return is_beside and end is not None and end.ropes_slide is None
-
-
-def _slide(known: RowForces) -> RowForces:
-    """The row whose border ropes slide at its supports."""
+def _take_off(known: RowForces) -> RowForces:
+    """The row whose border ropes pull no support along it."""
     end = known.row.row_end
+    row = replace(known.row, row_end=end and replace(end, ropes_slide=True))
     pulls = tuple(one for one in known.pulls if one.position != "second")
-    sliding = end and replace(end, ropes_slide=True)
-    return replace(known, row=replace(known.row, row_end=sliding), pulls=pulls)
+    return replace(known, row=row, pulls=pulls, end_guy=None)
 
 
 def _leave_to_sags(check: Check) -> Check:
@@ -122,12 +115,12 @@ class _BestEnds:
         check = one.check
         high = check.utilisation_band[1]
         is_beyond = check.is_unbounded or (high is not None and high > 1.0)
-        if is_beyond and self._rests_on_sags(check):
+        if is_beyond and self._is_rope_of_assumed_sag(check):
             return replace(one, check=_leave_to_sags(check))
         if one.again is None or not is_beyond:
             return one
-        if check.verdict is Verdict.FAIL and _is_pulled_one_way(one):
-            check = self._let_ropes_slide(one)
+        if check.verdict is Verdict.FAIL and self._has_open_pull(one):
+            check = self._take_off_ropes(one)
         is_open = bool(self.searched or self.task.row.panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
             check = check.ease(self._find_least(one))
@@ -135,23 +128,35 @@ class _BestEnds:
             check = check.with_open(OpenKind.ASSUMED_DECIDES, told)
         return replace(one, check=check)
 
-    def _rests_on_sags(self, check: Check) -> bool:
-        """A part of the structure is pulled by a rope whose sag is assumed.
+    @property
+    def _are_sags_assumed(self) -> bool:
+        return any(map(self.task.row.find_assumed, _SAGS))
 
-        The pulls of assumed sags lie far above the one that was measured: they leave
-        such a part open, and never make it fail.
+    def _is_rope_of_assumed_sag(self, check: Check) -> bool:
+        """A border rope or end guy whose pull follows from a sag that is assumed.
+
+        Such pulls lie far above the one that was measured: they leave a part of the
+        structure open, and never make it fail.
         """
-        is_pulled = check.member in ROPE_OF or not _PULLS.isdisjoint(check.known)
-        sags = map(self.task.row.find_assumed, _SAGS)
-        return is_pulled and is_of_structure(check) and any(sags)
+        is_rope = check.member in ROPE_OF and is_of_structure(check)
+        return is_rope and self._are_sags_assumed
 
-    def _let_ropes_slide(self, one: MemberCheck) -> Check:
-        """Check beside the row's end as it is where the border ropes slide there."""
-        found = self._judge(one, _slide(one.best or one.known))
-        low = found.utilisation_band[0] if found else None
-        if found is None or found.is_unbounded or low is None or low > 1.0:
+    def _has_open_pull(self, one: MemberCheck) -> bool:
+        """A border rope pulls by what nobody says: its sag, or that it slides."""
+        end = one.known.row.row_end
+        if end is None or one.check.member in ROPE_OF:
+            return False
+        may_slide = one.width.position == "second" and end.ropes_slide is None
+        is_pulled = not _PULLS.isdisjoint(one.check.known)
+        return is_pulled and (may_slide or self._are_sags_assumed)
+
+    def _take_off_ropes(self, one: MemberCheck) -> Check:
+        """Check without the border ropes' pull, which it may fail by alone."""
+        low = _find_low(self._judge(one, _take_off(one.best or one.known)))
+        worst = _rate(one.check)
+        if not 0.0 < low <= 1.0 or math.isinf(worst):
             return one.check
-        told = say("assumed.by_sliding", used=low)
+        told = say("assumed.by_ropes", used=worst, without=low)
         return one.check.ease(low).with_open(OpenKind.ASSUMED_DECIDES, told)
 
     def _find_least(self, one: MemberCheck) -> float:

@@ -33,6 +33,8 @@ Key = Literal[
     "protected",
     "sleeve",
     "rectangular",
+    "hangs_free",
+    "one_construction",
     "axes",
     "depth",
     "edge",
@@ -50,6 +52,8 @@ _WHO: Mapping[Key, Who] = {
     "protected": "supplier",
     "sleeve": "supplier",
     "rectangular": "supplier",
+    "hangs_free": "supplier",
+    "one_construction": "supplier",
     "axes": "site",
     "depth": "site",
     "edge": "site",
@@ -148,6 +152,10 @@ def _list_of_types(known: RowForces) -> Iterator[Condition]:
                 yield _state("sleeve")
     if row.find_assumed("panel_system"):
         yield _state("rectangular")
+    if len(row.panels) > 1:  # of those that may be built, the ones that hang free count
+        yield _state("hangs_free")
+    if row.row_end and row.guys.count > 1 and len(row.row_end.stiffnesses) > 1:
+        yield _state("one_construction")
 
 
 def _list_resistances(row: NetRow) -> Iterator[Resistance]:

@@ -16,7 +16,6 @@ from netdesign.study.effects import (
     find_altitude_factor,
     find_row_glide_factor,
     list_corners,
-    load_glide_limits,
 )
 from netdesign.study.judgement import apply_declaration
 from netdesign.study.row_to_check import Basis
@@ -36,11 +35,9 @@ def check_limits(basis: Basis) -> list[Check]:
 def _find_actual(row: NetRow, ranges: Ranges) -> dict[str, tuple[float, float]]:
     """Least and largest value of a row by what an approval limits, SI.
 
-    Where nobody gives N or the altitude, each may be whatever the guideline knows.
+    Where nobody gives the altitude, it may be whatever the guideline knows.
     """
     factors = [find_row_glide_factor(one) for one in list_corners(row, ranges)]
-    if row.find_assumed("glide_factor"):
-        factors += load_glide_limits()
     altitude = find_altitude_factor(row)
     least = 1.0 if row.altitude is None else altitude
     spacing = row.layout.post_spacing

@@ -19,6 +19,7 @@ from netdesign.words.names import as_given, name_check, name_member, name_mode
 Who = Literal["office", "supplier", "ground", "site"]
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10
+_SHORT = ("post_bending.too_much_shortly",)
 
 # Who answers for what a member can fail by.
 _OF_MODE: Mapping[str, Who] = {
@@ -115,7 +116,14 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
     proofs = [one for one in check.open if one.proof is not None]
     for point in proofs or check.open:
         key: tuple[str, ...]
-        if point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
+        if point.kind is OpenKind.ASSUMED_DECIDES:
+            key = ("decides", _name_deciding(point.message))
+            yield _Point(who="supplier", key=key, row=row, check=check, point=point)
+        elif point.kind is OpenKind.RESISTANCE_MISSING and check.mode == "connection":
+            yield _Point(
+                who="supplier", key=("links",), row=row, check=check, point=point
+            )
+        elif point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
             key = ("needs", check.resistance_type or check.member, check.mode)
             named = who if check.resistance_type else "office"
             yield _Point(who=named, key=key, row=row, check=check, point=point)
@@ -127,6 +135,12 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
             named = "office" if asked else who
             key = ("open", str(point.message))
             yield _Point(who=named, key=key, row=row, check=check, point=point)
+
+
+def _name_deciding(message: Message) -> str:
+    """Name of the assumed value that decides, or of what is assumed of ropes."""
+    name = message.arguments.get("name")
+    return name.key if isinstance(name, Message) else message.key
 
 
 def _sum_up(group: Sequence[_Point]) -> ToDo:
@@ -150,6 +164,10 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
         return _describe_failed(check, title)
     if kind == "needs":
         return _describe_needed(check)
+    if kind == "links":
+        types = dict.fromkeys(one.check.resistance_type for one in group)
+        named = tuple(as_given(one) for one in types if one)
+        return say("to_do.links", types=named or (name_member(check.member),))
     if kind == "proof":
         checks, proof = _name_checks(one.check for one in group), worst.key[1]
         return say("to_do.proof", checks=checks, proof=proof)
@@ -159,11 +177,18 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     return say("to_do.open", checks=checks, reason=worst.point.message)
 
 
+def shorten_reason(reason: Message) -> Message:
+    """Reason without the formula that a calculation shows."""
+    short = f"{reason.key}_shortly"
+    return say(short) if short in _SHORT else reason
+
+
 def _describe_failed(check: Check, title: Message) -> Message:
     """Force beside resistance, and the type that does, where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
-        return say("to_do.open", checks=(title,), reason=check.reason)
+        reason = shorten_reason(check.told)
+        return say("to_do.open", checks=(title,), reason=reason)
     told = say("to_do.fails", check=title, demand=demand, resistance=resistance)
     other = next((one for one in check.changes if one.sense == "has"), None)
     return say("to_do.with_type", what=told, type=other.quantity) if other else told

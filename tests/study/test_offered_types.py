@@ -66,8 +66,9 @@ def draw_types(lines, dice):
         key = "rope" if "rope" in one else "second_moment"
         one[key] = round(one[key] * dice.uniform(0.23, 1.3), 1)
     for one in lines["Nets"]:
-        if "anchor_axes" in one:
-            one["anchor_axes"] = dice.choice(("along the pull", "along the pull", ""))
+        if dice.random() < 0.5:  # a bore so flat that mortar may run out of it
+            one.pop("anchor_axes", None)
+            one |= {"foot_axis": 2.3, "uphill_axis": 1.7}
         one["ground"] = dice.choice(("till", "till", ""))
 
 
@@ -119,8 +120,8 @@ def test_a_type_that_is_offered_passes_unless_its_own_resistance_is_unproven(tmp
     rows = solve_rows(sites[0][1], RUN, Runner(), Nobody()).rows
     found = [one for path, site in sites for one in list_outcomes(path, site, rows)]
     counts = Counter(found)
-    assert set(counts) <= {
+    assert set(counts) == {
         ("", Verdict.PASS),
         ("change.if_rest_proven", Verdict.NOT_PROVEN),
     }
-    assert counts["", Verdict.PASS] > 10
+    assert min(counts.values()) > 10

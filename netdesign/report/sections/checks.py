@@ -18,6 +18,7 @@ from netdesign.study.governing import (
     is_far_from_limit,
 )
 from netdesign.study.records import RowStudy
+from netdesign.study.to_do import shorten_reason
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -109,7 +110,7 @@ def describe_cause(check: Check, words: Words) -> str:
         return words("show.exceeds", demand=demand, resistance=resistance)
     if check.gaps:
         return words.join(map(words.show, check.gaps))
-    return words.show(check.told)
+    return words.show(shorten_reason(check.told))
 
 
 def _show_apart(

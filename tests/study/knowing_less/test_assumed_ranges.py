@@ -19,6 +19,8 @@ OF_NETS = ("slack", "net_stiffness", "upslope_length", "altitude")
 OF_GROUND = ("ground_law", "glide_factor", "slip_length")
 QUANTITIES = ("density", "friction angle", "net inclination")
 SITES_IN_SUITE, SITES = 3, 3000
+OF_OPEN_GROUND = 15  # a site whose downhill guy is loaded most by a smaller N
+IN_SUITE = (*range(SITES_IN_SUITE), OF_OPEN_GROUND)
 
 
 def draw_empty(draw, lines):
@@ -48,10 +50,7 @@ def assert_no_harder(path, seed):
         write_lines(path, one)
         solved += search_site(read_site(path), RUN)
     typed, assumed = solved
-    is_open = any(cell[-1] in OF_GROUND for cell in cells)
     for member, extreme in typed.extremes.items():
-        if is_open and "downhill" in member:
-            continue  # N of the worst class is not the worst for a small difference
         most = assumed.extremes[member].widened.high
         over = extreme.force.value - most
         assert over <= 1e-3 * max(most, extreme.force.value), (seed, cells, member)
@@ -60,7 +59,7 @@ def assert_no_harder(path, seed):
 @pytest.mark.parametrize(
     "seed",
     [
-        pytest.param(seed, marks=() if seed < SITES_IN_SUITE else pytest.mark.slow)
+        pytest.param(seed, marks=() if seed in IN_SUITE else pytest.mark.slow)
         for seed in range(SITES)
     ],
 )
