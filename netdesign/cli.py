@@ -21,6 +21,7 @@ import click
 from netdesign import addon_table
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import tell
+from netdesign.commands.version import print_version
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import flush_streams, guard_streams
@@ -95,7 +96,14 @@ none of them; a standard output that cannot be written to ends with 2."
     epilog=_EPILOG,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-@click.version_option(package_name="netdesign")
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=print_version,
+    help="Show the version, the core and the limit profiles, and exit.",
+)
 def cli() -> None:
     """Check the anchors of snow nets.
 

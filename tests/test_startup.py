@@ -6,6 +6,9 @@ import sys
 
 import pytest
 
+import netdesign
+from netdesign.checks import list_standards, load_standard
+from netdesign.core.library import name_core
 from tests.tiny_site import write_site
 
 HEAVY = (
@@ -117,4 +120,11 @@ def test_the_module_is_the_program(tmp_path):
         check=False,
     )
     assert result.returncode == 0
-    assert result.stdout.startswith("netdesign")
+    program, core, *profiles = result.stdout.splitlines()
+    assert program == f"netdesign {netdesign.__version__}"
+    assert core.split(maxsplit=1) == ["core", name_core()]
+    assert len(profiles) == len(list_standards())
+    for line, name in zip(profiles, list_standards(), strict=True):
+        standard = load_standard(name)
+        assert f" {name}: version {standard.version}, " in line
+        assert line.endswith(standard.edition)
