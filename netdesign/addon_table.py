@@ -17,7 +17,7 @@ from netdesign.words.message import say
 COMMANDS = {
     "bench": "evidence.bench_command:bench",
     "paper": "evidence.command:paper",
-    "snowpack": "winter.snowpack_command:snowpack",
+    "snowpack": "winter.command:snowpack",
     "terrain": "terrain.command:terrain",
     "validate": "evidence.command:validate",
     "verify": "evidence.command:verify",
@@ -40,7 +40,7 @@ NAMES = {
     "Season": "winter.season:Season",
     "TransientSettings": "history.settings:TransientSettings",
     "WinterRow": "winter.day:WinterRow",
-    "follow_heights": "winter.settling.follow:follow_heights",
+    "follow_heights": "winter.settling.models:follow_heights",
     "follow_season": "winter.season:follow_season",
     "solve_transient": "history.transient:solve_transient",
 }

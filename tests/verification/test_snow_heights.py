@@ -15,9 +15,8 @@ from netdesign.addons.evidence.verification.winters import (
     measure_imbalance,
     read_weissfluhjoch,
 )
-from netdesign.addons.winter.settling.follow import MODELS, follow_heights
-from netdesign.addons.winter.settling.hs2swe import HS2SWE
-from netdesign.addons.winter.snowpack_command import snowpack
+from netdesign.addons.winter.command import snowpack
+from netdesign.addons.winter.settling.models import HS2SWE, MODELS, follow_heights
 from netdesign.snowpack.series import name_winter
 
 FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series

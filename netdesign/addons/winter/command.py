@@ -1,4 +1,4 @@
-"""``netdesign winter``: heights of snow at a station, on the rows of a site."""
+"""``netdesign winter`` and ``snowpack``: a station's heights on net rows, or alone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.options import take_options
+from netdesign.commands.options import (
+    refuse_delimiter,
+    refuse_without,
+    take_options,
+)
 from netdesign.commands.running import (
     EXIT_CODES,
     open_phases,
@@ -34,6 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.addons.winter.document import WinterRun
+    from netdesign.addons.winter.settling.pack import DayPack
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.message import Message
@@ -68,8 +73,8 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     )
     from netdesign.edge.progress import Phase
 
-    given = [] if asked["heights"] is None else [asked["heights"]]
-    require_source(site_file, asked, *given)
+    sources = [] if asked["heights"] is None else [asked["heights"]]
+    require_source(site_file, asked, *sources)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
     require_places(folder, (DOCUMENT_FILE, PAGE_FILE), asked)
     site = read_asked_site(site_file, asked)
@@ -95,9 +100,9 @@ def winter(site_file: Path | None, **asked: Any) -> None:
 def _is_proven(document: dict[str, Any]) -> bool:
     """Every winter has a proven maximum or is not the largest."""
     return all(
-        one["is_proven"] or one["is_below_largest"]
+        winter["is_proven"] or winter["is_below_largest"]
         for row in document["rows"]
-        for one in row["winters"]
+        for winter in row["winters"]
     )
 
 
@@ -112,38 +117,42 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     )
     from netdesign.snowpack.series import smooth
 
-    found = site.winter
+    station = site.winter
     if asked["heights"] is not None:
         ids, form = [row.id for row in site.rows], build_text_format(asked)
         columns = build_columns(asked)
-        found, remarks = read_height_file(asked["heights"], form, ids, columns)
+        station, remarks = read_height_file(asked["heights"], form, ids, columns)
         for remark in remarks:
             tell(remark.message, err=True)
-        found, note = complete_by_sheet(found, site.winter)
+        station, note = complete_by_sheet(station, site.winter)
         if note:
             tell(note, err=True)
-    elif found is None and asked["example"]:
+    elif station is None and asked["example"]:
         with as_file(files("netdesign.addons.winter") / EXAMPLE_HEIGHTS) as path:
-            found, _ = read_height_file(path)
-    if found is None:
+            station, _ = read_height_file(path)
+    if station is None:
         raise ModelError(say("winter.no_heights"))
-    return replace(found, series=smooth(found.series)) if asked["median"] else found
+    return (
+        replace(station, series=smooth(station.series)) if asked["median"] else station
+    )
 
 
 def _solve(
     site: Site, station: StationWinter, runner: Runner, asked: Mapping[str, Any]
 ) -> WinterRun:
-    from netdesign.addons.winter.day import DaySolver
-    from netdesign.addons.winter.document import WinterRun
-    from netdesign.addons.winter.row import (
+    from netdesign.addons.winter.day import (
+        DaySolver,
         build_winter_row,
+        require_plausible_heights,
+    )
+    from netdesign.addons.winter.document import WinterRun
+    from netdesign.addons.winter.measured import (
         compare_row,
         list_measured_pulls,
         name_measured_winters,
-        require_plausible_heights,
     )
     from netdesign.addons.winter.season import follow_station, follow_winters
-    from netdesign.addons.winter.settling.follow import MODELS as KNOWN
+    from netdesign.addons.winter.settling.models import MODELS as KNOWN
     from netdesign.coupling.scene import SolverSettings
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
@@ -177,16 +186,16 @@ def _solve(
 
 def _show(document: dict[str, Any]) -> None:
     for row in document["rows"]:
-        for one in row["winters"]:
-            tell(_tell_winter(row["id"], one))
-            if one["days_without_force"]:
-                tell(_count_failed(row["id"], one))
+        for winter in row["winters"]:
+            tell(_tell_winter(row["id"], winter))
+            if winter["days_without_force"]:
+                tell(_count_failed(row["id"], winter))
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"])
         if row["snow_heights"]:
             tell(row["snow_heights"]["text"])
-        for told in _list_statistics(row):
-            tell(told)
+        for message in _list_statistics(row):
+            tell(message)
 
 
 def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
@@ -206,19 +215,19 @@ def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
 
 
 def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
-    """Lines on the return values of a row with their errors, and on its trend."""
-    found = row["statistics"]
-    for one in found["return_values"] if found else ():
+    """Lines on the return values of a row with their errors."""
+    statistics = row["statistics"]
+    for value in statistics["return_values"] if statistics else ():
         yield say(
             "winter.return_value",
             row=row["id"],
-            period=one["period_a"],
-            foot=one["foot_kN_per_m"],
-            low=one["low_kN_per_m"],
-            high=one["high_kN_per_m"],
-            count=found["winters"],
+            period=value["period_a"],
+            foot=value["foot_kN_per_m"],
+            low=value["low_kN_per_m"],
+            high=value["high_kN_per_m"],
+            count=statistics["winters"],
         )
-    for text in (*row["statistics_notes"], row["trend"]["why"]):
+    for text in row["statistics_notes"]:
         yield say("show.label", label=row["id"], text=text)
 
 
@@ -231,3 +240,74 @@ def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
         count=winter["days_without_force"],
         days=len(winter["curve"]),
     )
+
+
+SCHEMA = "netdesign.snowpack/1"
+
+
+@click.command(cls=ConfiguredCommand)
+@click.argument("height_file", type=click.Path(path_type=Path))
+@take_options("snowpack")
+def snowpack(height_file: Path, **asked: Any) -> None:
+    """Mass and density of snow from daily heights.
+
+    \b
+    netdesign snowpack station.csv
+    netdesign snowpack station.csv --model hs2swe --json --layers > days.json
+
+    The file has the columns of sheet Winter: date, snow height with its unit.
+    """
+    from netdesign.addons.winter.height_file import build_columns, read_height_file
+    from netdesign.addons.winter.season import FIRST_DENSITY
+    from netdesign.addons.winter.settling.models import MODELS as KNOWN
+    from netdesign.addons.winter.settling.models import follow_heights
+    from netdesign.snowpack.series import smooth
+
+    refuse_delimiter(height_file)
+    if not asked["as_json"]:
+        refuse_without(["layers"], "--json")
+    form, columns = build_text_format(asked), build_columns(asked)
+    station, remarks = read_height_file(height_file, form, columns=columns)
+    for remark in remarks:
+        tell(remark.message, err=True)
+    series = smooth(station.series) if asked["median"] else station.series
+    packs = follow_heights(series.heights, KNOWN[asked["model"]], FIRST_DENSITY)
+    days = [
+        _write_day(day.isoformat(), pack, with_layers=asked["layers"])
+        for day, pack in zip(series.days, packs, strict=True)
+    ]
+    if asked["as_json"]:
+        print_document({"schema": SCHEMA, "model": asked["model"], "days": days})
+        return
+    for day in days:
+        tell(
+            say(
+                "snowpack.line",
+                date=day["date"],
+                height=day["height_m"],
+                mass=day["swe_kg_m2"],
+                density=day["density_kg_m3"],
+            )
+        )
+
+
+def _write_day(day: str, pack: DayPack, *, with_layers: bool) -> dict[str, Any]:
+    values: dict[str, Any] = {
+        "date": day,
+        "height_m": pack.height,
+        "swe_kg_m2": pack.mass,
+        "density_kg_m3": pack.density,
+        "new_snow_kg_m2": pack.new_mass,
+        "runoff_kg_m2": pack.runoff,
+    }
+    if with_layers:
+        values["layers"] = [
+            {"height_m": float(h), "density_kg_m3": float(rho), "age_d": int(age)}
+            for h, rho, age in zip(
+                pack.heights,
+                pack.densities if pack.heights.size else (),
+                pack.ages,
+                strict=True,
+            )
+        ]
+    return values

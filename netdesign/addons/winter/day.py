@@ -20,11 +20,13 @@ from netdesign.envelope.panel_forces import spread_out
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.outcome import ModelError, require_within
-from netdesign.snow.creep_law import ICE_DENSITY
+from netdesign.site.model import NetRow, Site, StationWinter
+from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import NetPart
+from netdesign.study.row_to_check import build_scene
 from netdesign.words.message import Message, say
 
 LEAST_DENSITY = 100.0  # [kg/m3]; the default creep law is refused below 89
@@ -78,7 +80,7 @@ def _scale_layers(layers: Sequence[Layer], factor: float) -> tuple[Layer, ...]:
     """Layers so many times as thick; none where one is uniform snow."""
     if len(layers) == 1:
         return ()
-    return tuple(replace(one, thickness=factor * one.thickness) for one in layers)
+    return tuple(replace(layer, thickness=factor * layer.thickness) for layer in layers)
 
 
 def _find_light(layers: list[Layer]) -> int | None:
@@ -328,7 +330,7 @@ class DaySolver:
 
     def _run(self, days: Sequence[RowDay]) -> list[RowDay]:
         results = run_cases([self._build_task(day) for day in days], self.runner)
-        return [_end(day, one) for day, one in zip(days, results, strict=True)]
+        return [_end(day, result) for day, result in zip(days, results, strict=True)]
 
     def _build_task(self, day: RowDay) -> CaseTask:
         net = self.row.scene.net
@@ -388,3 +390,60 @@ def _end(day: RowDay, result: CaseResult) -> RowDay:
         head=spread_out(head.size, head.error),
         member_forces=layout_forces,
     )
+
+
+ASSUMED_FACTOR = 1.0  # snow height at the rows over the station's, where none is given
+# Largest height of a series over the design height: beyond, metres may be centimetres.
+_PLAUSIBLE = (0.15, 15.0)
+
+
+def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRow:
+    """Row with the middle of friction angle and inclination of the site's ranges.
+
+    Raises
+    ------
+    ModelError
+        If the model refuses the row.
+    """
+    case = Case(
+        density=_find_middle(site, "density"),
+        friction_angle=_find_middle(site, "friction_angle"),
+        inclination=_find_middle(site, "inclination"),
+    )
+    # winters are compared with what was measured: on the ground as it is
+    scene = replace(build_scene(row, case, BOUTILLIER_2004), ground=row.ground)
+    return WinterRow(
+        id=row.id,
+        scene=scene,
+        layout=row.layout,
+        height_factor=winter.find_factor(row.id) or ASSUMED_FACTOR,
+    )
+
+
+def _find_middle(site: Site, name: str) -> float:
+    interval = site.ranges[name]  # of all rows
+    return (interval.low + interval.high) / 2.0
+
+
+def require_plausible_heights(
+    rows: Sequence[WinterRow], designed: Sequence[NetRow], winter: StationWinter
+) -> None:
+    """Refuse heights of which metres may have been taken for centimetres.
+
+    Raises
+    ------
+    ModelError
+        Naming the first row that they do not fit.
+    """
+    highest = max(winter.series.heights)
+    for row, net_row in zip(rows, designed, strict=True):
+        share = row.find_thickness(highest) / net_row.snow_thickness
+        if not _PLAUSIBLE[0] <= share <= _PLAUSIBLE[1]:
+            raise ModelError(
+                say(
+                    "winter_sheet.unlikely_heights",
+                    highest=highest,
+                    row=row.id,
+                    share=share,
+                )
+            )

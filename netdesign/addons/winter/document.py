@@ -7,11 +7,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from netdesign.addons.winter.day import RowDay, WinterRow
+from netdesign.addons.winter.day import ASSUMED_FACTOR, RowDay, WinterRow
 from netdesign.addons.winter.maxima import AnnualMaximum
-from netdesign.addons.winter.measured import Comparison, ComputedForce
-from netdesign.addons.winter.row import ASSUMED_FACTOR, explain_unused
-from netdesign.addons.winter.sample import Sample
+from netdesign.addons.winter.measured import (
+    Comparison,
+    ComputedForce,
+    explain_unused,
+)
 from netdesign.addons.winter.season import (
     RowWinters,
     Season,
@@ -20,12 +22,11 @@ from netdesign.addons.winter.season import (
 )
 from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.addons.winter.statistics import (
-    LEAST_FOR_TREND,
     RETURN_PERIODS,
     TAILS,
     Gumbel,
     LimitedGumbel,
-    Trend,
+    Sample,
     fit_gumbel,
 )
 from netdesign.site.model import Site, StationWinter
@@ -46,31 +47,39 @@ def _write_measured(
     series = run.winter.series
     unused = explain_unused(run.site, row_id, compared)
     return {
-        "measured": [_write_compared(one, series) for one in compared if one.computed],
-        "not_compared": [str(one) for one in unused],
+        "measured": [
+            _write_compared(comparison, series)
+            for comparison in compared
+            if comparison.computed
+        ],
+        "not_compared": [str(message) for message in unused],
     }
 
 
-def _write_compared(one: Comparison, series: HeightSeries) -> dict[str, Any]:
+def _write_compared(comparison: Comparison, series: HeightSeries) -> dict[str, Any]:
     """Readings, computed forces with their band, and how far they are apart."""
     return {
-        "winter": one.winter,
-        "member": one.member,
-        "source": one.pulls.source,
-        "days_compared": int(one.ratios.size),
-        "computed_over_measured": one.mean_ratio,
-        "scatter": one.scatter,
-        "readings_in_band": one.inside,
-        "temperature_amplitude_assumed": any(day.is_assumed for day in one.computed),
+        "winter": comparison.winter,
+        "member": comparison.member,
+        "source": comparison.pulls.source,
+        "days_compared": int(comparison.ratios.size),
+        "computed_over_measured": comparison.mean_ratio,
+        "scatter": comparison.scatter,
+        "readings_in_band": comparison.inside,
+        "temperature_amplitude_assumed": any(
+            day.is_assumed for day in comparison.computed
+        ),
         "readings": [
             {"time": moment.isoformat(), "force_kN": kilonewton_from_newton(force)}
-            for moment, force in zip(one.pulls.moments, one.pulls.forces, strict=True)
+            for moment, force in zip(
+                comparison.pulls.moments, comparison.pulls.forces, strict=True
+            )
         ],
         "air_temperatures": [
             {"time": moment.isoformat(), "air_C": celsius_from_kelvin(kelvin)}
-            for moment, kelvin in one.pulls.air_temperatures
+            for moment, kelvin in comparison.pulls.air_temperatures
         ],
-        "computed": [_write_computed(day, series) for day in one.computed],
+        "computed": [_write_computed(day, series) for day in comparison.computed],
     }
 
 
@@ -180,12 +189,12 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
     packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
-    largest = max((one.foot for one in result.maxima if one.is_proven), default=0.0)
+    proven = [maximum.foot for maximum in result.maxima if maximum.is_proven]
     winters = [
         _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
         | {
             "complete": maximum.winter in complete,
-            "is_below_largest": (maximum.bound or math.inf) <= largest,
+            "is_below_largest": (maximum.bound or math.inf) <= max(proven, default=0.0),
             "models": {
                 name: _write_maximum(group, maximum.winter, run)
                 for name, group in result.others.items()
@@ -207,9 +216,8 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
         "slip_length_m": scene.ground.slip_length,
         "winters": winters,
         "statistics": _write_statistics(result.sample.fit),
-        "statistics_notes": [str(one) for one in _note_sample(result.sample)],
+        "statistics_notes": [str(note) for note in _note_sample(result.sample)],
         "winters_left_out": result.sample.left_out,
-        "trend": _write_trend(result.trend),
         "equivalent_density": _write_range(result, run),
         "snow_heights": _write_heights(row, winters, run),
         "fit": None,  # of the schema: forces are no longer fitted
@@ -266,7 +274,7 @@ def _write_maximum(
     group: Sequence[AnnualMaximum], winter: str, run: WinterRun
 ) -> dict[str, Any] | None:
     """Annual maximum of the same winter by another settling model."""
-    maximum = next((one for one in group if one.winter == winter), None)
+    maximum = next((annual for annual in group if annual.winter == winter), None)
     if maximum is None:
         return None
     day = run.winter.series.day(maximum.index) if maximum.index is not None else None
@@ -311,12 +319,12 @@ def _write_day(
 
 def _largest_members(curve: Sequence[RowDay]) -> dict[str, float]:
     """Largest force of each member over a curve [kN]."""
-    found: dict[str, float] = {}
+    largest: dict[str, float] = {}
     for day in curve:
         for name, band in day.member_forces.items():
             force = kilonewton_from_newton(band.value)
-            found[name] = max(force, found.get(name, 0.0))
-    return found
+            largest[name] = max(force, largest.get(name, 0.0))
+    return largest
 
 
 def _write_statistics(fit: Gumbel | LimitedGumbel | None) -> dict[str, Any] | None:
@@ -330,7 +338,7 @@ def _write_statistics(fit: Gumbel | LimitedGumbel | None) -> dict[str, Any] | No
         "limit_kN_per_m": kilonewton_if_known(limit),
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
-        "return_values": [_write_value(one, fit) for one in RETURN_PERIODS],
+        "return_values": [_write_value(period, fit) for period in RETURN_PERIODS],
     }
 
 
@@ -358,56 +366,28 @@ def _write_value(period: float, fit: Gumbel | LimitedGumbel) -> dict[str, Any]:
     """Return value with the ends of 5 and 95 %, and what heavier tails would make."""
     value, error = fit.find_return_value(period)
     low, high = fit.find_interval(period)
-    found = {"foot": value, "standard_error": error, "low": low, "high": high}
+    values = {"foot": value, "standard_error": error, "low": low, "high": high}
     tails: list[dict[str, float]] = []
     if isinstance(fit, Gumbel):
         for shape in TAILS:
             foot, end = map(kilonewton_from_newton, fit.find_tail(period, shape))
             tails.append({"shape": shape, "foot_kN_per_m": foot, "high_kN_per_m": end})
     shown = {
-        f"{name}_kN_per_m": kilonewton_from_newton(one) for name, one in found.items()
+        f"{name}_kN_per_m": kilonewton_from_newton(pull)
+        for name, pull in values.items()
     }
     return {"period_a": period, **shown, "tails": tails}
 
 
-def _write_trend(trend: Trend | None) -> dict[str, Any]:
-    """Trend of the maxima, and the sentence that says what it means."""
-    if trend is None:
-        keys = ("winters", "kendall_tau", "p_value", "slope_kN_per_m_per_decade")
-        told = say("winter_trend.none", least=LEAST_FOR_TREND)
-        return {**dict.fromkeys(keys), "is_shown": False, "why": str(told)}
-    slope = _YEARS * kilonewton_from_newton(trend.slope)
-    shown = math.ceil(1e3 * trend.p_value) / 1e3  # "at most 0.001", never 0
-    told = say(_choose_meaning(trend), count=trend.count, p=shown, slope=slope)
-    return {
-        "winters": trend.count,
-        "kendall_tau": trend.rank_correlation,
-        "p_value": trend.p_value,
-        "slope_kN_per_m_per_decade": slope,
-        "is_shown": trend.is_shown,
-        "why": str(told),
-    }
-
-
-def _choose_meaning(trend: Trend) -> str:
-    if not trend.is_shown:
-        return "winter_trend.not_shown"
-    grows = trend.rank_correlation > 0.0
-    return "winter_trend.grown" if grows else "winter_trend.fallen"
-
-
-_YEARS = 10.0  # of a decade
-
-
 def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
     """Range of density that the winters give, and the sentence that justifies it."""
-    found = result.density_range
-    if found is None:
+    ends = result.density_range
+    if ends is None:
         return None
     text = say(
         "winter.justification",
-        low=found[0],
-        high=found[1],
+        low=ends[0],
+        high=ends[1],
         count=len(result.maxima),
         station=_name_source(run),
         first=run.winter.series.first_day.isoformat(),
@@ -416,8 +396,8 @@ def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
         row=result.row_id,
     )
     return {
-        "low_kg_m3": found[0],
-        "high_kg_m3": found[1],
+        "low_kg_m3": ends[0],
+        "high_kg_m3": ends[1],
         "justification": str(text),
     }
 
@@ -430,13 +410,15 @@ def _write_heights(
 ) -> dict[str, Any] | None:
     """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
     heights = [
-        row.height_factor * one["height_max_m"] for one in winters if one["complete"]
+        row.height_factor * winter["height_max_m"]
+        for winter in winters
+        if winter["complete"]
     ]
     fit = fit_gumbel(heights)
     if fit is None or fit.deviation == 0.0:
         return None
     variation = fit.find_predictive_variation(RELIABILITY_PERIOD)
-    typed = next(one for one in run.site.rows if one.id == row.id)
+    typed = next(net_row for net_row in run.site.rows if net_row.id == row.id)
     ratio = fit.mean * math.cos(typed.slope_angle) / typed.snow_thickness
     text = say(
         "winter.heights",
@@ -459,7 +441,7 @@ def _write_heights(
 
 def _name_source(run: WinterRun) -> str:
     """Station and file of the heights; the site's file only where no name is known."""
-    named = [one for one in (run.winter.station, run.winter.file) if one]
+    named = [name for name in (run.winter.station, run.winter.file) if name]
     return ", ".join(named) or run.site.file_name
 
 

@@ -1,4 +1,4 @@
-"""A winter on a net: forces against date, below them the layers that gave them."""
+"""Figures of a winter: forces and layers against date, measured forces beside them."""
 
 from __future__ import annotations
 
@@ -55,17 +55,17 @@ def draw_winter(
         if winter[key]
     ]
     panels = _list_forces(days, words, marks)
-    told = _describe(winter["name"], panels, words)
+    description = _describe(winter["name"], panels, words)
     panels.append(_show_snow(days, count, words))
     warmth = [(place(day), degrees) for day, degrees in sorted(air.items())]
-    if warm := [one for one in warmth if 0 <= one[0] <= count]:
+    if warm := [point for point in warmth if 0 <= point[0] <= count]:
         line = Line(
             label="", x=[x for x, _ in warm], y=[y for _, y in warm], is_thin=True
         )
         title = words("winter_page.air_title")
         panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
     ends = (datetime.combine(first, time()), datetime.combine(last, time()))
-    return draw_panels(panels, told, span=ends, language=words.language)
+    return draw_panels(panels, description, span=ends, language=words.language)
 
 
 def _list_forces(days: Days, words: Words, marks: Sequence[Mark]) -> list[Panel]:
@@ -81,12 +81,12 @@ def _list_forces(days: Days, words: Words, marks: Sequence[Mark]) -> list[Panel]
     panels = [
         Panel(
             title=words(title),
-            lines=_list_lines(days, found, words),
-            marks=marks if found is pulls else (),
+            lines=_list_lines(days, forces, words),
+            marks=marks if forces is pulls else (),
             from_zero=True,
             height_pt=height,
         )
-        for title, found, height in (
+        for title, forces, height in (
             ("winter_page.pulls_title", pulls, _FORCES),
             ("winter_page.members_title", members, _MEMBERS),
         )
@@ -100,14 +100,14 @@ def _list_lines(
     """Lines of those that have a force, named with their largest one."""
     return [
         Line(
-            label=f"{words.show_number('max_kN', max(known))} {name}",
+            label=f"{words.show_number('max_kN', max(pulls))} {name}",
             x=[at for at, _ in days],
-            y=[math.nan if one is None else one for one in values],
+            y=[math.nan if force is None else force for force in values],
             style=number,
             is_accent=number == 0,
         )
         for number, (name, values) in enumerate(forces.items())
-        if (known := [one for one in values if one is not None])
+        if (pulls := [force for force in values if force is not None])
     ]
 
 
@@ -145,3 +145,108 @@ def _find_span(days: Sequence[Mapping[str, Any]]) -> tuple[date, date]:
     snowy = [date.fromisoformat(day["date"]) for day in days if day["thickness_m"] > 0]
     every = snowy or [date.fromisoformat(day["date"]) for day in days]
     return min(every) - timedelta(days=3), max(every) + timedelta(days=5)
+
+
+_FORCES, _AIR = 150.0, 64.0  # heights of the panels [pt]
+_DAY, _NOON = timedelta(days=1), timedelta(hours=12)
+
+Points = list[tuple[datetime, float]]
+Span = tuple[datetime, datetime]
+
+
+def draw_measured(
+    entry: Mapping[str, Any],
+    air: Mapping[str, float],
+    words: Words,
+    span: Span | None = None,
+) -> str:
+    """SVG of one member's readings beside the chain.
+
+    Parameters
+    ----------
+    entry : mapping
+        Of ``measured`` in the winter document, with at least one reading.
+    air : mapping of str to float
+        Air temperature of the station by date [C]; may be empty.
+    words : Words
+        Language.
+    span : (datetime, datetime), optional
+        What is shown; all readings and the days beside them unless told.
+    """
+    span = span or find_span(entry)
+    value, low, high = (
+        _cut([(_noon(day["date"]), float(day[key])) for day in entry["computed"]], span)
+        for key in ("force_kN", "low_kN", "high_kN")
+    )
+    x, band = (
+        [at for at, _ in value],
+        [[y for _, y in points] for points in (low, high)],
+    )
+    member = show_member(words, entry["member"])
+    swing = words("winter_measured.band")
+    computed = words("winter_measured.computed")
+    measured = words("winter_measured.measured")
+    readings = _cut(_list_readings(entry), span)
+    lines = [
+        Line(label=swing, x=x, y=(), low=band[0], high=band[1]),
+        Line(label=computed, x=x, y=[y for _, y in value], is_accent=True),
+        _trace(readings, measured, has_dots=True),
+    ]
+    title = words("winter_measured.force", member=member)
+    panels = [Panel(title=title, lines=lines, from_zero=True, height_pt=_FORCES)]
+    if warmth := _cut(_list_air(entry, air), span):
+        line, title = _trace(warmth, "", is_thin=True), words("winter_measured.air")
+        panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
+    figure = words("winter_measured.figure", member=member, winter=entry["winter"])
+    return draw_panels(panels, figure, span=span, language=words.language)
+
+
+def find_span(entry: Mapping[str, Any]) -> Span:
+    """Time of all readings with a day beside them.
+
+    Parameters
+    ----------
+    entry : mapping
+        Of ``measured`` in the winter document, with at least one reading.
+    """
+    moments = [moment for moment, _ in _list_readings(entry)]
+    return min(moments) - _DAY, max(moments) + _DAY
+
+
+def _trace(
+    points: list[tuple[float, float]],
+    label: str,
+    *,
+    has_dots: bool = False,
+    is_thin: bool = False,
+) -> Line:
+    x, y = [x for x, _ in points], [y for _, y in points]
+    return Line(label=label, x=x, y=y, has_dots=has_dots, is_thin=is_thin)
+
+
+def _cut(points: Points, span: Span) -> list[tuple[float, float]]:
+    """Points within the span, by the days since it began."""
+    first, last = span
+    return [((at - first) / _DAY, y) for at, y in points if first <= at <= last]
+
+
+def _list_readings(entry: Mapping[str, Any]) -> Points:
+    return [
+        (datetime.fromisoformat(reading["time"]), float(reading["force_kN"]))
+        for reading in entry["readings"]
+    ]
+
+
+def _list_air(entry: Mapping[str, Any], air: Mapping[str, float]) -> Points:
+    """Air temperature as read beside the forces, else that of the station."""
+    own: Sequence[Mapping[str, Any]] = entry["air_temperatures"]
+    if own:
+        return [
+            (datetime.fromisoformat(reading["time"]), reading["air_C"])
+            for reading in own
+        ]
+    return [(_noon(day), degrees) for day, degrees in sorted(air.items())]
+
+
+def _noon(day: str) -> datetime:
+    return datetime.combine(date.fromisoformat(day), time()) + _NOON

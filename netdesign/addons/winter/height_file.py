@@ -64,7 +64,7 @@ def build_columns(asked: Mapping[str, Any]) -> HeightColumns:
         date=(asked["date"] or "").strip(),
         height=(asked["height"] or "").strip(),
         unit=(asked["unit"] or "").strip(),
-        missing=tuple(one.strip() for one in missing if one.strip()),
+        missing=tuple(word.strip() for word in missing if word.strip()),
     )
 
 
@@ -92,27 +92,27 @@ def read_height_file(
     SiteDataError
         With all findings, if any of them is an error.
     """
-    known = {name for field in WINTER.fields for name in field.names}
-    known |= {columns.date, columns.height} - {""}
+    headings = {name for field in WINTER.fields for name in field.names}
+    headings |= {columns.date, columns.height} - {""}
     try:
         workbook = read_workbook(
             path,
             lambda _: True,
             is_heading=lambda text: (
-                not known.isdisjoint((text.strip(), split_heading(text)[0]))
+                not headings.isdisjoint((text.strip(), split_heading(text)[0]))
             ),
             text_format=text_format,
         )
     except SiteDataError as refused:
-        found = [one for one in refused.findings if isinstance(one, Finding)]
-        raise _offer_columns(found) from refused
+        findings = [entry for entry in refused.findings if isinstance(entry, Finding)]
+        raise _offer_columns(findings) from refused
     sheets = tuple(
-        replace(_arrange(one, columns), name=WINTER.name) for one in workbook.sheets
+        replace(_arrange(sheet, columns), name=WINTER.name) for sheet in workbook.sheets
     )
     findings = list(workbook.remarks)
     table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
     winter = read_winter(table, dict.fromkeys(row_ids, ""), findings)
-    is_refused = any(one.severity == "error" for one in findings)
+    is_refused = any(finding.severity == "error" for finding in findings)
     if winter is None or is_refused:
         if not is_refused:
             rule = say("winter_sheet.no_height")
@@ -125,7 +125,7 @@ def read_height_file(
 def _offer_columns(findings: Sequence[Finding]) -> SiteDataError:
     """Refusal of a station's file, with the options that read it as it is."""
     lines = fold_findings(findings)
-    own = [one for one in lines if one.key != "finding.ask_map"]
+    own = [line for line in lines if line.key != "finding.ask_map"]
     return SiteDataError(findings, (*own, say("winter_sheet.name_columns")))
 
 
@@ -136,44 +136,57 @@ def _arrange(sheet: Sheet, columns: HeightColumns) -> Sheet:
         raise refuse_file(
             sheet.file, say("winter_sheet.one_column"), say("winter_sheet.columns")
         )
-    found = _find_columns(sheet, names) if all(names) else _find_known(sheet)
-    if found is None and all(names):
+    places = _find_columns(sheet, names) if all(names) else _find_known(sheet)
+    if places is None and all(names):
         rule = say("winter_sheet.no_column", date=names[0], height=names[1])
         raise refuse_file(sheet.file, rule, say("winter_sheet.columns"))
-    if found is None:
+    if places is None:
         return sheet
-    heading, day, height = found
-    missing = {one.casefold() for one in columns.missing}
+    heading, day, height = places
+    missing = {word.casefold() for word in columns.missing}
+
+    def is_missing(cell: Cell) -> bool:
+        is_height = cell.column == height and cell.row > heading
+        return is_height and cell.text.strip().casefold() in missing
+
     cells = [
-        one
-        for row, line in sheet.rows.items()
-        for one in line.values()
-        if not (
-            one.column == height
-            and row > heading
-            and one.text.strip().casefold() in missing
-        )
+        cell
+        for line in sheet.rows.values()
+        for cell in line.values()
+        if not is_missing(cell)
     ]
     if all(names):
-        told = sheet.cell(heading, height).text
-        unit = columns.unit or split_heading(told)[1]
-        is_inch = unit == "in"
-        shown = f"snow height [{'m' if is_inch else unit}]" if unit else told
-        titles = {day: "date", height: shown}
-        own = [one for one in cells if one.row > heading and one.column in titles]
-        cells = [
-            replace(sheet.cell(heading, place), value=title)
-            for place, title in titles.items()
-        ]
-        cells += [
-            _take_inches(one) if is_inch and one.column == height else one
-            for one in own
-        ]
-    dates = {one.row: one for one in cells if one.column == day and one.row > heading}
-    cells = [one for one in cells if dates.get(one.row) is not one]
+        cells = _rename(sheet, cells, places, columns.unit)
+    dates = {
+        cell.row: cell for cell in cells if cell.column == day and cell.row > heading
+    }
+    cells = [cell for cell in cells if dates.get(cell.row) is not cell]
     return replace(
         sheet, rows=group_by_row([*cells, *_write_days(sheet.file, dates.values())])
     )
+
+
+def _rename(
+    sheet: Sheet, cells: Sequence[Cell], places: _Columns, unit: str
+) -> list[Cell]:
+    """Cells of the days and the heights alone, under the headings of sheet Winter."""
+    heading, day, height = places
+    text = sheet.cell(heading, height).text
+    unit = unit or split_heading(text)[1]
+    is_inch = unit == "in"
+    title = f"snow height [{'m' if is_inch else unit}]" if unit else text
+    titles = {day: "date", height: title}
+    own = [cell for cell in cells if cell.row > heading and cell.column in titles]
+    return [
+        *(
+            replace(sheet.cell(heading, column), value=value)
+            for column, value in titles.items()
+        ),
+        *(
+            _take_inches(cell) if is_inch and cell.column == height else cell
+            for cell in own
+        ),
+    ]
 
 
 _INCH = 0.0254  # [m]
@@ -192,14 +205,14 @@ _Columns = tuple[int, int, int]  # row of the headings, columns of days and heig
 
 def _find_columns(sheet: Sheet, names: tuple[str, str]) -> _Columns | None:
     """Columns by their headings, else by their letters above the first day."""
-    wanted = [one.casefold() for one in names]
+    wanted = [name.casefold() for name in names]
     for row, cells in sheet.rows.items():
-        texts = {one.text.strip().casefold(): k for k, one in cells.items()}
+        texts = {cell.text.strip().casefold(): k for k, cell in cells.items()}
         if wanted[0] in texts and wanted[1] in texts:
             return row, texts[wanted[0]], texts[wanted[1]]
     for before, after in pairwise(sheet.rows):
         letters = {name_column(k).casefold(): k for k in sheet.rows[after]}
-        day, height = (letters.get(one) for one in wanted)
+        day, height = (letters.get(name) for name in wanted)
         if day is None or height is None:
             continue
         first = sheet.cell(after, day)
@@ -212,9 +225,9 @@ def _find_known(sheet: Sheet) -> _Columns | None:
     """Columns under headings of sheet Winter."""
     fields = {field.key: field.names for field in WINTER.fields}
     for row, cells in sheet.rows.items():
-        texts = {split_heading(one.text)[0]: k for k, one in cells.items()}
+        texts = {split_heading(cell.text)[0]: k for k, cell in cells.items()}
         days, heights = (
-            [texts[one] for one in texts if one in fields[key]]
+            [texts[name] for name in texts if name in fields[key]]
             for key in ("date", "snow_height")
         )
         if days and heights:
@@ -236,19 +249,21 @@ def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
     SiteDataError
         If two can.
     """
-    texts = [one for one in cells if isinstance(one.value, str) and not one.is_blank]
-    readable = all(_is_moment(one.text) for one in texts)
+    texts = [
+        cell for cell in cells if isinstance(cell.value, str) and not cell.is_blank
+    ]
+    readable = all(_is_moment(cell.text) for cell in texts)
     orders = [] if readable else _list_orders(texts)
     if len(orders) > 1:
         example = texts[0].text.strip()
         rule = say("winter_sheet.which_day", text=example)
         raise refuse_file(file, rule, say("winter_sheet.iso_days"))
     days = dict(
-        zip([one.row for one in texts], orders[0] if orders else (), strict=False)
+        zip([cell.row for cell in texts], orders[0] if orders else (), strict=False)
     )
-    for one in cells:
-        day = days.get(one.row)
-        yield one if day is None else replace(one, value=day.isoformat())
+    for cell in cells:
+        day = days.get(cell.row)
+        yield cell if day is None else replace(cell, value=day.isoformat())
 
 
 def _is_moment(text: str) -> bool:
@@ -261,14 +276,14 @@ def _is_moment(text: str) -> bool:
 
 def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
     """Days of all cells, in each order in which all are days that ascend."""
-    found: list[list[date]] = []
+    orders: list[list[date]] = []
     for order in _ORDERS:
-        days = [_read_day(one.text.strip(), order) for one in cells]
-        known = [one for one in days if one is not None]
-        is_whole = len(known) == len(days) and bool(days)
-        if is_whole and known not in found and all(a < b for a, b in pairwise(known)):
-            found.append(known)
-    return found
+        days = [_read_day(cell.text.strip(), order) for cell in cells]
+        read = [day for day in days if day is not None]
+        is_whole = len(read) == len(days) and bool(days)
+        if is_whole and read not in orders and all(a < b for a, b in pairwise(read)):
+            orders.append(read)
+    return orders
 
 
 def _read_day(text: str, order: tuple[int, int, int]) -> date | None:

@@ -124,13 +124,13 @@ def _find_maximum(
     else:
         solved = (*read, *solver.solve(outside))
     best = find_largest(solved)
-    known = _judge(winter, days, solved, solver)
+    judged = _judge(winter, days, solved, solver)
     if best is None or best.foot is None or best.head is None:
-        return known, solved
+        return judged, solved
     top = max(day.thickness for day in days)
     by_table = table.find_density(top, best.pull or 0.0) if table else None
     maximum = replace(
-        known,
+        judged,
         index=best.index,
         thickness=best.thickness,
         density=best.density,
@@ -162,24 +162,26 @@ def _solve_heaviest(
     that another outdoes in thickness and density, (Y19), unless that one has no force.
     Days that were ``read`` from a table are as accurate as they can be.
     """
-    found = list(read)
-    left = _list_uncovered(days, found)
-    while batch := _choose_next(_list_heaviest(left), found, solver):
-        found += solver.coarse.solve(batch)
+    solved = list(read)
+    left = _list_uncovered(days, solved)
+    while batch := _choose_next(_list_heaviest(left), solved, solver):
+        solved += solver.coarse.solve(batch)
         tried = {day.index for day in batch}
-        left = _list_uncovered([day for day in left if day.index not in tried], found)
-    best = find_largest(found)
+        left = _list_uncovered([day for day in left if day.index not in tried], solved)
+    best = find_largest(solved)
     if any(day is best for day in read):
-        return tuple(found)
+        return tuple(solved)
     return tuple(
-        solver.solve([one.reopen()])[0] if one is best else one for one in found
+        solver.solve([day.reopen()])[0] if day is best else day for day in solved
     )
 
 
 def _list_uncovered(days: Sequence[RowDay], solved: Sequence[RowDay]) -> list[RowDay]:
     """Days that no solved one outdoes in thickness and density."""
-    known = _list_heaviest([one for one in solved if one.foot])
-    return [day for day in days if not any(_covers(one, day) for one in known)]
+    heaviest = _list_heaviest([heavier for heavier in solved if heavier.foot])
+    return [
+        day for day in days if not any(_covers(heavier, day) for heavier in heaviest)
+    ]
 
 
 def _choose_next(
@@ -187,11 +189,11 @@ def _choose_next(
 ) -> list[RowDay]:
     """Few days of the best ranks, of those that may pull more than what is solved."""
     ground = solver.row.scene.ground.kind
-    known = [day for day in solved if day.foot]
-    pulls = np.array([day.pull for day in known])
+    pulling = [day for day in solved if day.foot]
+    pulls = np.array([day.pull for day in pulling])
     least = 0.0
-    if known:
-        most = float(np.max(pulls / rank_days(known, ground)))
+    if pulling:
+        most = float(np.max(pulls / rank_days(pulling, ground)))
         least = float(pulls.max()) / (RANK_SPREAD * most)
     ranks = rank_days(days, ground)
     order = [k for k in np.argsort(-ranks, kind="stable") if ranks[k] >= least]
@@ -201,11 +203,11 @@ def _choose_next(
 def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
     """Days of which no other is as thick and as dense; one of those that are alike."""
     order = sorted(days, key=lambda day: (-day.thickness, -day.density))
-    found: list[RowDay] = []
+    heaviest: list[RowDay] = []
     for day in order:  # only what is denser than all that is thicker
-        if not found or day.density > found[-1].density:
-            found.append(day)
-    return found
+        if not heaviest or day.density > heaviest[-1].density:
+            heaviest.append(day)
+    return heaviest
 
 
 def find_many_maxima(
@@ -227,13 +229,17 @@ def find_many_maxima(
         for model, winters in groups.items()
         for winter, packs in winters.items()
     }
-    chosen = [day for one in days.values() for day in choose_days(one, solver)]
+    chosen = [
+        day for winter_days in days.values() for day in choose_days(winter_days, solver)
+    ]
     table = _build_table(chosen, days.values(), solver) if chosen else None
-    found: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
-    for (model, winter), one in days.items():
-        maximum, _ = _find_maximum(winter, one, solver, is_alone=True, table=table)
-        found[model].append(maximum)
-    return {model: tuple(maxima) for model, maxima in found.items()}, table
+    maxima: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
+    for (model, winter), winter_days in days.items():
+        maximum, _ = _find_maximum(
+            winter, winter_days, solver, is_alone=True, table=table
+        )
+        maxima[model].append(maximum)
+    return {model: tuple(own) for model, own in maxima.items()}, table
 
 
 def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
@@ -302,7 +308,7 @@ def find_equivalent(
     if not governing.pull or not solver.row.holds(thickness):
         return None
     target, power = np.log(governing.pull), _RANKS["no-slip"][0]
-    x, known = float(np.log(governing.density)), []
+    x, tried = float(np.log(governing.density)), []
     for _ in range(_SECANT_STEPS):
         uniform = replace(
             governing,
@@ -314,11 +320,11 @@ def find_equivalent(
         (day,) = solver.solve([uniform])
         if not day.pull:
             return None
-        known.append((x, float(np.log(day.pull))))
-        if len(known) > 1 and abs(known[-1][0] - known[-2][0]) > 1e-3:
-            (x0, y0), (x1, y1) = known[-2:]
+        tried.append((x, float(np.log(day.pull))))
+        if len(tried) > 1 and abs(tried[-1][0] - tried[-2][0]) > 1e-3:
+            (x0, y0), (x1, y1) = tried[-2:]
             power = (y1 - y0) / (x1 - x0)
-        x = known[-1][0] + (target - known[-1][1]) / power
+        x = tried[-1][0] + (target - tried[-1][1]) / power
     return float(np.exp(x))
 
 
@@ -375,23 +381,25 @@ def find_bound(
     float or None
         None where no thicker snow of a day's density has a force, up to the head.
     """
-    known = [day for day in solved if day.foot]
+    pulling = [day for day in solved if day.foot]
     bound = 0.0
-    for day in sorted(failed, key=lambda one: -one.density):
-        above = [one.foot.high for one in known if one.foot and _covers(one, day)]
+    for day in sorted(failed, key=lambda snow: -snow.density):
+        above = [
+            other.foot.high for other in pulling if other.foot and _covers(other, day)
+        ]
         if not above:
             thicker = _solve_thicker(day, solver)
             if thicker is None or thicker.foot is None:
                 return None
-            known.append(thicker)
+            pulling.append(thicker)
             above = [thicker.foot.high]
         bound = max(bound, min(above))
     return bound
 
 
-def _covers(one: RowDay, other: RowDay) -> bool:
+def _covers(day: RowDay, other: RowDay) -> bool:
     """The snow is neither thinner nor lighter than the other."""
-    return one.thickness >= other.thickness and one.density >= other.density
+    return day.thickness >= other.thickness and day.density >= other.density
 
 
 def _solve_thicker(day: RowDay, solver: DaySolver) -> RowDay | None:
@@ -403,9 +411,9 @@ def _solve_thicker(day: RowDay, solver: DaySolver) -> RowDay | None:
         snow = replace(
             day, thickness=float(thickness), density=density, layers=(), ending="open"
         )
-        (found,) = solver.solve([snow])
-        if found.foot:
-            return found
+        (thicker,) = solver.solve([snow])
+        if thicker.foot:
+            return thicker
     return None
 
 
@@ -415,7 +423,9 @@ def _build_table(
     solver: DaySolver,
 ) -> UniformTable | None:
     """Table over the days that may govern, and over the largest heights."""
-    tops = [max(day.thickness for day in one) for one in days if one]
+    tops = [
+        max(day.thickness for day in winter_days) for winter_days in days if winter_days
+    ]
     held = [top for top in tops if solver.row.holds(top)]
     thicknesses = [*(day.thickness for day in chosen), *held]
     densities = [day.density for day in chosen]

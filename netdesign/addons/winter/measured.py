@@ -1,4 +1,4 @@
-"""Measured forces beside the chain of a winter: readings, swing by temperature, ratios.
+"""Measured forces beside the computed ones of a winter, with the ropes' thermal swing.
 
 Theory: addons/winter/THEORY.md, section 6.
 """
@@ -8,17 +8,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 
 import numpy as np
 
 from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
-from netdesign.addons.winter.season import Season
+from netdesign.addons.winter.season import RowWinters, Season
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats
-from netdesign.snowpack.series import HeightSeries
+from netdesign.site.further_sheets import MonitoringSeries
+from netdesign.site.model import Site
+from netdesign.snowpack.series import HeightSeries, name_winter
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -185,8 +188,8 @@ class Comparison:
     @property
     def scatter(self) -> float | None:
         """Standard deviation of its logarithm [-]; None of fewer than two days."""
-        known = self.ratios[self.ratios > 0.0]
-        return float(np.log(known).std()) if known.size > 1 else None
+        positive = self.ratios[self.ratios > 0.0]
+        return float(np.log(positive).std()) if positive.size > 1 else None
 
 
 def compare_season(
@@ -212,11 +215,13 @@ def compare_season(
         for place, kelvin in enumerate(series.air_temperatures)
         if kelvin is not None
     ]
-    warmth += [(series.place(moment), one) for moment, one in within.air_temperatures]
+    warmth += [
+        (series.place(moment), kelvin) for moment, kelvin in within.air_temperatures
+    ]
     computed = tuple(
-        one
+        force
         for day in season.curve
-        if (one := _compute(day, pulls.member, row, warmth)) is not None
+        if (force := _compute(day, pulls.member, row, warmth)) is not None
     )
     if not within.forces:
         return None
@@ -239,7 +244,7 @@ def _cut(
         return first <= series.place(moment) < last
 
     chosen = [k for k, moment in enumerate(pulls.moments) if holds(moment)]
-    air = tuple(one for one in pulls.air_temperatures if holds(one[0]))
+    air = tuple(reading for reading in pulls.air_temperatures if holds(reading[0]))
     return replace(
         pulls,
         moments=tuple(pulls.moments[k] for k in chosen),
@@ -262,8 +267,8 @@ def _compute(
         pull = day.foot
     if force is None or pull is None:
         return None
-    found = find_amplitude(warmth, day.index + _NOON)
-    amplitude = ASSUMED_AMPLITUDE if found is None else found
+    half_range = find_amplitude(warmth, day.index + _NOON)
+    amplitude = ASSUMED_AMPLITUDE if half_range is None else half_range
     scene = build_day_scene(row.scene, replace(day, layers=()))
     share = find_swing(scene, amplitude) / pull.value if pull.value else 0.0
     return ComputedForce(
@@ -271,7 +276,7 @@ def _compute(
         force=force,
         swing=share * force.value,
         amplitude=amplitude,
-        is_assumed=found is None,
+        is_assumed=half_range is None,
     )
 
 
@@ -281,8 +286,8 @@ def _compare_days(
     """Computed over measured of each day within the curve, between its days linear."""
     if not computed:
         return np.empty(0)
-    places = np.array([one.index for one in computed])
-    values = np.array([one.force.value for one in computed])
+    places = np.array([force_of_day.index for force_of_day in computed])
+    values = np.array([force_of_day.force.value for force_of_day in computed])
     within = {
         day: force
         for day, force in measured.items()
@@ -299,11 +304,123 @@ def _count_inside(
     if not computed:
         return None
     times = np.array([series.place(moment) for moment in pulls.moments])
-    places = np.array([one.index + _NOON for one in computed])
-    known = (times >= places[0]) & (times <= places[-1])
-    if not known.any():
+    places = np.array([force_of_day.index + _NOON for force_of_day in computed])
+    is_known = (times >= places[0]) & (times <= places[-1])
+    if not is_known.any():
         return None
-    low = np.interp(times, places, [one.force.low - one.swing for one in computed])
-    high = np.interp(times, places, [one.force.high + one.swing for one in computed])
+    low = np.interp(
+        times,
+        places,
+        [force_of_day.force.low - force_of_day.swing for force_of_day in computed],
+    )
+    high = np.interp(
+        times,
+        places,
+        [force_of_day.force.high + force_of_day.swing for force_of_day in computed],
+    )
     forces = np.array(pulls.forces)
-    return float(((low <= forces) & (forces <= high))[known].mean())
+    return float(((low <= forces) & (forces <= high))[is_known].mean())
+
+
+def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:
+    """Forces measured on a row, one value for each member.
+
+    Readings without a date, and series of air temperature alone, are left out.
+
+    Parameters
+    ----------
+    site : Site
+        Whose sheet Monitoring was read.
+    row_id : str
+        Of the row.
+    """
+    dated = [
+        _date_readings(series) for series in site.monitoring if series.row_id == row_id
+    ]
+    return tuple(pulls for pulls in dated if pulls is not None and pulls.forces)
+
+
+def name_measured_winters(pulls: Sequence[MeasuredPulls]) -> frozenset[str]:
+    """Winters with readings, as "1999/2000".
+
+    Parameters
+    ----------
+    pulls : sequence of MeasuredPulls
+        Of a row.
+    """
+    days = {moment.date() for readings in pulls for moment in readings.moments}
+    return frozenset(map(name_winter, days))
+
+
+def compare_row(
+    pulls: Sequence[MeasuredPulls],
+    winters: RowWinters,
+    row: WinterRow,
+    series: HeightSeries,
+) -> tuple[Comparison, ...]:
+    """Readings of a row beside its curves, winter by winter and member by member.
+
+    Parameters
+    ----------
+    pulls : sequence of MeasuredPulls
+        Of the row.
+    winters : RowWinters
+        With the curves of the measured winters.
+    row : WinterRow
+        As loaded.
+    series : HeightSeries
+        Of the station.
+    """
+    comparisons = [
+        compare_season(readings, season, row, series)
+        for season in winters.seasons
+        for readings in pulls
+    ]
+    return tuple(pair for pair in comparisons if pair is not None)
+
+
+def explain_unused(
+    site: Site, row_id: str, compared: Sequence[Comparison]
+) -> tuple[Message, ...]:
+    """Reasons why measured forces of a row stand beside no curve.
+
+    Parameters
+    ----------
+    site : Site
+        With what was measured.
+    row_id : str
+        Of the row.
+    compared : sequence of Comparison
+        What stands beside a curve.
+    """
+    messages = []
+    used = {comparison.pulls.source for comparison in compared if comparison.computed}
+    for series in site.monitoring:
+        if series.row_id != row_id or series.source in used:
+            continue
+        if not any(force is not None for force in series.tensions):
+            continue
+        key = "monitoring.undated" if series.start is None else "monitoring.outside"
+        messages.append(say(key, place=series.source))
+    return tuple(messages)
+
+
+def _date_readings(series: MonitoringSeries) -> MeasuredPulls | None:
+    if series.start is None:
+        return None
+    readings = [
+        (series.start + timedelta(seconds=time), force)
+        for time, force in zip(series.times, series.tensions, strict=True)
+        if force is not None
+    ]
+    return MeasuredPulls(
+        member=series.member,
+        moments=tuple(moment for moment, _ in readings),
+        forces=tuple(force for _, force in readings),
+        source=series.source,
+        air_temperatures=tuple(
+            (series.start + timedelta(seconds=time), kelvin)
+            for time, kelvin in zip(series.times, series.air_temperatures, strict=True)
+            if kelvin is not None
+        ),
+    )

@@ -9,8 +9,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from netdesign.addons.winter.figure import draw_winter
-from netdesign.addons.winter.measured_figure import draw_measured, find_detail
+from netdesign.addons.winter.figure import draw_measured, draw_winter
 from netdesign.report.blocks import (
     Block,
     Cell,
@@ -52,12 +51,15 @@ def render_winter(document: Mapping[str, Any]) -> dict[str, bytes]:
     words = ENGLISH
     site = show_text(document["site"]["name"] or document["site"]["file"])
     kind = words("winter_page.title")
-    told = (show_text(note) for note in document["notes"])
+    remarks = (show_text(note) for note in document["notes"])
     station = Part(
         id="station",
         blocks=(
-            *(Paragraph(text=one) for one in _describe_station(document, words)),
-            notes(words("winter_page.chain"), words("winter_page.law"), *told),
+            *(
+                Paragraph(text=sentence)
+                for sentence in _describe_station(document, words)
+            ),
+            notes(words("winter_page.chain"), words("winter_page.law"), *remarks),
         ),
     )
     blocks = (
@@ -88,7 +90,7 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
         named = words("winter_page.at_altitude", station=named, altitude=altitude)
     if station["file"] != document["site"]["file"]:
         named = f"{named} ({station['file']})"
-    found = [
+    sentences = [
         words(
             "winter_page.station",
             station=named,
@@ -98,8 +100,8 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
         words("winter_page.model", model=document["model"]),
     ]
     if station["is_smoothed"]:
-        found.append(words("winter_page.smoothed"))
-    return [show_text(text) for text in found]
+        sentences.append(words("winter_page.smoothed"))
+    return [show_text(text) for text in sentences]
 
 
 def _show_row(
@@ -118,8 +120,10 @@ def _show_row(
             yield notes(*failed)
     if row["measured"] or row["not_compared"]:
         yield Heading(text=words("winter_measured.heading"), level=3)
-    for one in row["measured"]:
-        yield from _show_measured(one, air, words)
+    for measured in row["measured"]:
+        svg = draw_measured(measured, air, words)
+        caption = _describe_measured(measured, words)
+        yield Figure(svg=svg, caption=caption, look="plate")
     for text in row["not_compared"]:
         yield Paragraph(text=show_text(text), look="notes open")
     members = _tabulate_members(shown, words)
@@ -142,8 +146,8 @@ def _describe_row(row: Mapping[str, Any], words: Words) -> list[Paragraph]:
         height=row["net_height_m"],
         slope=row["slope_deg"],
     )
-    told = (scene, words(factor, factor=row["height_factor"]))
-    return [Paragraph(text=text, look="small") for text in told]
+    sentences = (scene, words(factor, factor=row["height_factor"]))
+    return [Paragraph(text=text, look="small") for text in sentences]
 
 
 def _label(winter: Mapping[str, Any], words: Words) -> str:
@@ -152,52 +156,37 @@ def _label(winter: Mapping[str, Any], words: Words) -> str:
 
 def _list_unproven(row: Mapping[str, Any], words: Words) -> list[str]:
     """Winters that may have the largest force, those of one reason together."""
-    found: dict[str, list[str]] = {}
+    by_reason: dict[str, list[str]] = {}
     for winter in row["winters"]:
         if not (winter["is_proven"] or winter["is_below_largest"]):
-            found.setdefault(show_text(winter["why"]), []).append(winter["name"])
+            by_reason.setdefault(show_text(winter["why"]), []).append(winter["name"])
     return [
         words("show.label", label=", ".join(names), text=why)
-        for why, names in found.items()
+        for why, names in by_reason.items()
     ]
 
 
-def _show_measured(
-    one: Mapping[str, Any], air: Mapping[str, float], words: Words
-) -> Iterator[Figure]:
-    """Figure of a member's readings, and a detail where they are dense."""
-    whole = draw_measured(one, air, words)
-    yield Figure(svg=whole, caption=_describe_measured(one, words), look="plate")
-    detail = find_detail(one)
-    if detail is None:
-        return
-    first, last = (moment.date().isoformat() for moment in detail)
-    caption = words("winter_measured.detail", first=first, last=last)
-    svg = draw_measured(one, air, words, detail)
-    yield Figure(svg=svg, caption=caption, look="plate")
-
-
-def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
+def _describe_measured(entry: Mapping[str, Any], words: Words) -> str:
     """Distance of measured and computed forces, and what the band is."""
-    found = [
+    sentences = [
         words(
             "winter_measured.caption",
-            member=show_member(words, one["member"]),
-            winter=one["winter"],
-            source=show_text(one["source"]),
+            member=show_member(words, entry["member"]),
+            winter=entry["winter"],
+            source=show_text(entry["source"]),
         )
     ]
-    if one["computed_over_measured"] is not None:
+    if entry["computed_over_measured"] is not None:
         apart = {
-            "count": one["days_compared"],
-            "ratio": one["computed_over_measured"],
-            "inside": one["readings_in_band"] or 0.0,
+            "count": entry["days_compared"],
+            "ratio": entry["computed_over_measured"],
+            "inside": entry["readings_in_band"] or 0.0,
         }
-        found.append(words("winter_measured.apart", **apart))
-    found.append(words("winter_measured.swing"))
-    if one["temperature_amplitude_assumed"]:
-        found.append(words("winter_measured.assumed"))
-    return " ".join(found)
+        sentences.append(words("winter_measured.apart", **apart))
+    sentences.append(words("winter_measured.swing"))
+    if entry["temperature_amplitude_assumed"]:
+        sentences.append(words("winter_measured.assumed"))
+    return " ".join(sentences)
 
 
 def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
@@ -208,20 +197,23 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
     numbers = [keys[k] for k in (1, 3, 4, 5, 7, 8, 9, 10)]
     rows = tuple(
         (
-            _unbroken(one["name"]),
-            fixed_cell(words, one["height_max_m"], 2),
-            _unbroken(one["height_max_date"]),
-            fixed_cell(words, one["swe_max_kg_m2"], 0),
+            _unbroken(winter["name"]),
+            fixed_cell(words, winter["height_max_m"], 2),
+            _unbroken(winter["height_max_date"]),
+            fixed_cell(words, winter["swe_max_kg_m2"], 0),
             # none where no day has a force, though snow pulls
-            *(force_cell(words, one[f"{x}_peak_kN_per_m"]) for x in ("foot", "head")),
-            _unbroken(one["governing_date"] or MISSING),
-            force_cell(words, one["foot_at_height_max_kN_per_m"]),
-            _show_uniform(one, words),
-            fixed_cell(words, one["equivalent_density_kg_m3"], 0),
-            fixed_cell(words, one["days_above_90_percent"], 0),
-            text_cell(words(f"winter_outcome.{_name_outcome(one)}")),
+            *(
+                force_cell(words, winter[f"{x}_peak_kN_per_m"])
+                for x in ("foot", "head")
+            ),
+            _unbroken(winter["governing_date"] or MISSING),
+            force_cell(words, winter["foot_at_height_max_kN_per_m"]),
+            _show_uniform(winter, words),
+            fixed_cell(words, winter["equivalent_density_kg_m3"], 0),
+            fixed_cell(words, winter["days_above_90_percent"], 0),
+            text_cell(words(f"winter_outcome.{_name_outcome(winter)}")),
         )
-        for one in row["winters"]
+        for winter in row["winters"]
     )
     return Table(
         caption=words("winter_page.summary_caption"),
@@ -245,7 +237,9 @@ def _name_outcome(winter: Mapping[str, Any]) -> str:
 
 def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
     """Largest characteristic force of each member, per support."""
-    members = list(dict.fromkeys(m for one in shown for m in one["members_peak_kN"]))
+    members = list(
+        dict.fromkeys(m for winter in shown for m in winter["members_peak_kN"])
+    )
     headings = [words("winter_column.winter")]
     headings += [show_member(words, member) + " [kN]" for member in members]
     return Table(
@@ -253,10 +247,10 @@ def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
         columns=name_columns(headings, numbers=headings[1:]),
         rows=tuple(
             (
-                _unbroken(one["name"]),
-                *(force_cell(words, one["members_peak_kN"].get(m)) for m in members),
+                _unbroken(winter["name"]),
+                *(force_cell(words, winter["members_peak_kN"].get(m)) for m in members),
             )
-            for one in shown
+            for winter in shown
             if members
         ),
     )
@@ -270,11 +264,11 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
     headings += [words("winter_page.pull_by", model=name) for name in names]
     headings += [words("winter_page.density_by", model=name) for name in names]
     rows = []
-    for one in row["winters"]:
-        every = [one, *(one["models"][name] or {} for name in others)]
+    for winter in row["winters"]:
+        every = [winter, *(winter["models"][name] or {} for name in others)]
         rows.append(
             (
-                _unbroken(one["name"]),
+                _unbroken(winter["name"]),
                 *(_show_uniform(part, words) for part in every),
                 *(
                     fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
@@ -290,14 +284,13 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
 
 
 def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
-    """Return values, winters that count by a bound or not at all, trend."""
+    """Return values, winters that count by a bound or not at all."""
     statistics = row["statistics"]
     if statistics:
         yield _tabulate_statistics(statistics, words).shown("study")
-    if told := [show_text(one) for one in row["statistics_notes"]]:
-        yield notes(*told, look="notes open")
+    if remarks := [show_text(note) for note in row["statistics_notes"]]:
+        yield notes(*remarks, look="notes open")
     yield from _compare_tails(statistics or {"return_values": ()}, words)
-    yield _show_trend(row["trend"])
     if row["snow_heights"]:
         yield Paragraph(text=show_text(row["snow_heights"]["text"]))
 
@@ -316,12 +309,12 @@ def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:
         columns=key_columns(words, "winter_column.", keys, numbers=keys),
         rows=tuple(
             (
-                fixed_cell(words, one["period_a"], 0),
-                force_cell(words, one["foot_kN_per_m"]),
-                _show_interval(one, words),
-                force_cell(words, one["standard_error_kN_per_m"]),
+                fixed_cell(words, value["period_a"], 0),
+                force_cell(words, value["foot_kN_per_m"]),
+                _show_interval(value, words),
+                force_cell(words, value["standard_error_kN_per_m"]),
             )
-            for one in statistics["return_values"]
+            for value in statistics["return_values"]
         ),
     )
 
@@ -333,26 +326,21 @@ def _show_interval(value: Mapping[str, Any], words: Words) -> Cell:
 
 def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Block]:
     """Sentences on what a heavier tail than Gumbel's would make of the values."""
-    for one in statistics["return_values"]:
-        if one["tails"]:
+    for value in statistics["return_values"]:
+        if value["tails"]:
             (light, light_high), (heavy, heavy_high) = (
-                (tail["foot_kN_per_m"], tail["high_kN_per_m"]) for tail in one["tails"]
+                (tail["foot_kN_per_m"], tail["high_kN_per_m"])
+                for tail in value["tails"]
             )
-            told = words(
+            sentence = words(
                 "winter_page.tails",
-                period=one["period_a"],
+                period=value["period_a"],
                 light=light,
                 light_high=light_high,
                 heavy=heavy,
                 heavy_high=heavy_high,
             )
-            yield notes(told, look="notes open")
-
-
-def _show_trend(trend: Mapping[str, Any]) -> Block:
-    """Sentence on the trend of the maxima, set off where there is one."""
-    told = show_text(trend["why"])
-    return notes(told, look="notes open") if trend["is_shown"] else Paragraph(text=told)
+            yield notes(sentence, look="notes open")
 
 
 def _describe_range(
@@ -360,20 +348,20 @@ def _describe_range(
 ) -> list[str]:
     """Density range of the winters beside that of the check."""
     low, high = document["check_density_kg_m3"]
-    found = [words("winter_page.check_range", low=low, high=high)]
+    sentences = [words("winter_page.check_range", low=low, high=high)]
     if row["equivalent_density"]:
-        found.insert(0, show_text(row["equivalent_density"]["justification"]))
-        found.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
-    return found
+        sentences.insert(0, show_text(row["equivalent_density"]["justification"]))
+        sentences.append(words("winter_page.feed", sheet=document["ranges_sheet"]))
+    return sentences
 
 
 def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
     """Days without a force or without layers, those of one reason together."""
-    found: dict[tuple[str, str], list[str]] = {}
+    by_reason: dict[tuple[str, str], list[str]] = {}
     for day in winter["curve"]:
         if day["outcome"] in ("failed", "overtopped") or day["reason"]:
             key = day["outcome"], day["reason"]
-            found.setdefault(key, []).append(day["date"])
+            by_reason.setdefault(key, []).append(day["date"])
     return [
         words(
             "winter_page.failed_day",
@@ -381,7 +369,7 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
             day=tuple(dates),
             outcome=_explain(words(f"day_outcome.{outcome}"), reason, words),
         )
-        for (outcome, reason), dates in found.items()
+        for (outcome, reason), dates in by_reason.items()
     ]
 
 

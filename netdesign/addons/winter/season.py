@@ -21,13 +21,9 @@ from netdesign.addons.winter.maxima import (
     find_many_maxima,
     find_maximum_alone,
 )
-from netdesign.addons.winter.sample import Sample, choose_sample
-from netdesign.addons.winter.settling.follow import SettlingModel, follow_heights
+from netdesign.addons.winter.settling.models import SettlingModel, follow_heights
 from netdesign.addons.winter.settling.pack import DayPack
-from netdesign.addons.winter.statistics import (
-    Trend,
-    find_trend,
-)
+from netdesign.addons.winter.statistics import Sample, choose_sample
 from netdesign.addons.winter.uniform_table import UniformTable
 from netdesign.snowpack.series import HeightSeries, split_winters
 
@@ -82,10 +78,10 @@ class Season:
     @property
     def high_days(self) -> int:
         """Days above ``HIGH_SHARE`` of the largest pull, read from the curve."""
-        known = [(day.index, day.pull) for day in self.curve if day.pull is not None]
-        if not known:
+        points = [(day.index, day.pull) for day in self.curve if day.pull is not None]
+        if not points:
             return 0
-        places, pulls = np.array(known).T
+        places, pulls = np.array(points).T
         every = np.arange(places[0], places[-1] + 1)
         curve = np.interp(every, places, pulls)
         return int((curve > HIGH_SHARE * pulls.max()).sum())
@@ -143,21 +139,21 @@ def _solve_near(
     """Curve with all days that may govern, the likeliest first."""
     pulls = {day.index: day.foot.value for day in uniform if day.foot}
     prepared = solver.prepare({k: packs[k] for k in pulls}, layered=True)
-    found = dict(curve)
+    solved = dict(curve)
     left = {
         day.index: day
         for day in prepared
         if day.index not in curve or curve[day.index].reason is not None
     }
     while left:
-        best = find_largest(found.values())
+        best = find_largest(solved.values())
         gains = {
             k: day.foot.value / pulls[k]
-            for k, day in sorted(found.items())
+            for k, day in sorted(solved.items())
             if k in pulls and day.foot
         }
         most = {
-            k: pulls[k] * (_find_gain(day, found, gains) if day.layers else 1.0)
+            k: pulls[k] * (_find_gain(day, solved, gains) if day.layers else 1.0)
             for k, day in left.items()
         }
         least = best.foot.low if best and best.foot else 0.0
@@ -167,12 +163,12 @@ def _solve_near(
             break
         near = {k: packs[k] for k in batch}
         left = {k: day for k, day in left.items() if k not in near}
-        found |= _solve_coarsely(near, solver)
+        solved |= _solve_coarsely(near, solver)
         # what may govern is not given up for a coarse accuracy
-        failed = {k: pack for k, pack in near.items() if found[k].reason}
+        failed = {k: pack for k, pack in near.items() if solved[k].reason}
         again = solver.solve(solver.prepare(failed, layered=True))
-        found |= {day.index: day for day in again}
-    return found
+        solved |= {day.index: day for day in again}
+    return solved
 
 
 def _find_gain(
@@ -209,12 +205,12 @@ def _sharpen(curve: Mapping[int, RowDay], solver: DaySolver) -> dict[int, RowDay
 
     Days are solved again while one that was not may have the largest of some force.
     """
-    found = dict(curve)
+    sharpened = dict(curve)
     left = {k: day for k, day in curve.items() if day.ending == "solved"}
-    while doubtful := _list_doubtful(found, left.keys()):
+    while doubtful := _list_doubtful(sharpened, left.keys()):
         days = solver.solve([left.pop(k).reopen() for k in sorted(doubtful)])
-        found |= {day.index: day for day in days}
-    return found
+        sharpened |= {day.index: day for day in days}
+    return sharpened
 
 
 def _list_doubtful(days: Mapping[int, RowDay], left: Collection[int]) -> set[int]:
@@ -278,9 +274,6 @@ class RowWinters:
         The same winters by the other settling models.
     sample : Sample
         Complete winters, with the distribution of their maxima.
-    trend : Trend or None
-        Of the same winters; None where one of them has no proven maximum, or of fewer
-        than ``statistics.LEAST_FOR_TREND``.
     cut : tuple of str
         Winters that are incomplete, and give no range of density.
     """
@@ -291,7 +284,6 @@ class RowWinters:
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
     sample: Sample
-    trend: Trend | None
     cut: tuple[str, ...] = ()
 
     @property
@@ -302,11 +294,15 @@ class RowWinters:
         """
         every = [
             *self.maxima,
-            *(one for group in self.others.values() for one in group),
+            *(maximum for group in self.others.values() for maximum in group),
         ]
-        whole = (one for one in every if one.winter not in self.cut)
-        found = [one.equivalent_density for one in whole if one.equivalent_density]
-        return (min(found), max(found)) if found else None
+        whole = (maximum for maximum in every if maximum.winter not in self.cut)
+        densities = [
+            maximum.equivalent_density
+            for maximum in whole
+            if maximum.equivalent_density
+        ]
+        return (min(densities), max(densities)) if densities else None
 
 
 def split_packs(
@@ -342,13 +338,13 @@ def list_complete(series: HeightSeries) -> tuple[str, ...]:
         Of the station.
     """
     first, last = series.first_day, series.day(len(series.heights) - 1)
-    found = []
+    complete = []
     for name in split_winters(series):
         year = int(name[:4])
         start, end = date(year, *_COVERED[0]), date(year + 1, *_COVERED[1])
         if first <= start and end <= last and name not in series.cut:
-            found.append(name)
-    return tuple(found)
+            complete.append(name)
+    return tuple(complete)
 
 
 def follow_station(
@@ -364,7 +360,8 @@ def follow_station(
         At least one; the first is that of the curves.
     """
     return StationPacks(
-        series=series, packs={one.name: split_packs(series, one) for one in models}
+        series=series,
+        packs={model.name: split_packs(series, model) for model in models},
     )
 
 
@@ -394,8 +391,8 @@ def follow_winters(
     names = list(packs)
     if len(packs) > MANY:
         maxima, table = find_many_maxima(station.packs, solver)
-        ranked = sorted(maxima[chosen], key=lambda one: -one.foot)[:SHOWN]
-        largest = {one.winter for one in ranked if one.index is not None}
+        ranked = sorted(maxima[chosen], key=lambda maximum: -maximum.foot)[:SHOWN]
+        largest = {maximum.winter for maximum in ranked if maximum.index is not None}
         names = sorted(largest | (set(measured) & packs.keys()))
     seasons = tuple(
         follow_season(name, packs[name], solver, step, table) for name in names
@@ -403,17 +400,17 @@ def follow_winters(
     if not maxima:
         for model in rest:
             winters = station.packs[model].items()
-            maxima[model] = tuple(find_maximum_alone(*one, solver) for one in winters)
+            maxima[model] = tuple(
+                find_maximum_alone(*winter, solver) for winter in winters
+            )
         maxima[chosen] = tuple(season.maximum for season in seasons)
     sample = choose_sample(maxima[chosen], list_complete(station.series))
-    pulls = [one.foot for one in sample.proven]
     return RowWinters(
         row_id=solver.row.id,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,
-        others={one: maxima[one] for one in rest},
+        others={model: maxima[model] for model in rest},
         sample=sample,
-        trend=find_trend([int(one.winter[:4]) for one in sample.proven], pulls),
         cut=station.series.cut,
     )

@@ -1,18 +1,20 @@
-"""Return values of annual maxima, and their trend over the years.
+"""Distributions of annual maxima, and return values with their intervals.
 
-Theory: addons/winter/THEORY.md, sections 4, 7, 9 and 10.
+Theory: addons/winter/THEORY.md, sections 4 and 8 to 10.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
+from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.numerics.arrays import Floats
+from netdesign.words.message import Message, say
 
 LEAST_WINTERS = 15  # fewer tell no return value
 RETURN_PERIODS = (30.0, 100.0)  # [a]
@@ -135,9 +137,9 @@ class Gumbel:
             exceeded = -np.expm1(-np.exp(-(means + z * deviations)))
             return math.log(period * float(exceeded.mean()))
 
-        known = _find_factor(period)
-        factor = float(brentq(find_excess, 0.5 * known, 5.0 * known))
-        return self.variation * factor / known
+        exact = _find_factor(period)
+        factor = float(brentq(find_excess, 0.5 * exact, 5.0 * exact))
+        return self.variation * factor / exact
 
 
 @lru_cache(maxsize=4)
@@ -251,8 +253,8 @@ class LimitedGumbel:
         """
         reduced = _reduce_gumbel(period)
         value = self.location + reduced * self.scale
-        found = self.locations + reduced * self.scales
-        return _find_ends((value - found) / self.scales, value, self.scale)
+        of_samples = self.locations + reduced * self.scales
+        return _find_ends((value - of_samples) / self.scales, value, self.scale)
 
 
 def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
@@ -280,7 +282,7 @@ def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
     if values.size < LEAST_WINTERS or above < LEAST_ABOVE:
         return None
     fit = _fit_limited(values[None], limit)
-    location, scale = (float(one[0]) for one in fit)
+    location, scale = (float(part[0]) for part in fit)
     rng = np.random.default_rng(_SEED)
     drawn = rng.gumbel(location, scale, size=(_BOOTSTRAP, values.size))
     locations, scales = _fit_limited(np.maximum(drawn, limit), limit)
@@ -335,58 +337,90 @@ def fit_gumbel(maxima: Sequence[float]) -> Gumbel | None:
     )
 
 
-LEAST_FOR_TREND = 10  # fewer tell no trend
-LEVEL = 0.05  # p value below which a trend is taken as shown
+LEFT_OUT = 0.1  # of the complete winters may count for nothing
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Trend:
-    """Trend of some annual maxima; it changes no return value.
+@dataclass(frozen=True, kw_only=True)
+class Sample:
+    """Complete winters of a row.
 
     Attributes
     ----------
-    count : int
-        Number of winters.
-    rank_correlation : float
-        Kendall's tau of maxima and years [-]; above 0 where they grow.
-    p_value : float
-        Of the two-sided test [-].
-    slope : float
-        Sen's slope, in the unit of the maxima a year.
+    maxima : tuple of AnnualMaximum
+        One of each winter, in their order.
     """
 
-    count: int
-    rank_correlation: float
-    p_value: float
-    slope: float
+    maxima: tuple[AnnualMaximum, ...]
 
     @property
-    def is_shown(self) -> bool:
-        """The maxima change by more than chance explains."""
-        return self.p_value < LEVEL
+    def counted(self) -> list[AnnualMaximum]:
+        """Winters with a proven maximum or a bound."""
+        return [
+            maximum
+            for maximum in self.maxima
+            if maximum.is_proven or maximum.bound is not None
+        ]
+
+    @property
+    def bounds(self) -> list[float]:
+        """Bounds of the winters that are known by one alone [N/m]."""
+        return [maximum.bound for maximum in self.maxima if maximum.bound is not None]
+
+    @property
+    def left_out(self) -> list[str]:
+        """Names of the winters with neither, in which the net held the snow."""
+        return [
+            maximum.winter
+            for maximum in self.maxima
+            if maximum.ending == "doubtful" and maximum.bound is None
+        ]
+
+    @cached_property
+    def fit(self) -> Gumbel | LimitedGumbel | None:
+        """Distribution of the maxima [N/m]; by moments where all counted are known.
+
+        None where ``lack`` says why.
+        """
+        pulls = [maximum.foot for maximum in self.counted]
+        if self._find_obstacle():
+            return None
+        return (
+            fit_limited(pulls, max(self.bounds)) if self.bounds else fit_gumbel(pulls)
+        )
+
+    @property
+    def lack(self) -> Message | None:
+        """Reason why there are no return values; None where there are."""
+        obstacle = self._find_obstacle()
+        if obstacle or self.fit:
+            return obstacle
+        if len(self.counted) < LEAST_WINTERS:
+            count = len(self.counted)
+            return say("winter_sample.few", least=LEAST_WINTERS, count=count)
+        return say("winter_sample.few_above", least=LEAST_ABOVE)
+
+    def _find_obstacle(self) -> Message | None:
+        """Reason why the winters may not stand for all; None where they may."""
+        above = [
+            maximum.winter for maximum in self.maxima if maximum.ending == "overtopped"
+        ]
+        if above:
+            return say("winter_sample.overtopped", winters=tuple(above))
+        if len(self.left_out) > LEFT_OUT * len(self.maxima):
+            return say("winter_sample.unbounded", winters=tuple(self.left_out))
+        return None
 
 
-def find_trend(years: Sequence[int], maxima: Sequence[float]) -> Trend | None:
-    """Trend of annual maxima, eqs (Y10) to (Y12).
-
-    None of fewer winters than ``LEAST_FOR_TREND``.
+def choose_sample(maxima: Sequence[AnnualMaximum], complete: Collection[str]) -> Sample:
+    """Sample of the complete winters.
 
     Parameters
     ----------
-    years : sequence of int
-        In which each winter begins, all different.
-    maxima : sequence of float
-        One of each winter, in any unit.
+    maxima : sequence of AnnualMaximum
+        Of one row.
+    complete : collection of str
+        Names of the complete winters.
     """
-    if len(maxima) < LEAST_FOR_TREND:
-        return None
-    from scipy.stats import kendalltau, theilslopes
-
-    test = kendalltau(years, maxima)
-    is_constant = math.isnan(test.pvalue)  # all maxima are the same
-    return Trend(
-        count=len(maxima),
-        rank_correlation=0.0 if is_constant else float(test.statistic),
-        p_value=1.0 if is_constant else float(test.pvalue),
-        slope=float(theilslopes(maxima, years).slope),
+    return Sample(
+        maxima=tuple(maximum for maximum in maxima if maximum.winter in complete)
     )

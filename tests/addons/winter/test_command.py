@@ -37,7 +37,6 @@ def test_document_is_that_of_the_interface(call, site, heights):
     (row,) = document["rows"]
     (winter,) = row["winters"]
     assert (row["statistics"], row["fit"]) == (None, None)
-    assert row["trend"]["winters"] is None
     assert winter["name"] == "2002/2003"
     assert winter["height_max_m"] == pytest.approx(1.6)
     assert winter["height_max_date"] == "2003-02-09"

@@ -7,12 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.settling.delta_snow import (
+from netdesign.addons.winter.settling.models import (
     DELTA_SNOW,
     DELTA_SNOW_AGEING,
     Ageing,
+    follow_heights,
 )
-from netdesign.addons.winter.settling.follow import follow_heights
 from netdesign.addons.winter.settling.pack import DayPack
 
 G, DAY = 9.81, 86400.0

@@ -3,7 +3,7 @@
 from datetime import datetime, timedelta
 from xml.etree import ElementTree
 
-from netdesign.addons.winter.measured_figure import (
+from netdesign.addons.winter.figure import (
     draw_measured,
 )
 from netdesign.report.words import Words

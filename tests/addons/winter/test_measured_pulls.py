@@ -4,7 +4,7 @@ from datetime import date, datetime
 
 import pytest
 
-from netdesign.addons.winter.row import (
+from netdesign.addons.winter.measured import (
     explain_unused,
     list_measured_pulls,
     name_measured_winters,

@@ -10,9 +10,7 @@ from netdesign.addons.winter.season import (
     list_complete,
     split_packs,
 )
-from netdesign.addons.winter.settling.follow import MODELS
-from netdesign.addons.winter.settling.hs2swe import HS2SWE
-from netdesign.addons.winter.statistics import find_trend
+from netdesign.addons.winter.settling.models import HS2SWE, MODELS
 from netdesign.snowpack.series import HeightSeries
 from tests.addons.winter.made_up_row import a_formula_solver
 
@@ -57,7 +55,6 @@ def test_many_winters_have_return_values_and_curves_of_the_largest():
     ]
     mean = sum(one.foot for one in found.maxima) / 16
     assert found.sample.fit.mean == pytest.approx(mean, rel=1e-12)
-    assert found.trend == find_trend(range(16), [one.foot for one in found.maxima])
     for season in found.seasons:
         (looked_up,) = [one for one in largest if one.winter == season.name]
         assert looked_up.foot == pytest.approx(season.maximum.foot, rel=1e-6)
@@ -70,4 +67,4 @@ def test_one_winter_above_the_net_and_there_are_no_return_values():
     found = follow_winters(station, a_formula_solver(), step=0)
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
     assert "1995/1996" in str(found.sample.lack)
-    assert (found.sample.fit, found.trend) == (None, None)
+    assert found.sample.fit is None

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from netdesign.addons.evidence.verification.case import VerificationCase, judge
-from netdesign.addons.winter.settling.hs2swe import Hs2swe
+from netdesign.addons.winter.settling.models import Hs2swe
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     PAPER_FLUIDITY,

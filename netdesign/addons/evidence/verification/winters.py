@@ -18,9 +18,12 @@ from netdesign.addons.evidence.verification.case import (
 )
 from netdesign.addons.winter.day import DaySolver, RowDay, WinterRow
 from netdesign.addons.winter.season import Season, follow_season
-from netdesign.addons.winter.settling.delta_snow import DELTA_SNOW
-from netdesign.addons.winter.settling.follow import MODELS, follow_heights
-from netdesign.addons.winter.settling.hs2swe import HS2SWE
+from netdesign.addons.winter.settling.models import (
+    DELTA_SNOW,
+    HS2SWE,
+    MODELS,
+    follow_heights,
+)
 from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
