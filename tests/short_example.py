@@ -3,7 +3,7 @@
 from xlsxwriter.utility import xl_col_to_name
 
 from netdesign.site.columns.all_tables import SHEETS
-from netdesign.site.template import workbook as template
+from tests.old_example import load_example
 from tests.site_lines import write_lines
 
 
@@ -13,7 +13,7 @@ def write_short_example(path, rows, *, leans=False, cells=None):
     A net that does not lean over a range keeps to its least inclination. ``cells`` are
     those of the sheet Nets that differ, by row and column.
     """
-    lines = template.load_example()
+    lines = load_example()
     lines["Nets"] = [
         _cut(line) | (cells or {}).get(line["id"], {})
         for line in lines["Nets"]

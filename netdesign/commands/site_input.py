@@ -158,7 +158,7 @@ def temporary_example() -> Iterator[Path]:
     """
     import tempfile
 
-    from netdesign.site.template.workbook import write_site_workbook
+    from netdesign.site.template.example import write_site_workbook
 
     try:
         place = tempfile.TemporaryDirectory()

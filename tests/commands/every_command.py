@@ -11,16 +11,17 @@ import openpyxl
 import pytest
 
 from netdesign import cli
-from netdesign.site.columns.all_tables import NETS
-from netdesign.site.template import workbook as template
+from netdesign.site.columns.office import load_plan
+from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+from netdesign.site.template.office_workbook import write_input_workbook
 from tests.report.reading import read_workbook
 
-ROW = "R4"
+ROW = "A4"
 COMMANDS = {
     "init": "init new.xlsx --example",
     "check": "check site.xlsx --out out --accuracy 0.1 --jobs 1 --docx --quiet",
     "what if": "check site.xlsx --out b --accuracy 0.1 --jobs 1 --quiet --no-excel "
-    "--what-if {nets}.L2=9",
+    "--what-if {rows}!I6=9",
     "summary": "report out/study.json --out c --annexes",
     "table": "table site.xlsx --study out/study.json",
     "diff": "diff out/study.json b/what-if-study.json",
@@ -31,33 +32,33 @@ COMMANDS = {
 
 def shorten_example():
     """The example with one of its rows, and narrow ranges that are soon searched."""
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] == ROW]
-    for sheet in ("Ends", "Declared"):
-        lines[sheet] = [line for line in lines[sheet] if line["row"] == ROW]
-    for line in lines["Ranges"]:
-        line["high"] = 1.05 * line["low"]
-    return lines
+    tables = load_input_example()
+    (row,) = (line for line in tables["rows"] if line["id"] == ROW)
+    tables["rows"] = [{**row, "post_spacing": 4}]
+    tables["declared"] = [{**tables["declared"][0], "row": ROW, "document": "EX-G7"}]
+    narrow = {"density": 330, "friction_angle": 30, "inclination": 15}
+    tables["project"] = [{**tables["project"][0], **narrow}]
+    return tables
 
 
 def spoil_site(language):
     """The site with a word in the place of a slope."""
     book = openpyxl.load_workbook("site.xlsx")
-    book[NETS.name_in(language)]["B2"] = "4O"
+    book[load_plan("rows").name_in(language)]["B6"] = "4O"
     book.save("refused.xlsx")
 
 
 def run_all(folder, language, patch):
     """What each command told, by its name; its files are in the folder."""
     patch.chdir(folder)
-    lines = shorten_example()
-    patch.setattr(template, "load_example", lambda: lines)
-    template.write_site_workbook("site.xlsx", example=True, language=language)
+    write_input_workbook(
+        "site.xlsx", language=language, more=WITH_EXAMPLE, tables=shorten_example()
+    )
     told = {}
     for name, line in COMMANDS.items():
         if name == "refused":
             spoil_site(language)
-        words = line.format(nets=NETS.name_in(language)).split()
+        words = line.format(rows=load_plan("rows").name_in(language)).split()
         told[name] = run([*words, "--language", language], patch)
     return told
 

@@ -8,7 +8,7 @@ from netdesign.edge.given_files import find_resource
     [
         ("standards", "nf-p-95-304-style/document.toml"),
         ("templates", "page.html"),
-        ("templates", "example_site.toml"),
+        ("templates", "example_input.toml"),
     ],
 )
 def test_folders_of_this_installation_are_found(folder, file):

@@ -112,12 +112,14 @@ def test_own_site(tmp_path):
     *lines, _ = run_as_shown("own_site", tmp_path)
     found = {numbers(line)[0]: (numbers(line)[1], line.split()[-1]) for line in lines}
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (as_built,) = re.findall(r"^R1 .*? (\d\.\d\d)$", readme, re.MULTILINE)
-    assert found[4.0] == (pytest.approx(float(as_built), abs=0.005), "pass")
-    # Wider posts carry snow by their spacing; the end effect stays, ropes grow less.
-    assert 1.15 < found[7.0][0] / found[5.5][0] < 7.0 / 5.5
+    (as_built,) = re.findall(r"^A1 +✓ (\d\.\d\d) ", readme, re.MULTILINE)
+    between = 0.5 * (found[3.0][0] + found[4.0][0])  # built at 3.5 m
+    assert between == pytest.approx(float(as_built), abs=0.005)
+    # Posts carry snow by their spacing.
+    grown = found[6.0][0] / found[4.5][0]
+    assert grown == pytest.approx(6.0 / 4.5, rel=0.01)
     verdicts = {spacing: verdict for spacing, (_, verdict) in found.items()}
-    assert verdicts == {4.0: "pass", 4.57: "not_proven", 5.5: "fail", 7.0: "fail"}
+    assert verdicts == {3.0: "pass", 4.0: "pass", 4.5: "not_proven", 6.0: "fail"}
 
 
 def test_limit_profile(tmp_path):

@@ -12,7 +12,7 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-SHEET = "xl/worksheets/sheet3.xml"  # Nets of the example workbook
+SHEET = "xl/worksheets/sheet2.xml"  # Rows of the example workbook
 _DIGITS = random.Random(20261121)
 
 CHECK = ("check", "--dry-run")
@@ -126,7 +126,7 @@ def list_workbooks() -> dict[str, tuple[str, object]]:
         "cell-twice": (
             SHEET,
             lambda xml: re.sub(
-                rb'(<c r="B3"[^>]*>)(<v>[0-9.]+</v></c>)',
+                rb'(<c r="B6"[^>]*>)(<v>[0-9.]+</v></c>)',
                 rb"\1\2\1\2",
                 xml,
                 count=1,

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import load_example
+from tests.old_example import load_example
 from tests.site_lines import write_lines
 
 EMPTIED = {

@@ -13,12 +13,12 @@ from netdesign.resistance.steel import find_loss, leave_area
 from netdesign.resistance.wedge import AnchorType, Soil, compute_wedge_resistance
 from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import load_example
 from netdesign.structure.members import Member
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from tests.each import each
 from tests.grid import solve_site
+from tests.old_example import load_example
 from tests.site_lines import write_lines
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))

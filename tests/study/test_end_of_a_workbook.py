@@ -9,12 +9,12 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
-from netdesign.site.template import workbook as template
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.digits import write_force
+from tests.old_example import write_old_example
 from tests.verification.untidy_site import PROFILE, draw_site
 
 RUN = CheckRun(
@@ -57,9 +57,7 @@ def judge(folder, panel, without=()):
     strong["bar_diameter"] = 61.7  # beyond all forces, numerical uncertainty included
     lines["Ends"], lines["Declared"] = [END], []
     path = folder / "site.xlsx"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(path, example=True)
+    write_old_example(path, lines=lines)
     site, standard = read_site(path), load_standard(PROFILE)
     study = judge_site(site, search_site(site, RUN), standard, RUN)
     return study.rows[0]

@@ -10,12 +10,12 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import load_example
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import EndMember, NetPart
 from netdesign.study.check_site import solve_rows
 from netdesign.study.judge import judge_site
 from netdesign.words.message import say
+from tests.old_example import load_example
 from tests.site_lines import write_lines
 from tests.small_site import RUN
 

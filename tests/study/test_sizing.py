@@ -11,12 +11,12 @@ from netdesign.outcome import SiteDataError, Verdict
 from netdesign.report.what_if import describe_sized
 from netdesign.report.words import Words
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import load_example
 from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
+from tests.old_example import load_example
 from tests.site_lines import write_lines
 from tests.small_site import ROWS, RUN, build_site
 

@@ -10,13 +10,13 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Outcome, Verdict
 from netdesign.report.page.html import render_html
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import write_site_workbook
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import OwnProcess, solve_job
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
+from tests.old_example import write_old_example
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.001))
 LOST = Outcome.NO_EQUILIBRIUM
@@ -59,7 +59,7 @@ SOLVED = {
 @pytest.fixture(scope="module")
 def example(tmp_path_factory):
     path = tmp_path_factory.mktemp("example") / "site.xlsx"
-    write_site_workbook(path, example=True)
+    write_old_example(path)
     return read_site(path)
 
 

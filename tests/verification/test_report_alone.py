@@ -18,11 +18,12 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.report.page.html import render_html
 from netdesign.site.reader import read_site
-from netdesign.site.template.workbook import write_site_workbook
+from netdesign.site.template.example import write_site_workbook
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
+from tests.old_example import write_old_example
 from tests.report.printing import (
     PAPER_PX,
     PHONE_PX,
@@ -45,9 +46,8 @@ SEED = 7
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory):
     folder = tmp_path_factory.mktemp("alone")
-    write_site_workbook(folder / "example.xlsx", example=True)
-    with pytest.MonkeyPatch.context() as patch:
-        write_untidy_site(folder / "untidy.xlsx", patch, SEED)
+    write_old_example(folder / "example.xlsx")
+    write_untidy_site(folder / "untidy.xlsx", SEED)
     return {
         name: judge(folder / f"{name}.xlsx", profile)
         for name, profile in (("example", SWISS), ("untidy", PROFILE))

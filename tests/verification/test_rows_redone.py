@@ -30,7 +30,7 @@ from tests.verification.second_reader.row import Cells, Row, read_profile
 
 ROOT = Path(__file__).parents[2]
 PROFILES = ROOT / "standards"
-EXAMPLE = ROOT / "templates" / "example_site.toml"
+EXAMPLE = ROOT / "tests" / "old_example.toml"
 ROWS = ("R4", "R5")
 SITES = {  # cells that differ from the example's, by sheet
     "as it is": {},

@@ -2,7 +2,7 @@
 
 import random
 
-from netdesign.site.template import workbook as template
+from tests.old_example import write_old_example
 
 PROFILE = "eurocode"
 _END_OF_U1 = {
@@ -16,11 +16,9 @@ _END_OF_U1 = {
 }
 
 
-def write_untidy_site(path, patch, seed):
+def write_untidy_site(path, seed):
     """Three net rows: floor and bent bar, shared anchor, loaded downhill guy."""
-    lines = draw_site(random.Random(seed))
-    patch.setattr(template, "load_example", lambda: lines)
-    template.write_site_workbook(path, example=True)
+    write_old_example(path, lines=draw_site(random.Random(seed)))
 
 
 def draw_site(draw):

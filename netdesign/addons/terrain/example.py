@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import tomllib
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +17,7 @@ from netdesign.addons.terrain.surface import Surface
 from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.columns.all_tables import NETS
-from netdesign.site.template.workbook import load_example, render_workbook
+from netdesign.site.template.workbook import render_workbook
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"
@@ -34,7 +36,6 @@ _ROWS = (
     *(("C1", (33.6, 124.0), 54.0), ("C2", (87.8, 123.6), 54.0)),
     *(("D1", (31.4, 138.5), 57.0), ("D2", (89.2, 138.8), 54.0)),
 )
-_MODEL = "R3"  # row of the example site whose columns the rows have
 _OWN = {
     "glide_factor": 1.3,
     "snow_thickness": 2.5,
@@ -116,7 +117,7 @@ def list_rows(grid: Grid) -> list[Feature]:
     """Rows of the made-up zone along its contours, and the zone."""
     surface = Surface(grid, 7, _NOISE)
     origin = np.array((_EAST, _NORTH))
-    model = next(one for one in load_example()["Nets"] if one["id"] == _MODEL)
+    (model,) = _load_types()["Nets"]
     headings = {field.key: field.heading_for("en") for field in NETS.fields}
     cells = {
         headings[key]: value
@@ -151,7 +152,12 @@ def _turn(surface: Surface, place: Floats) -> Floats:
 
 def write_types() -> bytes:
     """Workbook of the zone's types and of the ends of its rows."""
-    given = load_example()
+    given = _load_types()
     lines = {name: given[name] for name in _TYPES}
     lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
     return render_workbook({**lines, "Ends": [_ENDS]})
+
+
+def _load_types() -> dict[str, list[dict[str, object]]]:
+    file = files("netdesign.addons.terrain").joinpath("types.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))

@@ -1,11 +1,14 @@
-"""Lines of the example of the input workbook."""
+"""The example of the input workbook: its lines, and the workbook of these."""
 
 from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from netdesign.edge.given_files import find_resource
+from netdesign.site.template.office_workbook import write_input_workbook
+from netdesign.words.catalogue import Language
 
 WITH_EXAMPLE = ("tests", "parts", "declared")  # sheets that it needs
 INPUT_EXAMPLE_FILE = "example_input.toml"
@@ -25,3 +28,38 @@ def load_input_example() -> dict[str, Sequence[Mapping[str, object]]]:
             for name, one in tables.items()
         },
     }
+
+
+def write_site_workbook(
+    path: str | Path,
+    *,
+    example: bool = False,
+    overwrite: bool = False,
+    language: Language = "en",
+) -> None:
+    """Write an input workbook to fill in, or the built-in example site.
+
+    Parameters
+    ----------
+    path : str or Path
+        The xlsx file to write.
+    example : bool
+        Fill in the example site.
+    overwrite : bool
+        Replace a file that exists.
+    language : str
+        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``. The importer
+        reads all three.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and may not be replaced, or cannot be written.
+    """
+    write_input_workbook(
+        path,
+        language=language,
+        more=WITH_EXAMPLE if example else (),
+        tables=load_input_example() if example else None,
+        overwrite=overwrite,
+    )

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import datetime
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
 from io import BytesIO
-from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from netdesign.checks import list_standards
-from netdesign.edge.given_files import find_resource
-from netdesign.edge.output import require_free, write_files
 from netdesign.site.assumed import load_assumed
 from netdesign.site.columns.all_tables import (
     NETS,
@@ -36,8 +32,6 @@ if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.format import Format
     from xlsxwriter.workbook import Workbook
     from xlsxwriter.worksheet import Worksheet
-
-EXAMPLE_FILE = "example_site.toml"
 
 # The same program writes the same bytes: no clock goes into the file.
 _CREATED = datetime.datetime(2000, 1, 1)
@@ -81,39 +75,6 @@ class Book:
         return load_text(self.language)
 
 
-def write_site_workbook(
-    path: str | Path,
-    *,
-    example: bool = False,
-    overwrite: bool = False,
-    language: Language = "en",
-) -> None:
-    """Write an input workbook to fill in, or the built-in example site.
-
-    Parameters
-    ----------
-    path : str or Path
-        The xlsx file to write.
-    example : bool
-        Fill in the example site; otherwise only the names of project items and
-        ranges are there.
-    overwrite : bool
-        Replace a file that exists.
-    language : str
-        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``. The importer
-        reads all three.
-
-    Raises
-    ------
-    OutputError
-        If the file exists and may not be replaced, or cannot be written.
-    """
-    path = Path(path)
-    require_free([path], overwrite=overwrite)
-    lines = load_example() if example else list_starting_lines()
-    write_files({path: render_workbook(lines, language)}, overwrite=overwrite)
-
-
 def render_workbook(
     lines: Mapping[str, _Lines],
     language: Language = "en",
@@ -154,12 +115,6 @@ def start_book(content: BytesIO, language: Language) -> Book:
     title = load_text(language)["title"]
     workbook.set_properties({"title": title, "created": _CREATED})
     return Book(workbook, language, _add_formats(workbook))
-
-
-def load_example() -> dict[str, _Lines]:
-    """Load the lines of the example site: by sheet, then line, then field key."""
-    file = find_resource("templates") / EXAMPLE_FILE
-    return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
 def list_starting_lines() -> dict[str, _Lines]:

@@ -7,9 +7,9 @@ import openpyxl
 import pytest
 
 from netdesign.addons.terrain.grid import read_grid
-from netdesign.site.template.workbook import write_site_workbook
 from tests.addons.terrain.map_files import write_rows as write_layer
 from tests.addons.terrain.map_files import write_tif
+from tests.old_example import write_old_example
 
 LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
@@ -27,7 +27,7 @@ def slope(tmp_path_factory):
     lines = "\n".join(" ".join(f"{one:.3f}" for one in row) for row in z[::-1])
     (folder / "slope.asc").write_text(head + lines + "\n")
     (folder / "rows.json").write_text(json.dumps(write_rows()))
-    write_site_workbook(folder / "types.xlsx", example=True)
+    write_old_example(folder / "types.xlsx")
     return folder
 
 

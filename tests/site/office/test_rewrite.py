@@ -10,9 +10,10 @@ from netdesign.site.cells.cells import name_column
 from netdesign.site.office.rewrite import rewrite
 from netdesign.site.reader import read_cells, read_site
 from netdesign.site.template.office_workbook import render_input
-from netdesign.site.template.workbook import load_example, render_workbook
+from netdesign.site.template.workbook import render_workbook
 from netdesign.words.catalogue import render
 from tests.each import each
+from tests.old_example import load_example
 
 LANGUAGES = ("en", "fr", "de")
 

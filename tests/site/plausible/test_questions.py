@@ -5,11 +5,11 @@ import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
-from netdesign.site.template import workbook as template
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.each import each
+from tests.old_example import write_old_example
 from tests.site.plausible.slips import PLANS
 from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import draw_lines
@@ -18,7 +18,7 @@ from tests.study.knowing_less.drawn_site import draw_lines
 @pytest.fixture(scope="module")
 def example(tmp_path_factory):
     path = tmp_path_factory.mktemp("plausible") / "site.xlsx"
-    template.write_site_workbook(path, example=True)
+    write_old_example(path)
     return path
 
 

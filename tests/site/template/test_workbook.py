@@ -12,20 +12,16 @@ from netdesign.outcome import SiteDataError
 from netdesign.resistance.post import PostSection
 from netdesign.site.columns.all_tables import NETS
 from netdesign.site.reader import read_site
-from netdesign.site.template import workbook as template
-from netdesign.site.template.workbook import (
-    _read_picture,
-    load_example,
-    write_site_workbook,
-)
+from netdesign.site.template.workbook import _read_picture, list_starting_lines
 from netdesign.words.catalogue import LANGUAGES
+from tests.old_example import load_example, write_old_example
 from tests.site.template.geometry import draw_geometry
 
 
 @pytest.fixture(scope="module")
 def example(tmp_path_factory):
     path = tmp_path_factory.mktemp("example") / "example.xlsx"
-    write_site_workbook(path, example=True)
+    write_old_example(path)
     return path
 
 
@@ -55,13 +51,13 @@ def test_every_cell_of_the_example_is_echoed_as_typed(example):
 
 def test_the_same_bytes_come_out_each_time(example, tmp_path):
     again = tmp_path / "again.xlsx"
-    write_site_workbook(again, example=True)
+    write_old_example(again)
     assert again.read_bytes() == example.read_bytes()
 
 
 def test_the_empty_workbook_asks_for_rows_only(tmp_path):
     path = tmp_path / "blank.xlsx"
-    write_site_workbook(path)
+    write_old_example(path, lines=list_starting_lines())
     with pytest.raises(SiteDataError) as caught:
         read_site(path)
     assert [(f.sheet, f.cell, str(f.rule)) for f in caught.value.findings] == [
@@ -82,11 +78,10 @@ def test_bounds_and_words_are_offered_while_typing(example):
     assert anchor.formula1 == "'Anchors'!$A$2:$A$201"
 
 
-def test_text_never_becomes_a_formula(tmp_path, monkeypatch):
+def test_text_never_becomes_a_formula(tmp_path):
     lines = {"Project": [{"item": "name", "value": '=HYPERLINK("http://x")'}]}
-    monkeypatch.setattr(template, "load_example", lambda: lines)
     path = tmp_path / "site.xlsx"
-    write_site_workbook(path, example=True)
+    write_old_example(path, lines=lines)
     cell = openpyxl.load_workbook(path)["Project"]["B2"]
     with zipfile.ZipFile(path) as archive:
         xml = archive.read("xl/worksheets/sheet2.xml")
@@ -99,8 +94,10 @@ def test_text_never_becomes_a_formula(tmp_path, monkeypatch):
 @pytest.mark.parametrize("kind", ["example", "blank"])
 def test_what_is_written_in_each_language_is_read_clean(tmp_path, language, kind):
     english, path = tmp_path / "en.xlsx", tmp_path / "site.xlsx"
-    write_site_workbook(english, example=True)
-    write_site_workbook(path, example=kind == "example", language=language)
+    write_old_example(english)
+    write_old_example(
+        path, language, None if kind == "example" else list_starting_lines()
+    )
     if kind == "example":
         site, truth = read_site(path), read_site(english)
         assert site.notes == ()

@@ -97,7 +97,7 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     history = [["solve", str(NAMED / f"{one}.toml"), *in_time] for one in _FOLLOWED]
     heights = ["--heights", str(folder / _HEIGHTS)]
     winter = ["winter", "--example", "--no-cache", "--quiet", "--force"]
-    winter += ["--out", str(folder / "winter"), "--row", "R1"]
+    winter += ["--out", str(folder / "winter"), "--row", "A1"]
     own = [*check, str(folder / "own"), "--example", "--no-cache"]
     return {
         "solve": Figure(scenes[:1]),
@@ -112,7 +112,7 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         "history": Figure(history, history),
         "winter": Figure([winter], [], (0, 4)),
         "winters": Figure(
-            [[*winter, "--row", "R2", "--row", "R3", *heights]], [], (0, 4)
+            [[*winter, "--row", "A2", "--row", "A3", *heights]], [], (0, 4)
         ),
     }
 
