@@ -197,7 +197,7 @@ def test_profile_of_ones_own_is_used_as_printed(tmp_path):
         line = check.partition("#")[0].replace(" --explain", "")
         read = run(f"{line} --dry-run", tmp_path)
         assert read.returncode == 0, read.stderr
-        assert "7 net rows" in read.stdout
+        assert "8 net rows" in read.stdout
 
 
 LINKS = [
