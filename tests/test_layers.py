@@ -115,10 +115,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
-        *(
-            "addons.evidence.validation.structure",
-            "addons.evidence.validation.measured_file",
-        ),
+        "addons.evidence.validation.structure",
         *("checks.schema", "files.scene", "study.document"),
         "edge.json_text",
     ),

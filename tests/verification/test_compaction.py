@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.verification.compaction import (
+from netdesign.addons.evidence.verification.closed_forms import (
     MODELS,
     compute_viscosity,
     find_middle,

@@ -84,8 +84,8 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     study = load_study(path)
     inputs = find_inputs(study, path, asked)
     hashes = inputs.list_hashes(study)
-    for one in hashes:
-        _show_hash(*one)
+    for entry in hashes:
+        _show_hash(*entry)
     if any(stored != now for _, stored, now in hashes):
         tell(say("verify.not_its_inputs"))
         return _FAIL
@@ -146,24 +146,16 @@ def _show_unverified(study: Study, again: Study) -> bool:
 
 
 @click.command()
-@click.argument(
-    "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
-)
 @take_options("validate")
-def validate(structures: Path | None, **asked: Any) -> None:
+def validate(**asked: Any) -> None:
     """Write one page: forces measured on structures, in the bands of the model.
 
-    With a file, its structures stand first: one whose inputs are all values gets a
-    misfit, others a band. The form is that of the program's own, measured.toml in
-    netdesign/addons/evidence/validation. Exit code 4 if a measured force lies outside
-    its band.
+    Exit code 4 if a measured force lies outside its band.
 
     \b
     netdesign validate --out validation
-    netdesign validate my-net.toml --out validation
     netdesign validate --out validation --json > validation.json
     """
-    from netdesign.addons.evidence.validation.measured_file import read_all
     from netdesign.addons.evidence.validation.page import (
         DOCUMENT_FILE,
         PAGE_FILE,
@@ -171,16 +163,17 @@ def validate(structures: Path | None, **asked: Any) -> None:
         render_validation,
         write_validations,
     )
+    from netdesign.addons.evidence.validation.structure import load_structures
 
     require_places(asked["out"], [PAGE_FILE, DOCUMENT_FILE], asked)
-    known = read_all(structures)
-    with follow(len(known), "structures", asked) as on_done:
-        found = gather(known, on_done)
-    write_outputs(asked["out"], render_validation(found), asked)
+    structures = load_structures()
+    with follow(len(structures), "structures", asked) as on_done:
+        validations = gather(structures, on_done)
+    write_outputs(asked["out"], render_validation(validations), asked)
     if asked["as_json"]:
-        print_document(write_validations(found))
-    bands = [one for one in found if not one.structure.is_known]
-    if not all(c.is_inside for one in bands for c in one.comparisons):
+        print_document(write_validations(validations))
+    pairs = [pair for validation in validations for pair in validation.comparisons]
+    if not all(pair.is_inside for pair in pairs):
         sys.exit(_NOT_PROVEN)
 
 

@@ -149,5 +149,5 @@ def fit_order(sizes: Sequence[float], values: Sequence[float]) -> float:
 
 def share(holds: Iterable[bool]) -> float | None:
     """Share of the entries that hold; None without any."""
-    found = list(holds)
-    return sum(found) / len(found) if found else None
+    answers = list(holds)
+    return sum(answers) / len(answers) if answers else None

@@ -63,7 +63,7 @@ def show_rows(rows: Sequence[Row], console: Console, area: str = AREA) -> None:
     heads = [Text(ENGLISH(f"{area}.{key}")) for key in keys]
     shown = [[_show(key, row[key], area) for key in keys] for row in rows]
     widths = [
-        max(one.cell_len for one in column)
+        max(text.cell_len for text in column)
         for column in zip(heads, *shown, strict=True)
     ]
     longest = max(range(len(keys)), key=widths.__getitem__)
@@ -94,7 +94,9 @@ def _show(key: str, value: object, area: str) -> Text:
     from rich.text import Text
 
     if isinstance(value, bool) and key == "pass":
-        good, bad = (ENGLISH(f"verify_table.{one}") for one in ("passes", "fails"))
+        good, bad = (
+            ENGLISH(f"verify_table.{answer}") for answer in ("passes", "fails")
+        )
         return Text(good, "green") if value else Text(bad, "bold red")
     return Text(_write(key, value, area))
 
@@ -102,13 +104,13 @@ def _show(key: str, value: object, area: str) -> Text:
 def _write(key: str, value: object, area: str) -> str:
     """Value on one line: a number to four digits, parts one after the other."""
     if isinstance(value, Mapping):
-        named = [(name, one) for name, one in value.items() if _is_named(area, name)]
+        named = [(name, part) for name, part in value.items() if _is_named(area, name)]
         return ENGLISH.join(
-            f"{ENGLISH(f'{area}.{name}')} {_write(name, one, area)}"
-            for name, one in named
+            f"{ENGLISH(f'{area}.{name}')} {_write(name, part, area)}"
+            for name, part in named
         )
     if isinstance(value, list):
-        return ENGLISH.join(_write(key, one, area) for one in value) or MISSING
+        return ENGLISH.join(_write(key, part, area) for part in value) or MISSING
     if isinstance(value, bool):
         return ENGLISH(_ANSWERS[not value])
     if isinstance(value, float):
@@ -129,7 +131,7 @@ def _is_named(area: str, key: str) -> bool:
 
 
 def _is_table(value: object) -> bool:
-    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+    return isinstance(value, list) and all(isinstance(row, Mapping) for row in value)
 
 
 FORCE = "foot_size_kN_per_m"
@@ -177,7 +179,7 @@ def tabulate_items(
 ) -> Table:
     """Table of a line for each item; a column's heading, kind and value of an item."""
     kinds = [(heading, kind) for heading, (kind, _) in columns.items()]
-    rows = [[value(one) for _, value in columns.values()] for one in items]
+    rows = [[value(item) for _, value in columns.values()] for item in items]
     return tabulate(caption, kinds, rows)
 
 

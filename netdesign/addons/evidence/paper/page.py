@@ -1,12 +1,13 @@
-"""The paper's study -> one page without script, drawings, CSV files."""
+"""Page of `netdesign paper`: four plates with their meshes, tables, CSV files."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from netdesign import __version__
-from netdesign.addons.evidence.paper.mesh_figure import MeshPicture, draw_meshes
 from netdesign.addons.evidence.paper.runs import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -18,7 +19,6 @@ from netdesign.addons.evidence.paper.runs import (
     RELATIVE_DENSITY,
     THICKNESS,
     PaperCase,
-    PaperRun,
     PaperStudy,
     Track,
     find_exchange,
@@ -34,6 +34,7 @@ from netdesign.addons.history.moments import (
     REST_SHARE,
     REST_WAY,
 )
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.blocks import (
     Block,
     Figure,
@@ -42,12 +43,134 @@ from netdesign.report.blocks import (
     Part,
     masthead,
     section,
-    write_csv,
 )
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
+from netdesign.report.drawing.plain_svg import (
+    ACCENT,
+    SHADES,
+    TEXT_PT,
+    WIDTH,
+    Chart,
+    Point,
+    shade,
+    show_place,
+)
 from netdesign.report.page.render import render_page
 from netdesign.report.words import ENGLISH
 from netdesign.units import day_from_second, kilonewton_from_newton
+
+_STACKED = 0.84  # width of meshes below each other, so that five fit on a page
+_SCALE_PT = 150.0  # width of the density scale [pt]
+_ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
+# Share of the snow's area, at each end, that the shades need not tell apart: one that
+# is all but empty at the overhanging surface would flatten all others.
+_OUTLIERS = 0.005
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MeshPicture:
+    """A snow mesh to draw: nodes (2, n) [m], triangles (3, m), density (m,) [kg/m3]."""
+
+    title: str
+    nodes: Floats
+    triangles: Ints
+    density: Floats
+    face: Floats  # net or wall, shape (2, k) [m]
+
+
+def draw_meshes(pictures: Sequence[MeshPicture]) -> str:
+    """SVG of deformed meshes below each other, to one scale of length and density."""
+    wide = max(float(np.ptp(picture.nodes[0])) for picture in pictures)
+    tall = max(float(picture.nodes[1].max()) for picture in pictures)
+    right = max(float(picture.face[0].max()) for picture in pictures)
+    shown = 1.0 if len(pictures) == 1 else _STACKED
+    scale = shown * (WIDTH - 22.0) / (1.02 * wide)
+    each = scale * tall * 1.06 + 22.0
+    quantiles = [_find_ends(picture) for picture in pictures]
+    limits = (min(low for low, _ in quantiles), max(high for _, high in quantiles))
+    sketch = Chart()
+    for place, picture in enumerate(pictures):
+        base = np.array([(wide * 1.03 - right) * scale, each * (place + 1) - 6.0])
+        sketch.text(2.0, each * place + TEXT_PT + 2.0, picture.title, bold=True)
+        _draw_mesh(sketch, picture, base, scale, limits)
+    height = each * len(pictures) + 36.0
+    _draw_scale(sketch, limits, height)
+    density = ENGLISH("net_drawing.density")
+    values = (ENGLISH("show.label", label=density, text=ENGLISH.show_range(limits)),)
+    what = ENGLISH("net_drawing.mesh")
+    title = ENGLISH("drawing.with_values", what=what, values=values)
+    return sketch.write(height, title)
+
+
+def _find_ends(picture: MeshPicture) -> tuple[float, float]:
+    """Low and high density; nearly all of the snow's area lies between them."""
+    first, second, third = picture.nodes[:, picture.triangles].transpose(1, 0, 2)
+    side, other = second - first, third - first
+    areas = np.abs(side[0] * other[1] - side[1] * other[0])
+    order = np.argsort(picture.density)
+    shares = np.cumsum(areas[order]) / areas.sum()
+    low, high = np.searchsorted(shares, [_OUTLIERS, 1.0 - _OUTLIERS])
+    return float(picture.density[order[low]]), float(picture.density[order[high]])
+
+
+def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
+    """Points (2, n) [m] on paper; y upwards from the base [pt]."""
+    across, down = base[0] + scale * points[0], base[1] - scale * points[1]
+    return [(float(x), float(y)) for x, y in zip(across, down, strict=True)]
+
+
+def _draw_mesh(
+    sketch: Chart,
+    picture: MeshPicture,
+    base: Floats,
+    scale: float,
+    limits: tuple[float, float],
+) -> None:
+    """Triangles, those of one shade in one path, with ground and net."""
+    corners = _place_points(picture.nodes, base, scale)
+    paths: dict[str, str] = {}
+    for triangle, density in zip(picture.triangles.T, picture.density, strict=True):
+        fill = _shade(float(density), limits)
+        path = "L".join(
+            f"{show_place(corners[k][0])} {show_place(corners[k][1])}" for k in triangle
+        )
+        paths[fill] = f"{paths.get(fill, '')}M{path}z"
+    for fill, path in paths.items():
+        sketch.shapes.append(
+            f'<path d="{path}" fill="{fill}" stroke="#fff" stroke-width="0.25"/>'
+        )
+    ends = [float(picture.nodes[0].min()), float(picture.face[0].max())]
+    sketch.line(_place_points(np.array([ends, [0.0, 0.0]]), base, scale), width=1.0)
+    face = _place_points(picture.face, base, scale)
+    sketch.line(face, stroke=ACCENT, width=1.5)
+    for at in (face[0], face[-1]):
+        sketch.dot(at, 1.5, fill=ACCENT, stroke=ACCENT)
+
+
+def _shade(density: float, limits: tuple[float, float]) -> str:
+    """Grey of a density, of the loosest snow still darker than paper."""
+    low, high = limits
+    if high - low < _ONE_DENSITY:
+        low, high = low - 50.0, low + 50.0
+    return shade(density, low - 0.15 * (high - low), high)
+
+
+def _draw_scale(sketch: Chart, limits: tuple[float, float], height: float) -> None:
+    """Shades of the densities, three of them named."""
+    low, high = limits
+    if high - low < _ONE_DENSITY:
+        text = ENGLISH("net_drawing.one_density", density=low)
+        sketch.text(6.0, height - 9.0, text)
+        return
+    step = _SCALE_PT / SHADES
+    for place in range(SHADES):
+        fill = _shade(low + (place + 0.5) / SHADES * (high - low), limits)
+        sketch.rectangle(10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill)
+    for share in (0.0, 0.5, 1.0):
+        at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"
+        sketch.text(at, height - 4.0, shown, anchor="middle")
+    sketch.text(24.0 + _SCALE_PT, height - 15.5, ENGLISH("net_drawing.density"))
+
 
 _NODES = ("lower", "upper")
 # Creep time in which a straight net finds its first shape: not drawn.
@@ -238,47 +361,7 @@ def render_paper(study: PaperStudy) -> dict[str, bytes]:
     files = {PAGE_FILE: _render_page(study, plates, tables).encode()}
     files |= {f"{plate.name}.svg": plate.svg.encode() for plate in plates}
     files |= {f"{listed.name}.csv": listed.render() for listed in tables}
-    for run in study.runs.values():
-        if run.track is not None:
-            files[f"{name_history(run)}.csv"] = write_track(run.track)
     return files
-
-
-def name_history(run: PaperRun) -> str:
-    """Name of a history's CSV file, from what its run differs by."""
-    case = run.case
-    parts = [
-        "history",
-        case.method,
-        f"net{case.inclination_deg:.0f}",
-        f"friction{case.friction_deg:.0f}",
-        "" if case.gravity == "full" else case.gravity,
-        case.start if case.method == "transient" else "",
-        f"{case.until:.0f}s" if case.until else "",
-    ]
-    return "-".join(part for part in parts if part)
-
-
-def write_track(track: Track) -> bytes:
-    """History of a run: pulls, forces of the net on two nodes, largest density."""
-    low, high = (f"{height:.2f}m" for height in track.heights)
-    columns = (
-        track.times,
-        track.foot / 1e3,
-        track.head / 1e3,
-        *(track.lower / 1e3),
-        *(track.upper / 1e3),
-        track.density,
-    )
-    headings = (
-        "time_s",
-        "foot_kN_per_m",
-        "head_kN_per_m",
-        *(f"node_at_{low}_{axis}_kN_per_m" for axis in "xy"),
-        *(f"node_at_{high}_{axis}_kN_per_m" for axis in "xy"),
-        "largest_relative_density",
-    )
-    return write_csv(headings, [list(row) for row in zip(*columns, strict=True)])
 
 
 def _render_page(
@@ -293,7 +376,7 @@ def _render_page(
         stiffness=kilonewton_from_newton(ASSUMED_STIFFNESS),
     )
     failures = sum(bool(run.failure) for run in study.runs.values())
-    told = ENGLISH("paper.failures", count=failures) if failures else ""
+    failed = ENGLISH("paper.failures", count=failures) if failures else ""
     blocks = (
         masthead(
             f"netdesign paper · {__version__}",
@@ -305,9 +388,9 @@ def _render_page(
             "tables",
             ENGLISH("paper.tables"),
             *(
-                Part(kind="div", id=f"table-{one.name}", blocks=(shown,))
-                for one in tables
-                for shown in [one.table.shown("study")]
+                Part(kind="div", id=f"table-{listed.name}", blocks=(shown,))
+                for listed in tables
+                for shown in [listed.table.shown("study")]
             ),
             look="page",
         ),
@@ -315,9 +398,13 @@ def _render_page(
             "how",
             ENGLISH("paper.how"),
             *(
-                Paragraph(text=one, look="text")
-                for one in (told, ENGLISH("paper.how_forces"), _tell_histories(study))
-                if one
+                Paragraph(text=sentence, look="text")
+                for sentence in (
+                    failed,
+                    ENGLISH("paper.how_forces"),
+                    _tell_histories(study),
+                )
+                if sentence
             ),
         ),
     )

@@ -159,12 +159,8 @@ class Track:
         Forces of the net on the snow at two nodes [N/m].
     heights : tuple of float
         Of these nodes above the ground, at the end [m].
-    density : ndarray, shape (n,)
-        Largest relative density [-].
     plateau : int or None
         Number of the moment at which a plateau begins.
-    ended : Message or None
-        Why it ended before its horizon; None if it did not.
     """
 
     times: Floats
@@ -173,12 +169,10 @@ class Track:
     lower: Floats
     upper: Floats
     heights: tuple[float, float]
-    density: Floats
     plateau: int | None
-    ended: Message | None
 
     def at(self, time: float, name: str) -> float:
-        """Value of ``foot``, ``head`` or ``density`` at a time [s], between moments."""
+        """Value of ``foot`` or ``head`` at a time [s], between moments."""
         return float(np.interp(time, self.times, getattr(self, name)))
 
 
@@ -318,9 +312,7 @@ def _track_of(history: History, heights: Floats) -> Track:
         lower=np.array([-moment.on_net[:, lower] for moment in moments]).T,
         upper=np.array([-moment.on_net[:, upper] for moment in moments]).T,
         heights=(float(heights[lower]), float(heights[upper])),
-        density=np.array([moment.max_relative_density for moment in moments]),
         plateau=history.plateau.index,
-        ended=history.ended,
     )
 
 

@@ -128,8 +128,8 @@ def _tabulate_growth(study: PaperStudy) -> Listed:
     rows: list[tuple[object, ...]] = []
     for net in NETS_DEG:
         histories = [find_history(net, phi) for phi in FRICTIONS_DEG]
-        rows += _grow_histories("transient", net, [study[one] for one in histories])
-        steady = [study[find_steady(one)] for one in histories]
+        rows += _grow_histories("transient", net, [study[case] for case in histories])
+        steady = [study[find_steady(case)] for case in histories]
         for end in ("foot", "head"):
             values = [getattr(run, end) for run in steady]
             rows.append(("steady", net, end, *values, _change(values[-1], values[0])))

@@ -1,52 +1,31 @@
-"""Measured structures as data, and the model's forces over what is not known of them.
-
-The file's form is that of ``measured.toml``. A structure whose inputs are all values
-gets a misfit; one with any range gets a plausibility band.
-"""
+"""Measured structures of ``measured.toml``, and the model's forces on them."""
 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import AliasChoices, Field
+from pydantic import AliasChoices, Field, TypeAdapter
 
 from netdesign.addons.evidence.scene import build_scene
-from netdesign.cable.net import LARGEST_FRICTION_ANGLE, LARGEST_SLACK
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError
-from netdesign.panel.inputs import LARGEST_SAG, Panel, Rope
+from netdesign.panel.inputs import Panel, Rope
 from netdesign.snow.ground import (
-    LARGEST_GLIDE_FACTOR,
     build_ground_from_glide_factor,
 )
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.words.message import say
-
-# Inputs of a structure and what is accepted of them, by the names of the file.
-INPUTS = {
-    "slope_deg": (5.0, 70.0),
-    "net_height_m": (0.5, 10.0),
-    "filled": (0.05, 1.0),
-    "density_kg_m3": (50.0, 700.0),
-    "upslope_length_m": (0.5, 300.0),
-    "glide_factor": (1.0, LARGEST_GLIDE_FACTOR),
-    "inclination_deg": (0.0, 70.0),
-    "friction_deg": (0.0, math.degrees(LARGEST_FRICTION_ANGLE)),
-    "slack": (0.0, LARGEST_SLACK),
-    "stiffness_kN_per_m": (10.0, 1e7),
-    "post_spacing_m": (0.5, 20.0),
-    "uphill_anchor_ratio": (0.0, 10.0),
-}
-# Both, for the ropes between posts.
-ROPE_INPUTS = {"rope_stiffness_kN": (10.0, 1e7), "rope_sag": (0.0, LARGEST_SAG)}
 
 Mark = Literal["read", "assumed", "unknown", "measured"]
 _Number = Annotated[float, Field(ge=0, allow_inf_nan=False, strict=True)]
@@ -66,11 +45,6 @@ class Span:
     high: Annotated[_Number, _named("high", "value")]
     mark: Mark
     reason: str = ""
-
-    @property
-    def is_known(self) -> bool:
-        """One value, not a range."""
-        return self.low == self.high
 
     def at(self, share: float) -> float:
         """Value at a share of the range, 0 to 1."""
@@ -115,10 +89,13 @@ class Structure:
     note: str = ""
     open: tuple[str, ...] = ()
 
-    @property
-    def is_known(self) -> bool:
-        """Every input has a value: a misfit has a meaning."""
-        return all(span.is_known for span in self.inputs.values())
+
+@lru_cache(maxsize=1)
+def load_structures() -> tuple[Structure, ...]:
+    """Measured structures that come with the program."""
+    text = files(__package__).joinpath("measured.toml").read_text(encoding="utf-8")
+    reader = TypeAdapter(tuple[Structure, ...])
+    return reader.validate_python(tuple(tomllib.loads(text)["structure"]))
 
 
 SAMPLES = 120
@@ -182,7 +159,7 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Validation:
-    """Structure with its comparisons; of one with all inputs known a misfit.
+    """Structure, and its measured forces beside the bands of the model.
 
     Attributes
     ----------
@@ -217,32 +194,34 @@ def validate_structure(structure: Structure, samples: int = SAMPLES) -> Validati
     Parameters
     ----------
     structure : Structure
-        What is known and what ranges.
+        Values and ranges of its inputs.
     samples : int
-        Cases of a structure with any range; one with none has one case.
+        Number of cases.
 
     Raises
     ------
     ModelError
         If no case has a result.
     """
-    points = _draw(structure, 1 if structure.is_known else samples)
+    points = _draw(structure, samples)
     forces = [_solve(point) for point in points]
-    good = [one for one in forces if one.values]
+    good = [case for case in forces if case.values]
     if not good:
         raise ModelError(say("measured.none_solved", name=structure.id[:200]))
     return Validation(
         structure=structure,
         comparisons=tuple(
             Comparison(
-                measured=one,
-                bands=tuple(_find_band(member, one, good) for member in one.members),
+                measured=measured,
+                bands=tuple(
+                    _find_band(member, measured, good) for member in measured.members
+                ),
             )
-            for one in structure.measured
+            for measured in structure.measured
         ),
         solved=len(good),
         failed=len(forces) - len(good),
-        reasons=tuple(dict.fromkeys(one.reason for one in forces if one.reason)),
+        reasons=tuple(dict.fromkeys(case.reason for case in forces if case.reason)),
     )
 
 
@@ -277,7 +256,7 @@ def _solve_net(point: dict[str, float]) -> CaseForces:
         downhill_anchor_distance=height,
     )
     panels: tuple[Panel, ...] = ()
-    if ROPE_INPUTS.keys() <= point.keys():
+    if "rope_sag" in point:
         rope = Rope(stiffness=point["rope_stiffness_kN"] * 1e3, sag=point["rope_sag"])
         panels = (Panel(post_spacing=spacing, lower=rope, upper=rope, cut="upper"),)
     case = Case(
@@ -311,10 +290,10 @@ def _solve_net(point: dict[str, float]) -> CaseForces:
 def _find_band(
     member: str, measured: Measurement, forces: Sequence[CaseForces]
 ) -> MemberBand:
-    found = [one.values[member] for one in forces if member in one.values]
-    if not found:
+    solved = [case.values[member] for case in forces if member in case.values]
+    if not solved:
         raise ModelError(say("measured.no_member", member=member[:200]))
-    values: Floats = np.array(found)
+    values: Floats = np.array(solved)
     low, high = np.percentile(values, _MIDDLE)
     return MemberBand(
         member=member,

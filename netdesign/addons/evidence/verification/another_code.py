@@ -130,11 +130,11 @@ def _compare(scene: SharedScene, other: OtherResult) -> list[VerificationCase]:
         "moment": (scene.moment, other.moment, of_moment),
     }
     name = f"another-code-{scene.name}"
-    found = {
+    results = {
         f"{name}-{part}": Found(got / 1e3, expected)
         for part, (got, expected, _) in rows.items()
     }
     return [
         replace(case, tolerance=allowed / abs(case.expected))
-        for case, (*_, allowed) in zip(judge(found), rows.values(), strict=True)
+        for case, (*_, allowed) in zip(judge(results), rows.values(), strict=True)
     ]

@@ -91,14 +91,14 @@ def load_cases() -> Mapping[str, VerificationCase]:
     }
 
 
-def judge(found: Mapping[str, float | Found]) -> list[VerificationCase]:
+def judge(results: Mapping[str, float | Found]) -> list[VerificationCase]:
     """Cases of the table with what was found; a bare number is what was got."""
-    known = load_cases()
+    cases = load_cases()
     return [
-        replace(known[name], **one._asdict())
-        if isinstance(one, Found)
-        else replace(known[name], got=float(one))
-        for name, one in found.items()
+        replace(cases[name], **result._asdict())
+        if isinstance(result, Found)
+        else replace(cases[name], got=float(result))
+        for name, result in results.items()
     ]
 
 

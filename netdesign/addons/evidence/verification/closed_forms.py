@@ -1,8 +1,9 @@
-"""Closed forms of creep law, slabs, columns of snow, cables and the sliding net."""
+"""Closed forms: creep law, slabs, columns of snow, cables, sliding net, compaction."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from netdesign.addons.evidence.verification.manufactured import (
 )
 from netdesign.addons.history.incremental import advance_increment, build_cable_state
 from netdesign.addons.history.sliding import compute_segment_lengths, solve_sliding
+from netdesign.addons.winter.settling.models import Hs2swe
 from netdesign.cable.funicular import (
     Funicular,
     share_uniform_load,
@@ -33,8 +35,12 @@ from netdesign.cable.net import (
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import (
+    BOUTILLIER_2004,
+    PAPER_FLUIDITY,
     ZWINGER_2007,
+    CreepLaw,
     compute_bulk_factor,
+    compute_confined_softness,
     compute_shear_factor,
     compute_strain_rate,
 )
@@ -54,12 +60,12 @@ _DIVISIONS = (4, 8, 16)
 def list_law() -> list[VerificationCase]:
     """Strain rates of simple stress states, against formula and printed figure."""
     confined, rows = _list_states()
-    found: dict[str, float | Found] = {}
+    results: dict[str, float | Found] = {}
     for name, stress, axis, formula in rows:
         got = float(_rate_per_year(stress)[axis, axis])
-        found |= {name: Found(got, formula), f"{name}-printed": got}
+        results |= {name: Found(got, formula), f"{name}-printed": got}
     rate = _rate_per_year(confined)
-    return judge({**found, "law-confined-lateral": rate[0, 0] / rate[2, 2]})
+    return judge({**results, "law-confined-lateral": rate[0, 0] / rate[2, 2]})
 
 
 def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float], ...]]:
@@ -72,11 +78,11 @@ def _list_states() -> tuple[Floats, tuple[tuple[str, Floats, int, float], ...]]:
     # lateral stress of confined compression, from tau_xx and p of the same source
     tau = -2.0 / (3.0 * a) / (4.0 / (3.0 * a) + 1.0 / b) * s
     confined = np.diag([s + 3.0 * tau, s + 3.0 * tau, s])
-    one = a / 3.0 + b / 9.0
+    rate_once = a / 3.0 + b / 9.0
     two = 4.0 / (3.0 * a) + 1.0 / b
-    lateral = _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3
+    lateral = _FLUIDITY / 18.0 * rate_once * (2 * b - 3 * a) * s**3
     rows = (
-        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3),
+        ("law-uniaxial", axial, 2, _FLUIDITY * rate_once**2 * s**3),
         ("law-uniaxial-lateral", axial, 0, lateral),
         ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0),
         ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3),
@@ -210,7 +216,7 @@ _INCREMENTS = (16, 32, 64)
 def list_sliding_net() -> list[VerificationCase]:
     """Sliding in both directions over an arc; increments of the paper's cable."""
     exact = compute_capstan_ratio(_WRAP, _FRICTION_ANGLE)
-    found = {}
+    results = {}
     for name, expected, is_reversed in (
         ("capstan-to-head", exact, False),
         ("capstan-to-foot", 1.0 / exact, True),
@@ -218,11 +224,11 @@ def list_sliding_net() -> list[VerificationCase]:
         ratios = [_end_ratio(count, is_reversed=is_reversed) for count in _COUNTS]
         errors = [abs(ratio / expected - 1.0) for ratio in ratios]
         order = observe_order([1.0 / n for n in _COUNTS], errors)
-        found[name] = Found(ratios[-1], expected, order)
+        results[name] = Found(ratios[-1], expected, order)
     pairs = [_bulge_tensions(count) for count in _INCREMENTS]
     errors = [abs(paper / ours - 1.0) for paper, ours in pairs]
     order = observe_order([1.0 / n for n in _INCREMENTS], errors)
-    return judge({**found, "paper-increments": Found(*pairs[-1], order)})
+    return judge({**results, "paper-increments": Found(*pairs[-1], order)})
 
 
 def _end_ratio(count: int, *, is_reversed: bool) -> float:
@@ -283,3 +289,51 @@ def _bulge(share: float) -> Floats:
 def _require(outcome: Outcome) -> None:
     if outcome is not Outcome.CONVERGED:
         raise SolveError(outcome)
+
+
+PLACE = (367.0, 5e3)  # at which one figure is quoted [kg/m3, Pa]
+
+
+def _settle_as_hs2swe(density: float) -> float:
+    model = Hs2swe()  # its constants are those of the program's winters
+    return model.viscosity * math.exp(model.stiffening * density)
+
+
+# Viscosity of snow at freezing [Pa s] by its density [kg/m3]; constants of Crocus as in
+# a public snow solver (Vionnet et al. 2012), of ISBA as in a public program (Boone 2002
+# by Essery et al. 2013), of SNTHRM.89 as in the public code of VIC.
+MODELS: Mapping[str, Callable[[float], float]] = {
+    "Crocus": lambda density: 7.62237e6 * density / 250.0 * math.exp(0.023 * density),
+    "ISBA": lambda density: 3.7e7 * math.exp(0.018 * density),
+    "HS2SWE": _settle_as_hs2swe,
+    "SNTHRM": lambda density: 3.6e6 * math.exp(0.021 * density),
+}
+
+
+def compute_viscosity(law: CreepLaw, density: float, stress: float) -> float:
+    """Apparent compaction viscosity of a creep law of the paper's fluidity [Pa s].
+
+    Parameters
+    ----------
+    law : CreepLaw
+        A set for n = 3.
+    density : float
+        [kg/m3].
+    stress : float
+        Across the layer, positive [Pa].
+    """
+    softness = compute_confined_softness(law, density)
+    return float(stress / (PAPER_FLUIDITY * stress**law.exponent * softness))
+
+
+def find_middle(density: float) -> float:
+    """Geometric mean of the operational models at freezing [Pa s]."""
+    logs = [math.log(compute(density)) for compute in MODELS.values()]
+    return math.exp(sum(logs) / len(logs))
+
+
+def list_compaction() -> list[VerificationCase]:
+    """Settling of the default law at one place, against models in operational use."""
+    density, stress = PLACE
+    own = compute_viscosity(BOUTILLIER_2004, density, stress)
+    return judge({"compaction-default": math.log(own / find_middle(density))})

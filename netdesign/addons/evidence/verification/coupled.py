@@ -75,26 +75,26 @@ def build_paper_scene(
 
 def list_reference() -> list[VerificationCase]:
     """Tensions and sag of the source paper's scene against two other codes."""
-    found: dict[str, float] = {}
+    results: dict[str, float] = {}
     for inclination in (0, 30):
         solution = _solve(build_paper_scene(inclination=float(inclination)))
-        found |= {
+        results |= {
             f"reference-{inclination}-foot": solution.foot.size / 1e3,
             f"reference-{inclination}-head": solution.head.size / 1e3,
             f"reference-{inclination}-sag": solution.sag,
         }
-    return judge(found)
+    return judge(results)
 
 
 def list_layered() -> list[VerificationCase]:
     """End tensions of layered snow against another code."""
-    found = {}
+    results = {}
     grounds: tuple[GroundKind, ...] = ("no-slip", "free")
     for ground in grounds:
         solution = _solve(_build_layered_scene(ground))
-        found[f"layered-{ground}-foot"] = solution.foot.size / 1e3
-        found[f"layered-{ground}-head"] = solution.head.size / 1e3
-    return judge(found)
+        results[f"layered-{ground}-foot"] = solution.foot.size / 1e3
+        results[f"layered-{ground}-head"] = solution.head.size / 1e3
+    return judge(results)
 
 
 def list_invariants() -> list[VerificationCase]:
@@ -153,14 +153,14 @@ def list_numerics() -> list[VerificationCase]:
 def list_orders() -> list[VerificationCase]:
     """End tensions over nested meshes; the finest stands for the truth."""
     nested = [replace(MESH_LEVELS[1], subdivisions=times) for times in (0, 1, 2)]
-    found = {}
+    results = {}
     for name, friction in (("order-sticking", 45.0), ("order-sliding", 10.0)):
         scene = build_paper_scene(friction=friction)
         tensions = [_tension_on_level(scene, size) / 1e3 for size in nested]
         errors = [abs(tension / tensions[-1] - 1.0) for tension in tensions[:-1]]
         order = observe_order([1.0, 0.5], errors)
-        found[name] = Found(tensions[-2], tensions[-1], order)
-    return judge(found)
+        results[name] = Found(tensions[-2], tensions[-1], order)
+    return judge(results)
 
 
 def _build_layered_scene(ground: GroundKind) -> Scene:
@@ -265,16 +265,16 @@ _SETTLED = 1e-4  # creep time after which pulls must be smooth; 3 s in these sce
 
 def list_histories() -> list[VerificationCase]:
     """Steady state met, balance of all steps, smooth pulls, staggered trend."""
-    found: dict[str, float | Found] = {}
+    results: dict[str, float | Found] = {}
     for inclination in (0, 30):
         scene = build_paper_scene(inclination=inclination)
         name = f"history-{inclination}"
         run = _run(scene, start="sagged", densifies=False, level=1)
-        found |= _compare_with_steady(scene, run, name)
-        found |= _check_steps(run, name)
+        results |= _compare_with_steady(scene, run, name)
+        results |= _check_steps(run, name)
         straight = _run(scene, start="straight", densifies=True, level=1)
-        found |= _check_steps(straight, f"{name}-straight")
-    return judge({**found, "staggered-tends-to-transient": _compare_staggered()})
+        results |= _check_steps(straight, f"{name}-straight")
+    return judge({**results, "staggered-tends-to-transient": _compare_staggered()})
 
 
 def _check_steps(run: Run, name: str) -> dict[str, float]:
@@ -370,7 +370,7 @@ def list_walls() -> list[VerificationCase]:
 
 def list_depth_averaged() -> list[VerificationCase]:
     """Linear creep against the closed form: long and short snow, rough to slippery."""
-    found: dict[str, float | Found] = {}
+    results: dict[str, float | Found] = {}
     for ratio, aspect, friction in _SLABS:
         slab = Slab(thickness=_THICKNESS, slope_angle=math.radians(40), density=300.0)
         slip, length = ratio * _THICKNESS, aspect * _THICKNESS
@@ -385,11 +385,11 @@ def list_depth_averaged() -> list[VerificationCase]:
         )
         wall = "adhering" if friction is None else "smooth"
         name = f"haefeli-{ratio:g}-{aspect:g}-{wall}"
-        found[name] = Found(got / 1e3, force.total / 1e3)
+        results[name] = Found(got / 1e3, force.total / 1e3)
     # stagnation depth that halves the force on smooth ground, as published
     slab = Slab(thickness=2.0, slope_angle=math.radians(30), density=350.0)
-    found["haefeli-half-the-force"] = scale_slip_length(slab, 10.0, 0.5)
-    return judge(found)
+    results["haefeli-half-the-force"] = scale_slip_length(slab, 10.0, 0.5)
+    return judge(results)
 
 
 def wall_force(

@@ -101,13 +101,13 @@ def exact_body_force(x: Any, y: Any) -> tuple[Any, Any]:
 
 def list_manufactured() -> list[VerificationCase]:
     """Errors and orders of both elements."""
-    found = {}
+    results = {}
     elements: dict[str, Element] = {"p2": "velocity", "p2p1": "mixed"}
     for name, element in elements.items():
         for field, errors in _measure(element).items():
-            order = observe_order([1.0 / one for one in _DIVISIONS], errors)
-            found[f"mms-{name}-{field}"] = Found(errors[-1], 0.0, order)
-    return judge(found)
+            order = observe_order([1.0 / pieces for pieces in _DIVISIONS], errors)
+            results[f"mms-{name}-{field}"] = Found(errors[-1], 0.0, order)
+    return judge(results)
 
 
 def build_law(element: Element) -> FlowProblem:
@@ -187,8 +187,8 @@ def _dot(first: Vector, second: Vector) -> Any:
 
 def _power(strain: Vector) -> Any:
     """(1 - n) / (2 n) as an exact fraction where the strain is symbolic."""
-    one = strain[0] / strain[0]
-    return one * (1 - EXPONENT) / (2 * EXPONENT)
+    unity = strain[0] / strain[0]
+    return unity * (1 - EXPONENT) / (2 * EXPONENT)
 
 
 _LARGEST_ITERATIONS = 60
@@ -243,7 +243,7 @@ def solve_prescribed(
         If Newton's method does not converge.
     """
     material = sample_material(problem, mesh.template)
-    given = mesh.to_node_axes(np.where(held, values, 0.0))
+    prescribed = mesh.to_node_axes(np.where(held, values, 0.0))
     free = np.ones(mesh.n_dofs, dtype=bool)
     free[: mesh.n_velocities] = ~held.T.ravel()
     places = np.flatnonzero(free)
@@ -253,8 +253,8 @@ def solve_prescribed(
     for _ in range(_LARGEST_ITERATIONS):
         tangent = linearise_creep(current, material, stress)
         matrix = assemble_stiffness(mesh, tangent.modulus)
-        force = assemble_stress(mesh, tangent.intercept) - load + matrix @ given
-        unknowns = given.copy()
+        force = assemble_stress(mesh, tangent.intercept) - load + matrix @ prescribed
+        unknowns = prescribed.copy()
         unknowns[places] = splu(matrix[places][:, places].tocsc()).solve(-force[places])
         strain = compute_strain(mesh, unknowns)
         before, stress = stress, advance_stress(current, tangent, strain)

@@ -10,11 +10,11 @@ from netdesign.addons.evidence.verification.another_code import list_another_cod
 from netdesign.addons.evidence.verification.case import VerificationCase
 from netdesign.addons.evidence.verification.closed_forms import (
     list_cable,
+    list_compaction,
     list_law,
     list_sliding_net,
     list_snow,
 )
-from netdesign.addons.evidence.verification.compaction import list_compaction
 from netdesign.addons.evidence.verification.coupled import (
     list_depth_averaged,
     list_histories,

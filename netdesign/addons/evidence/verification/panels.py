@@ -43,7 +43,7 @@ def list_panels() -> list[VerificationCase]:
     """One section, its panel by a prototype, in space, and on straight ropes."""
     section = _solve_section()
     cuts: tuple[Cut, ...] = ("uniform", "upper")
-    found: dict[str, float | Found] = {
+    results: dict[str, float | Found] = {
         f"panel-{cut}-{name}": got / 1e3
         for cut in cuts
         for name, got in zip(_NAMES, _list_forces(_solve(section, cut)), strict=True)
@@ -51,8 +51,8 @@ def list_panels() -> list[VerificationCase]:
     straight = replace(_PANEL, lower=_STRAIGHT, upper=_STRAIGHT, cut="uniform")
     foot = math.hypot(*_require(solve_panel(section, straight)).foot)
     expected = section.foot.size * straight.post_spacing
-    found |= _list_in_space(section)
-    return judge({**found, "panel-straight-ropes": Found(foot / 1e3, expected / 1e3)})
+    results |= _list_in_space(section)
+    return judge({**results, "panel-straight-ropes": Found(foot / 1e3, expected / 1e3)})
 
 
 def _list_in_space(section: Solution) -> dict[str, Found]:

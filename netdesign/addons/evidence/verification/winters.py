@@ -70,12 +70,12 @@ def list_winters() -> list[VerificationCase]:
     """Peaks of the made-up winter without slip; invariants of a day."""
     season = solve_winter(GroundLaw(kind="no-slip"))
     governing = season.governing
-    found: dict[str, float | Found] = {
+    results: dict[str, float | Found] = {
         "winter-foot": _pull(governing.foot if governing else None),
         "winter-head": _pull(governing.head if governing else None),
         "winter-equivalent-density": season.equivalent_density or math.nan,
     }
-    return judge({**found, **_list_invariants()})
+    return judge({**results, **_list_invariants()})
 
 
 def _pull(force: Band | None) -> float:
@@ -87,12 +87,12 @@ def _list_invariants() -> dict[str, Found]:
     """Layers that are alike, and snow ten times as fluid, pull the same."""
     ground = GroundLaw(kind="sliding", slip_length=_SLIP)
     scene = build_row_scene(ground)
-    one = _solve(scene, ())
+    uniform = _solve(scene, ())
     split = _solve(scene, (Layer(thickness=0.9, density=320.0),) * 2)
     fluid = _solve(replace(scene, fluidity=10.0 * scene.creep_fluidity), ())
     return {
-        "winter-equal-layers": Found(split, one),
-        "winter-fluidity": Found(fluid, one),
+        "winter-equal-layers": Found(split, uniform),
+        "winter-fluidity": Found(fluid, uniform),
     }
 
 
@@ -147,11 +147,11 @@ def list_snow_heights() -> list[VerificationCase]:
     heights = tuple(map(float, series.heights))
     followed = {name: follow_heights(heights, model) for name, model in MODELS.items()}
     reference = [pack.mass for pack in followed[HS2SWE.name]]
-    found = {"hs2swe-reference": largest_difference(reference, series.reference)}
+    results = {"hs2swe-reference": largest_difference(reference, series.reference)}
     for name, packs in followed.items():
-        found |= _compare_with_pits(name, packs, series)
-        found[f"{name}-mass"] = measure_imbalance(packs)
-    return judge(found)
+        results |= _compare_with_pits(name, packs, series)
+        results[f"{name}-mass"] = measure_imbalance(packs)
+    return judge(results)
 
 
 def _compare_with_pits(

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from netdesign.addons.evidence.paper.mesh_figure import MeshPicture, draw_meshes
+from netdesign.addons.evidence.paper.page import MeshPicture, draw_meshes
 
 
 def texts(svg):
