@@ -47,13 +47,13 @@ _POWERS = tuple("123456789")
 def find_dimension(unit: str) -> Dimension:
     """Dimension of a unit such as "kN", "kN/m2", "deg"; "-" is a pure number."""
     above, _, below = unit.partition("/")
-    found = PURE
+    dimension = PURE
     for part, sign in ((above, 1), (below, -1)):
         base = part[:-1] if part[-1:] in _POWERS else part
         if base not in ("", "-"):
             power = int(part[len(base) :] or 1)
-            found = found.times(Dimension(((base, 1),)), sign * power)
-    return found
+            dimension = dimension.times(Dimension(((base, 1),)), sign * power)
+    return dimension
 
 
 def name_dimension(dimension: Dimension) -> str:
@@ -91,17 +91,17 @@ class Operation(NamedTuple):
         return self.ways[min(place, len(self.ways) - 1)]
 
 
-def _multiply(one: Dimension, other: Dimension) -> Dimension:
-    return one.times(other, 1)
+def _multiply(first: Dimension, second: Dimension) -> Dimension:
+    return first.times(second, 1)
 
 
-def _divide(one: Dimension, other: Dimension) -> Dimension:
-    return one.times(other, -1)
+def _divide(above: Dimension, below: Dimension) -> Dimension:
+    return above.times(below, -1)
 
 
 def _keep(*all_: Dimension) -> Dimension | None:
-    found = set(all_) or {PURE}
-    return found.pop() if len(found) == 1 else None
+    dimensions = set(all_) or {PURE}
+    return dimensions.pop() if len(dimensions) == 1 else None
 
 
 def _turn(angle: Dimension) -> Dimension | None:
@@ -123,7 +123,7 @@ OPERATIONS: dict[str, Operation] = {
     "/": Operation(lambda a, b: a / b, (1, -1), _divide, 2, *_POSITIVE),
     "max": Operation(lambda *all_: max(all_), (1,), _keep, 0),
     "min": Operation(lambda *all_: min(all_), (1,), _keep, 0),
-    "sqrt": Operation(math.sqrt, (1,), lambda one: one.root(), 1, *_POSITIVE),
+    "sqrt": Operation(math.sqrt, (1,), Dimension.root, 1, *_POSITIVE),
     "sin": Operation(_of_degrees(math.sin), (1,), _turn, 1, *_QUARTER_TURN),
     "cos": Operation(_of_degrees(math.cos), (-1,), _turn, 1, *_QUARTER_TURN),
     "tan": Operation(_of_degrees(math.tan), (1,), _turn, 1, *_QUARTER_TURN),
@@ -220,9 +220,9 @@ class Quantity:
             force.
         """
         if find_dimension(unit) != self.dimension:
-            found = name_dimension(self.dimension)
+            dimension = name_dimension(self.dimension)
             raise ModelError(
-                say("calculation.unit", symbol=symbol, unit=unit, found=found)
+                say("calculation.unit", symbol=symbol, unit=unit, found=dimension)
             )
         made = apply("=", self) if self.symbol else self
         return replace(made, symbol=symbol, unit=unit, source=clause)
@@ -246,33 +246,33 @@ class Bare:
         self.low, self.value, self.high = low, value, high
 
     def __add__(self, other: Bare | float) -> Bare:
-        one = _bare(other)
-        return Bare(self.low + one.low, self.value + one.value, self.high + one.high)
+        band = _bare(other)
+        return Bare(self.low + band.low, self.value + band.value, self.high + band.high)
 
     def __radd__(self, other: float) -> Bare:
         return self + other
 
     def __sub__(self, other: Bare | float) -> Bare:
-        one = _bare(other)
-        return Bare(self.low - one.high, self.value - one.value, self.high - one.low)
+        band = _bare(other)
+        return Bare(self.low - band.high, self.value - band.value, self.high - band.low)
 
     def __rsub__(self, other: float) -> Bare:
         return _bare(other) - self
 
     def __mul__(self, other: Bare | float) -> Bare:
-        one = _bare(other)
-        if not (self.low >= 0.0 and one.low >= 0.0):
+        band = _bare(other)
+        if not (self.low >= 0.0 and band.low >= 0.0):
             raise _outside("*")
-        return Bare(self.low * one.low, self.value * one.value, self.high * one.high)
+        return Bare(self.low * band.low, self.value * band.value, self.high * band.high)
 
     def __rmul__(self, other: float) -> Bare:
         return self * other
 
     def __truediv__(self, other: Bare | float) -> Bare:
-        one = _bare(other)
-        if not (self.low >= 0.0 and one.low > 0.0):
+        band = _bare(other)
+        if not (self.low >= 0.0 and band.low > 0.0):
             raise _outside("/")
-        return Bare(self.low / one.high, self.value / one.value, self.high / one.low)
+        return Bare(self.low / band.high, self.value / band.value, self.high / band.low)
 
     def __rtruediv__(self, other: float) -> Bare:
         return _bare(other) / self
@@ -286,22 +286,22 @@ class Bare:
         return (self.value, self.high, self.low)[end]
 
 
-def _bare(one: Bare | float) -> Bare:
-    return one if isinstance(one, Bare) else Bare(one, one, one)
+def _bare(number: Bare | float) -> Bare:
+    return number if isinstance(number, Bare) else Bare(number, number, number)
 
 
 def _outside(operation: str) -> ModelError:
     return ModelError(say("calculation.outside", operation=operation, symbol=""))
 
 
-def strip(one: Quantity) -> Quantity:
+def strip(quantity: Quantity) -> Quantity:
     """Band of a quantity, for a formula of which only the size is asked for; `Bare`.
 
     One that is missing stays itself.
     """
-    if one.low is None or one.value is None or one.high is None:
-        return one
-    return cast(Quantity, Bare(one.low, one.value, one.high))
+    if quantity.low is None or quantity.value is None or quantity.high is None:
+        return quantity
+    return cast(Quantity, Bare(quantity.low, quantity.value, quantity.high))
 
 
 def given(
@@ -366,21 +366,21 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     first: object = operands[0]
     if isinstance(first, Bare):
         return _apply_bare(operation, operands)
-    known = OPERATIONS[operation]
-    of = tuple(one if isinstance(one, Quantity) else constant(one) for one in operands)
-    if known.dimension is _keep:  # zero has any unit
-        dimension = _keep(*(one.dimension for one in of if not _is_zero(one)))
+    rule = OPERATIONS[operation]
+    of = tuple(x if isinstance(x, Quantity) else constant(x) for x in operands)
+    if rule.dimension is _keep:  # zero has any unit
+        dimension = _keep(*(x.dimension for x in of if not _is_zero(x)))
     else:
-        dimension = known.dimension(*(one.dimension for one in of))
+        dimension = rule.dimension(*(x.dimension for x in of))
     if dimension is None:
-        units = ", ".join(name_dimension(one.dimension) for one in of)
+        units = ", ".join(name_dimension(x.dimension) for x in of)
         raise ModelError(say("calculation.units", operation=operation, units=units))
-    lacks = tuple(dict.fromkeys(lack for one in of for lack in one.lacks))
+    lacks = tuple(dict.fromkeys(lack for operand in of for lack in operand.lacks))
     if not lacks:
         lack = _find_lack(operation, of)
         lacks = () if lack is None else (lack,)
     low, value, high = (
-        None if lacks else _evaluate(known, of, end) for end in (-1, 0, 1)
+        None if lacks else _evaluate(rule, of, end) for end in (-1, 0, 1)
     )
     return Quantity(
         low=low,
@@ -401,18 +401,18 @@ def _apply_bare(operation: str, operands: Sequence[Operand]) -> Quantity:
     ModelError
         Where one lies outside the range of the operation.
     """
-    known, of = OPERATIONS[operation], [_bare(cast(Bare, one)) for one in operands]
-    if any(one.low < known.least or one.high > known.most for one in of):
+    rule, of = OPERATIONS[operation], [_bare(cast(Bare, x)) for x in operands]
+    if any(band.low < rule.least or band.high > rule.most for band in of):
         raise _outside(operation)
-    if known.ways == (1,):
+    if rule.ways == (1,):
         low, value, high = (
-            known.of(*ends)
+            rule.of(*ends)
             for ends in zip(*((x.low, x.value, x.high) for x in of), strict=True)
         )
     else:
-        ways = [known.way(place) for place in range(len(of))]
+        ways = [rule.way(place) for place in range(len(of))]
         low, value, high = (
-            known.of(*(x.take(end * way) for x, way in zip(of, ways, strict=True)))
+            rule.of(*(x.take(end * way) for x, way in zip(of, ways, strict=True)))
             for end in (-1, 0, 1)
         )
     return cast(Quantity, Bare(low, value, high))
@@ -420,16 +420,16 @@ def _apply_bare(operation: str, operands: Sequence[Operand]) -> Quantity:
 
 def _name(quantity: Quantity) -> str:
     """Symbol, or the operation with its quantities where none is given."""
-    parts = [_name(one) for one in quantity.of]
+    parts = [_name(operand) for operand in quantity.of]
     return quantity.symbol or f" {quantity.operation} ".join(parts)
 
 
 def _find_lack(operation: str, of: Sequence[Quantity]) -> Message | None:
     """Lack of a result where the ends of known operands would not give its ends."""
-    known = OPERATIONS[operation]
-    for one in of:
-        if take_end(one, -1) < known.least or take_end(one, 1) > known.most:
-            return say("calculation.outside", operation=operation, symbol=_name(one))
+    rule = OPERATIONS[operation]
+    for x in of:
+        if take_end(x, -1) < rule.least or take_end(x, 1) > rule.most:
+            return say("calculation.outside", operation=operation, symbol=_name(x))
     if operation == "/" and take_end(of[1], -1) == 0.0:
         return say("calculation.over_nothing", symbol=_name(of[1]))
     return None
@@ -442,16 +442,16 @@ def _is_zero(quantity: Quantity) -> bool:
 
 def _evaluate(operation: Operation, of: Sequence[Quantity], end: int) -> float:
     return operation.of(
-        *(take_end(one, end * operation.way(place)) for place, one in enumerate(of))
+        *(take_end(x, end * operation.way(place)) for place, x in enumerate(of))
     )
 
 
 def take_end(quantity: Quantity, end: int) -> float:
     """Low end (-1), value (0) or high end (1) of a known quantity."""
-    found = (quantity.value, quantity.high, quantity.low)[end]
-    if found is None:
+    number = (quantity.value, quantity.high, quantity.low)[end]
+    if number is None:
         raise ValueError(f"{quantity.symbol} is missing")
-    return found
+    return number
 
 
 def largest(first: Quantity, *others: Operand) -> Quantity:

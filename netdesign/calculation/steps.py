@@ -134,11 +134,11 @@ def _list_parts(
     own = _RANK.get(name, 0)
     before, between, after = _find_signs(name, notation, is_set_apart=0 < own < rank)
     yield before
-    for place, one in enumerate(of):
+    for place, operand in enumerate(of):
         if place:
             yield between
         inner = own + (place and name in "-/")
-        yield from _list_parts(one, notation, end * way(place), inner)
+        yield from _list_parts(operand, notation, end * way(place), inner)
     yield after
 
 
@@ -160,7 +160,7 @@ def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
         return ast.Name(id=quantity.symbol)
     if not quantity.operation:
         return ast.Constant(value=quantity.value or 0.0)
-    of = [_build_tree(one) for one in quantity.of]
+    of = [_build_tree(operand) for operand in quantity.of]
     if quantity.operation == "=":
         return of[0]
     if quantity.operation in _RANK:
@@ -169,7 +169,7 @@ def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
     return ast.Call(func=ast.Name(id=quantity.operation), args=of, keywords=[])
 
 
-def require_formula(text: str, known: Container[str]) -> None:
+def require_formula(text: str, symbols: Container[str]) -> None:
     """Refuse the formula of a document that is none of quantities known before it.
 
     Raises
@@ -180,7 +180,7 @@ def require_formula(text: str, known: Container[str]) -> None:
     try:
         if len(text) > _MOST_SIGNS:
             raise SyntaxError
-        if all(symbol in known for symbol, _ in list_operands(text, 0)):
+        if all(symbol in symbols for symbol, _ in list_operands(text, 0)):
             return
     except (SyntaxError, ValueError, OverflowError, MemoryError, RecursionError):
         pass
@@ -233,44 +233,44 @@ class Step:
 
 def list_named(*quantities: Quantity) -> list[Quantity]:
     """Quantities under a symbol that some rest on, and themselves, in their order."""
-    found: dict[str, Quantity] = {}
-    for one in quantities:
-        _collect(one, found)
-    return list(found.values())
+    named: dict[str, Quantity] = {}
+    for quantity in quantities:
+        _collect(quantity, named)
+    return list(named.values())
 
 
-def _collect(quantity: Quantity, found: dict[str, Quantity]) -> None:
-    known = found.get(quantity.symbol) if quantity.symbol else None
-    if known is not None:
-        if known is not quantity and _differ(known, quantity):
+def _collect(quantity: Quantity, named: dict[str, Quantity]) -> None:
+    listed = named.get(quantity.symbol) if quantity.symbol else None
+    if listed is not None:
+        if listed is not quantity and _differ(listed, quantity):
             raise ValueError(f"two quantities are called {quantity.symbol}")
         return
-    for one in quantity.of:
-        _collect(one, found)
+    for operand in quantity.of:
+        _collect(operand, named)
     if quantity.symbol:
-        found[quantity.symbol] = quantity
+        named[quantity.symbol] = quantity
 
 
-def _differ(one: Quantity, other: Quantity) -> bool:
-    ends = ((x.low, x.value, x.high, x.operation) for x in (one, other))
+def _differ(first: Quantity, second: Quantity) -> bool:
+    ends = ((x.low, x.value, x.high, x.operation) for x in (first, second))
     return len(set(ends)) > 1
 
 
 def list_steps(*quantities: Quantity) -> list[Step]:
     """Steps of calculations; a quantity under the same symbol stands once."""
-    return [_record(one) for one in list_named(*quantities)]
+    return [_record(quantity) for quantity in list_named(*quantities)]
 
 
-def _record(one: Quantity) -> Step:
+def _record(quantity: Quantity) -> Step:
     return Step(
-        symbol=one.symbol,
-        unit=one.unit,
-        value=one.value,
-        low=None if one.low == one.value else one.low,
-        high=None if one.high == one.value else one.high,
-        kind=one.kind,
-        source=one.source,
-        formula=write_formula(one),
+        symbol=quantity.symbol,
+        unit=quantity.unit,
+        value=quantity.value,
+        low=None if quantity.low == quantity.value else quantity.low,
+        high=None if quantity.high == quantity.value else quantity.high,
+        kind=quantity.kind,
+        source=quantity.source,
+        formula=write_formula(quantity),
     )
 
 
@@ -282,10 +282,10 @@ def require_calculation(steps: Sequence[Step]) -> None:
     ContentError
         With the symbol that occurs twice, or the formula.
     """
-    known: set[str] = set()
+    symbols: set[str] = set()
     for step in steps:
-        if step.symbol in known:
+        if step.symbol in symbols:
             raise ContentError(say("calculation.twice", symbol=step.symbol))
         if step.formula:
-            require_formula(step.formula, known)
-        known.add(step.symbol)
+            require_formula(step.formula, symbols)
+        symbols.add(step.symbol)

@@ -92,17 +92,17 @@ def check_approval(
         limit: StatedValue | None = getattr(approval, of)
         name, (low, high) = say(text), actual[of]
         if limit is None:
-            told = say("approval.unstated", name=name)
-            beyond.setdefault(Verdict.NOT_PROVEN, []).append(told)
+            message = say("approval.unstated", name=name)
+            beyond.setdefault(Verdict.NOT_PROVEN, []).append(message)
             continue
         most = limit.value * (1.0 + _ROUNDING)
         met = judge(low, high, least=0.0, most=most)
         key = "approval.beyond" if low == high else "approval.may_be_beyond"
         if met is Verdict.PASS:
             key = "approval.within"
-        told = say(key, name=name, low=low, high=high, limit=limit.value, unit=unit)
-        beyond.setdefault(met, []).append(told)
-    met = next(one for one in SEVERITY if one in beyond)
+        message = say(key, name=name, low=low, high=high, limit=limit.value, unit=unit)
+        beyond.setdefault(met, []).append(message)
+    met = next(verdict for verdict in SEVERITY if verdict in beyond)
     by_verdict = {Verdict.PASS: "approval.inside", Verdict.FAIL: "approval.outside"}
     finding = say(
         by_verdict.get(met, "approval.open"),

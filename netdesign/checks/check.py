@@ -67,9 +67,9 @@ def merge_open(met: Verdict, points: Iterable[Open]) -> Verdict:
     points : iterable of Open
         All that is open.
     """
-    found = {met, *(_BEST.get(one.kind, Verdict.NOT_PROVEN) for one in points)}
+    verdicts = {met, *(_BEST.get(point.kind, Verdict.NOT_PROVEN) for point in points)}
     ranked = (Verdict.FAIL, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.PASS)
-    return next(one for one in ranked if one in found)
+    return next(verdict for verdict in ranked if verdict in verdicts)
 
 
 def rate_utilisation(low: float | None, high: float | None) -> Verdict:
@@ -129,7 +129,7 @@ class CasePoint:
     @property
     def values(self) -> dict[str, float]:
         """Values by their keys."""
-        pairs = ((one.name, getattr(self, one.name)) for one in fields(self))
+        pairs = ((field.name, getattr(self, field.name)) for field in fields(self))
         return {key: value for key, value in pairs if value is not None}
 
 
@@ -258,7 +258,7 @@ class Check:
     def needed_kN(self) -> float | None:
         """Least characteristic resistance with which it passes; None if none does."""
         wanted = (x for x in self.changes if x.unit == "kN" and x.sense == "at least")
-        return next((one.bound for one in wanted), None)
+        return next((force.bound for force in wanted), None)
 
     @property
     def utilisation(self) -> float | None:
@@ -303,11 +303,11 @@ class Check:
     def _rate(self, loads: str) -> float | None:
         """Utilisation by some of the loads on the support, by their letters [-]."""
         forces = (self.read(f"E_{load}") for load in loads)
-        known = [one for one in forces if one is not None]
+        demands = [force for force in forces if force is not None]
         factor, design = map(self.read, ("γ_E", "R_d"))
-        if not known or factor is None or not design:
+        if not demands or factor is None or not design:
             return None
-        return factor * max(known) / design
+        return factor * max(demands) / design
 
     @property
     def is_unbounded(self) -> bool:
@@ -341,12 +341,12 @@ class Check:
 
     def has_open(self, *kinds: OpenKind) -> bool:
         """Some open point is of one of these kinds."""
-        return any(one.kind in kinds for one in self.open)
+        return any(point.kind in kinds for point in self.open)
 
     @property
     def declared(self) -> Proof | None:
         """Document that is said to prove the check; None without one."""
-        return next((one.proof for one in self.open if one.proof), None)
+        return next((point.proof for point in self.open if point.proof), None)
 
     @property
     def gaps(self) -> tuple[Message, ...]:
@@ -357,14 +357,14 @@ class Check:
         """
         if self.is_unbounded or self._is_found:
             return ()
-        told = dict.fromkeys(self._open_messages)
-        if not told and self._met is Verdict.NOT_PROVEN:
+        messages = dict.fromkeys(self._open_messages)
+        if not messages and self._met is Verdict.NOT_PROVEN:
             return (say("check.band_spans_resistance"),)
-        return tuple(told)
+        return tuple(messages)
 
     @property
     def _open_messages(self) -> list[Message]:
-        return [one.message for one in self.open if one.proof is None]
+        return [point.message for point in self.open if point.proof is None]
 
     @property
     def _met(self) -> Verdict:
@@ -386,10 +386,10 @@ class Check:
         """
         if self.is_unbounded and least < math.inf:
             points = [
-                replace(one, kind=OpenKind.ASSUMED_DECIDES)
-                if one.kind is OpenKind.FAILS
-                else one
-                for one in self.open
+                replace(point, kind=OpenKind.ASSUMED_DECIDES)
+                if point.kind is OpenKind.FAILS
+                else point
+                for point in self.open
             ]
             return replace(self, open=points, eased=least)
         low, _ = self.utilisation_band
@@ -397,7 +397,7 @@ class Check:
 
     def with_open(self, kind: OpenKind, *messages: Message) -> Check:
         """Check with further open points of a kind."""
-        points = [Open(kind=kind, message=one) for one in messages]
+        points = [Open(kind=kind, message=message) for message in messages]
         return replace(self, open=[*self.open, *points])
 
     @property
@@ -475,12 +475,12 @@ class Check:
     @property
     def told(self) -> Message:
         """The reason without the load that governs."""
-        found = self._tell_found()
+        reason = self._tell_found()
         if self.declared is None:
-            return found
+            return reason
         is_failed = self.verdict is Verdict.FAIL
         key = "check.fails_though_declared" if is_failed else "check.declared"
-        return say(key, reason=found, proof=self.declared.describe())
+        return say(key, reason=reason, proof=self.declared.describe())
 
     def _tell_found(self) -> Message:
         """What numbers and open points say, without a proof elsewhere.

@@ -69,8 +69,8 @@ def check_member(
         steps=list_steps(*beside, used),
         open=list(points),
     )
-    known = {one.message for one in points}
-    lacks = (one for one in used.lacks if one not in known)
+    messages = {point.message for point in points}
+    lacks = (lack for lack in used.lacks if lack not in messages)
     return check.with_open(OpenKind.RESISTANCE_MISSING, *lacks)
 
 
@@ -108,11 +108,11 @@ def leave_open(mode: str, kind: OpenKind, *lacks: Message, member: str = _NET) -
 def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
     values = map(standard.find, list_action_factors(mode))
-    found = next((one for one in values if one), None)
-    lack = None if found else lack_factor(ACTION_FACTOR)
-    source = found.id if found else ACTION_FACTOR
+    factor = next((limit for limit in values if limit), None)
+    lack = None if factor else lack_factor(ACTION_FACTOR)
+    source = factor.id if factor else ACTION_FACTOR
     return given(
-        *("γ_E", found.value_si if found else None, "-", source),
+        *("γ_E", factor.value_si if factor else None, "-", source),
         kind=Kind.PROFILE,
         lack=lack,
     )
@@ -120,14 +120,14 @@ def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
     """Value of a profile under its symbol, in the profile's unit."""
-    found = standard.find(key)
+    limit = standard.find(key)
     return given(
         symbol,
-        found.value if found else None,
-        found.unit if found else "-",
+        limit.value if limit else None,
+        limit.unit if limit else "-",
         key,
         kind=Kind.PROFILE,
-        lack=None if found else lack_factor(key),
+        lack=None if limit else lack_factor(key),
     )
 
 
@@ -144,10 +144,10 @@ def find_partial_factor(
     None where the profile lacks one of them. A tendon that may be a rope has those of
     steel and of ropes: resistance/THEORY.md, (R31).
     """
-    found = [one for _, one in _list_factors(resistance, standard)]
-    known = [one for one in found if one is not None]
-    is_whole = len(known) == len(found)
-    return max(known, key=lambda one: one.value_si) if is_whole else None
+    factors = [factor for _, factor in _list_factors(resistance, standard)]
+    stated = [factor for factor in factors if factor is not None]
+    is_whole = len(stated) == len(factors)
+    return max(stated, key=lambda factor: factor.value_si) if is_whole else None
 
 
 def _list_factors(
@@ -163,16 +163,16 @@ def _find_resistance_factor(
     resistance: GivenResistance, standard: Standard, strength: Quantity
 ) -> tuple[Quantity, str]:
     """Factor of the mode on its basis, gamma_R, and its clause."""
-    found = find_partial_factor(resistance, standard)
-    if found is not None:
-        factor = given("γ_R", found.value_si, "-", found.id, kind=Kind.PROFILE)
-        return factor, found.clause
+    limit = find_partial_factor(resistance, standard)
+    if limit is not None:
+        factor = given("γ_R", limit.value_si, "-", limit.id, kind=Kind.PROFILE)
+        return factor, limit.clause
     factors = _list_factors(resistance, standard)
-    mode = next(mode for mode, one in factors if one is None)
+    mode = next(mode for mode, factor in factors if factor is None)
     source = f"resistance.{mode}"
     ids = (value.id for value in standard.values)
     bases = [
-        one.removeprefix(f"{source}.") for one in ids if one.startswith(f"{source}.")
+        key.removeprefix(f"{source}.") for key in ids if key.startswith(f"{source}.")
     ]
     lack = _lack_resistance_factor(mode, resistance.basis, bases)
     # without a resistance there is no basis yet, and no factor to miss
@@ -216,14 +216,14 @@ def lack_factor(factor: str) -> Message:
     return say("check.no_factor", factor=name("factor", factor), id=factor)
 
 
-def _lack_resistance_factor(mode: str, basis: str, known: Sequence[str]) -> Message:
+def _lack_resistance_factor(mode: str, basis: str, bases: Sequence[str]) -> Message:
     """Lack of a factor of a mode; it may have one on other bases, which are known."""
-    if not known:
+    if not bases:
         factor = say("factor.resistance", mode=name_mode(mode))
         return say("check.no_factor", factor=factor, id=f"resistance.{mode}")
     return say(
         "check.no_factor_of_basis",
         mode=name_mode(mode),
         basis=name("basis", basis),
-        known=tuple(name("basis", one) for one in known),
+        known=tuple(name("basis", base) for base in bases),
     )

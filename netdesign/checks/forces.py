@@ -231,7 +231,7 @@ def press_one_way(
     """Compression of the second post by that pull and the load along the row, (S18)."""
     sideways, least = post["k"] * post[f"P{mark}"], post[f"T_min{mark}"]
     if at.width is not None and at.spacing is not None:
-        sideways, least = (one * at.width / at.spacing for one in (sideways, least))
+        sideways, least = (load * at.width / at.spacing for load in (sideways, least))
     held = above_zero((sideways + rope) / tan(post["β"]) - least)
     return (post["w"] * held).named(f"Z{mark}", "kN", "(P11)")
 
@@ -301,7 +301,7 @@ class SupportForce:
     @property
     def by_model(self) -> list[Quantity]:
         """Forces of the coupled calculation, whether they decide or not."""
-        return [one for one in (self.coupled, self.by_panel, self.shared) if one]
+        return [force for force in (self.coupled, self.by_panel, self.shared) if force]
 
 
 # Symbols of the number of guys on one anchor, by how their pulls are added.
@@ -324,7 +324,7 @@ def calculate_force(leaves: Leaves, *, by_guideline: bool = False) -> SupportFor
     support = _find_support(leaves)
     letter = "V" if "V_s" in leaves else "E"
     inside, in_panel, by_floor = (
-        leaves.get(f"{letter}_{one}") for one in ("s", "p0", "g0")
+        leaves.get(f"{letter}_{index}") for index in ("s", "p0", "g0")
     )
     if inside is None or "T_b" in leaves:
         return _calculate_end(leaves, support)
@@ -386,7 +386,7 @@ def _find_support(leaves: Leaves) -> Support:
     if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
         return Support(end_factor=leaves["f_R"])
     effect = (leaves["b"], leaves["f_R"], leaves["Δl"])
-    is_shared = any(one in leaves for one in _SHARED)
+    is_shared = any(symbol in leaves for symbol in _SHARED)
     other, beside = leaves.get("s_e"), leaves.get("s_n")
     if "s_2" in leaves:
         part = leaves["s_2"]
@@ -396,7 +396,7 @@ def _find_support(leaves: Leaves) -> Support:
 
 def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:
     """Load along the row; with a mark that of the guideline's own pull on the head."""
-    along = [leaves[one] for one in ("k", f"P{mark}", "β") if one in leaves]
+    along = [leaves[symbol] for symbol in ("k", f"P{mark}", "β") if symbol in leaves]
     for guys, load in _SHARED.items():
         if guys in leaves:
             return load(leaves[guys], leaves["c"], *along, mark=mark)
@@ -405,8 +405,8 @@ def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:
     if "w" in leaves:
         if support.is_second and "T_r" in leaves:
             return MemberLoad()  # what presses the post is worked out together
-        given = [leaves["w"], *along, leaves[f"T_min{mark}"]]
-        return load_post(*given, mark=mark)
+        loads = [leaves["w"], *along, leaves[f"T_min{mark}"]]
+        return load_post(*loads, mark=mark)
     if "k" in leaves:
         share = leaves["k"]
         return MemberLoad(lateral=find_lateral_factor(share), along=share)

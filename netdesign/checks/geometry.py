@@ -142,8 +142,8 @@ def check_slope(slope_angle: float, standard: Standard) -> Check:
     )
     if slope_angle > most.value_si:
         gap = say("geometry.percentage", reason=gap, slope=number, meant=meant)
-    found = compare("slope", Verdict.NOT_PROVEN, None, least)
-    return found.with_open(OpenKind.VALUE_ASKED, gap)
+    check = compare("slope", Verdict.NOT_PROVEN, None, least)
+    return check.with_open(OpenKind.VALUE_ASKED, gap)
 
 
 def _judge_slope(
@@ -236,12 +236,12 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
     length = row.upslope_length
     met = judge(length, length, least=0.0, most=most)
     finding = say(_SPACINGS[met is Verdict.PASS], length=length, most=most)
-    found = compare("spacing", met, finding, friction)
+    check = compare("spacing", met, finding, friction)
     if length <= proven:
-        return found
+        return check
     capped = say("geometry.spacing_capped", length=length, most=proven)
     lack = capped if cap else say("geometry.no_cap")
-    return found.with_open(OpenKind.UNSOLVED, lack)
+    return check.with_open(OpenKind.UNSOLVED, lack)
 
 
 def check_gap(gap: float, standard: Standard) -> Check | None:

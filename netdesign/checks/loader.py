@@ -77,11 +77,11 @@ class StandardValue:
     @property
     def reasons(self) -> dict[str, str]:
         """Reasons of the profile for an odd value, by the text that names them."""
-        told = {
+        reasons = {
             "note.below_one": self.reason_below_one,
             "note.beyond": self.reason_beyond,
         }
-        return {key: reason for key, reason in told.items() if reason}
+        return {key: reason for key, reason in reasons.items() if reason}
 
     @property
     def value_si(self) -> float:
@@ -244,10 +244,10 @@ def load_standard(id_or_path: str | Path) -> Standard:
 
 
 def _explain_unknown(wanted: str) -> Message:
-    known = list_standards()
-    near = tuple(difflib.get_close_matches(wanted.lower(), known, n=3, cutoff=0.5))
+    names = list_standards()
+    near = tuple(difflib.get_close_matches(wanted.lower(), names, n=3, cutoff=0.5))
     guess = say("standard.did_you_mean", near=near) if near else ""
-    return say("standard.unknown", wanted=wanted, guess=guess, known=known)
+    return say("standard.unknown", wanted=wanted, guess=guess, known=names)
 
 
 def _load_folder(folder: Path) -> Standard:
@@ -308,25 +308,25 @@ def _read_load(load: LoadTable, folder: Path) -> dict[str, Any]:
 
 
 def _find_choice(name: str, choices: ChoicesFile, folder: Path) -> ChoiceEntry:
-    known = {choice.name: choice for choice in choices.choice}
-    if name not in known:
+    options = {choice.name: choice for choice in choices.choice}
+    if name not in options:
         raise StandardError(
             say(
                 "standard.unknown_choice",
                 file=str(folder / "document.toml"),
                 choice=name,
-                known=tuple(known),
+                known=tuple(options),
             )
         )
-    return known[name]
+    return options[name]
 
 
 def _take_from_choice(
-    given: list[EntryT], chosen: list[EntryT], without: Sequence[str] = ()
+    entries: list[EntryT], chosen: list[EntryT], without: Sequence[str] = ()
 ) -> list[EntryT]:
     """Entries with those of the chosen set in place of their namesakes."""
     replaced = {entry.id for entry in chosen} | set(without)
-    kept: list[EntryT] = [entry for entry in given if entry.id not in replaced]
+    kept: list[EntryT] = [entry for entry in entries if entry.id not in replaced]
     kept.extend(chosen)
     return kept
 

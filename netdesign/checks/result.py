@@ -80,10 +80,10 @@ class Proof:
         """All of it as one phrase."""
         if not self.author:
             return say("approval.proof", document=self.document, cell=self.cell)
-        told = {"document": self.document, "author": self.author, "cell": self.cell}
+        details = {"document": self.document, "author": self.author, "cell": self.cell}
         if not self.date:
-            return say("check.proof_undated", **told)
-        return say("check.proof", **told, date=self.date)
+            return say("check.proof_undated", **details)
+        return say("check.proof", **details, date=self.date)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

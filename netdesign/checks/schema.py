@@ -144,11 +144,11 @@ def list_action_factors(mode: str) -> tuple[str, ...]:
 
 def _is_one_of(accepted: Iterable[str]) -> AfterValidator:
     """Refuse an id that is none of those that are accepted."""
-    known = tuple(accepted)
+    words = tuple(accepted)
 
     def check(text: str) -> str:
-        if text not in known:
-            raise ContentError(say("standard.one_of", accepted=known))
+        if text not in words:
+            raise ContentError(say("standard.one_of", accepted=words))
         return text
 
     return AfterValidator(check)
@@ -332,7 +332,7 @@ class _ListFile(_Table):
     @model_validator(mode="after")
     def _require_unique(self) -> Self:
         (entries,) = (getattr(self, key) for key in type(self).model_fields)
-        ids = [getattr(one, "id", None) or one.name for one in entries]
+        ids = [getattr(entry, "id", None) or entry.name for entry in entries]
         twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
         if twice:
             raise ContentError(say("standard.twice", ids=twice))
@@ -370,10 +370,10 @@ class ModelFile(_ListFile):
 
     @model_validator(mode="after")
     def _check(self) -> ModelFile:
-        given = [entry.id for entry in self.value]
+        ids = [entry.id for entry in self.value]
         for group in ("snow.", "end."):
             needed = [name for name in MODEL_UNITS if name.startswith(group)]
-            missing = tuple(name for name in needed if name not in given)
+            missing = tuple(name for name in needed if name not in ids)
             if missing and len(missing) < len(needed):
                 raise ContentError(
                     say("standard.all_or_none", group=group, missing=missing)

@@ -66,8 +66,8 @@ def _find_correlation(count: int, standard: Standard, key: str) -> float | None:
 
 def find_wanted(standard: Standard) -> int | None:
     """Number of tests of each type in each ground; None where no profile says it."""
-    found = standard.find(TEST_COUNT)
-    return None if found is None else math.ceil(found.value)
+    limit = standard.find(TEST_COUNT)
+    return None if limit is None else math.ceil(limit.value)
 
 
 def find_proof_factor(standard: Standard) -> float | None:
@@ -82,8 +82,8 @@ def find_proof_factor(standard: Standard) -> float | None:
     if count is None or design is None:
         return None
     factors = [_find_correlation(count, standard, key) for key in _CORRELATIONS]
-    known = [one for one in factors if one is not None]
-    if len(known) < len(factors):
+    stated = [factor for factor in factors if factor is not None]
+    if len(stated) < len(factors):
         return None
     acceptance = standard.find(ACCEPTANCE_TEST)
-    return max(max(known) * design.value, acceptance.value if acceptance else 0.0)
+    return max(max(stated) * design.value, acceptance.value if acceptance else 0.0)

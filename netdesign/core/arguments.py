@@ -158,7 +158,7 @@ def locate(array: np.ndarray[Any, Any] | None) -> int:
 
 def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
     """Addresses of contiguous arrays, as ``locate``."""
-    return [locate(one) for one in arrays]
+    return [locate(array) for array in arrays]
 
 
 def point_to(argument: ctypes.Structure, **arrays: np.ndarray[Any, Any]) -> None:

@@ -43,7 +43,7 @@ def read_switch() -> str:
 
 def take_code(text: str) -> str:
     """C text without comments, blank lines and blanks at ends of lines."""
-    text = _STRINGS.sub(lambda one: " " if one[0].startswith("/") else one[0], text)
+    text = _STRINGS.sub(lambda hit: " " if hit[0].startswith("/") else hit[0], text)
     return "\n".join(line.rstrip() for line in text.split("\n") if line.strip())
 
 

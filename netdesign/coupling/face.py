@@ -59,8 +59,8 @@ class Face:
         """Pressures of the nodes from foot to head [Pa], shape (n,)."""
         along = _bisect(self.points)
         normal = np.array([along[1], -along[0]])
-        found: Floats = (self.forces * normal).sum(axis=0) / self._lengths()
-        return found
+        pressure: Floats = (self.forces * normal).sum(axis=0) / self._lengths()
+        return pressure
 
     def _lengths(self) -> Floats:
         """Length of the face that each node's force stands for [m]."""

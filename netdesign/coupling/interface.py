@@ -116,7 +116,7 @@ class ErrorModel(NamedTuple):
         ratio = self.floor_ratio + self.loose_ratio * max(held.slip, held.lifts)
         floor *= ratio ** (len(meshes) - 2)
         sizes = [math.hypot(*vector) for vector in meshes[-1]]
-        steps = [self._remember(one) for one in zip(*meshes, strict=True)]
+        steps = [self._remember(mesh) for mesh in zip(*meshes, strict=True)]
         pairs = list(zip(steps, sizes, strict=True))
         errors = [share * step + floor * size for step, size in pairs]
         own = zip(errors, sizes, strict=True)
@@ -188,7 +188,7 @@ def refine(
         states.append(solve(level, states[-1]))
         meshes.append(measure(states[-1]))
         estimates = model.estimate(meshes, loosen(states[-1]))
-        if all(one.error <= accuracy * math.hypot(*one.vector) for one in estimates):
+        if all(end.error <= accuracy * math.hypot(*end.vector) for end in estimates):
             break
     return states, estimates
 

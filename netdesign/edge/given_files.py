@@ -92,12 +92,12 @@ def decode_utf8(content: bytes) -> str:
 
 def _describe_toml(error: tomllib.TOMLDecodeError) -> Message:
     """Words of ours for what the parser tells in English only."""
-    told = str(error)
-    found = _TOML_PLACE.search(told)
+    text = str(error)
+    match = _TOML_PLACE.search(text)
     place = say("file.at_end")
-    if found:
-        place = say("file.at_line", line=found[1], column=found[2])
-    is_twice = told.startswith(("Cannot", "Duplicate"))
+    if match:
+        place = say("file.at_line", line=match[1], column=match[2])
+    is_twice = text.startswith(("Cannot", "Duplicate"))
     return say("file.twice" if is_twice else "file.no_value", place=place)
 
 

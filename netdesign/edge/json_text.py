@@ -95,8 +95,8 @@ def join_members(parts: Mapping[str, JsonPart]) -> JsonPart:
 
 
 def _join(opening: str, parts: Sequence[JsonPart], closing: str) -> JsonPart:
-    text = _NEXT.join(one.text for one in parts)
-    values = ", ".join(one.values for one in parts)
+    text = _NEXT.join(part.text for part in parts)
+    values = ", ".join(part.values for part in parts)
     return JsonPart(f"{opening}{text}{closing}", f"{opening}{values}{closing}")
 
 
@@ -118,19 +118,21 @@ def list_fields(value: Any) -> dict[str, Any]:
         raise TypeError(f"{type(value).__name__} is not JSON serializable")
     kind: Any = type(value)
     names = (*_name_fields(kind), *getattr(kind, "WRITTEN", ()))
-    found = {name: getattr(value, name) for name in names}
+    values = {name: getattr(value, name) for name in names}
     leaves_out = getattr(value, "LEAVES_OUT_NONE", ())
     if not leaves_out:
-        return found
-    named = found if leaves_out is True else leaves_out
+        return values
+    named = values if leaves_out is True else leaves_out
     return {
-        name: one for name, one in found.items() if one is not None or name not in named
+        name: entry
+        for name, entry in values.items()
+        if entry is not None or name not in named
     }
 
 
 @cache
 def _name_fields(kind: Any) -> tuple[str, ...]:
-    return tuple(one.name for one in fields(kind))
+    return tuple(field.name for field in fields(kind))
 
 
 class _FirstFault:
@@ -164,7 +166,7 @@ def read_json(shape: type, text: str, drop: Drop = lambda _: False) -> Any:
     """
     values = require_few_values(text)
     # a validator copies the whole document for each key that it misses
-    needed = {one.name for one in fields(shape) if one.default is one.default_factory}
+    needed = {x.name for x in fields(shape) if x.default is x.default_factory}
     text = _inspect(text, drop, needed if values > _SMALL else set())
     return restore_json(shape, text)
 

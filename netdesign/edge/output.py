@@ -61,7 +61,7 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
             raise OutputError(say("output.not_a_file", path=str(path)))
     own = {folder: _read_own(folder) for folder in {path.parent for path in paths}}
     there = [path for path in paths if path.exists()]
-    taken = tuple(str(one) for one in there if one.name not in own[one.parent])
+    taken = tuple(str(path) for path in there if path.name not in own[path.parent])
     if taken and not overwrite and may_force:
         raise OutputError(say("output.exists_force", paths=taken))
     if taken and not overwrite:
@@ -80,14 +80,14 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
 def _read_own(folder: Path) -> dict[str, str]:
     """Hashes of the files that an earlier run wrote there, and nobody changed since."""
     try:
-        found = json.loads((folder / RECORD_FILE).read_text(encoding="utf-8"))
+        record = json.loads((folder / RECORD_FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    if not isinstance(found, dict):
+    if not isinstance(record, dict):
         return {}
     return {
         name: digest
-        for name, digest in found.items()
+        for name, digest in record.items()
         if _hash_file(folder / name) == digest
     }
 
@@ -145,8 +145,8 @@ def write_files(
             if is_alone:
                 records = {folder / RECORD_FILE for folder in folders}
                 _remove_leftovers({*contents, *records})
-            told = _write_records(contents) if is_recorded else {}
-            _exchange({**contents, **told})
+            digests = _write_records(contents) if is_recorded else {}
+            _exchange({**contents, **digests})
     except OSError as error:
         raise OutputError(
             say("output.cannot_write", cause=explain_with_file(error))
@@ -157,11 +157,11 @@ def _remove_leftovers(paths: Iterable[Path]) -> None:
     """Delete temporary files of runs that were killed; nobody else writes now."""
     for path in paths:
         start = f".{path.name}"
-        for one in path.parent.iterdir():
-            if one.name.startswith(start) and _RANDOM_END.fullmatch(
-                one.name.removeprefix(start)
+        for sibling in path.parent.iterdir():
+            if sibling.name.startswith(start) and _RANDOM_END.fullmatch(
+                sibling.name.removeprefix(start)
             ):
-                one.unlink(missing_ok=True)
+                sibling.unlink(missing_ok=True)
 
 
 def _exchange(contents: Mapping[Path, bytes]) -> None:

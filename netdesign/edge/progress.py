@@ -50,8 +50,8 @@ def _count_quarters(
         done += 1
         if done <= total and done * 4 // total > (done - 1) * 4 // total:
             named = say(f"piece.{what}")
-            told = say("progress.count", done=done, total=total, what=named)
-            sys.stderr.write(f"{render(told, language)}\n")
+            line = say("progress.count", done=done, total=total, what=named)
+            sys.stderr.write(f"{render(line, language)}\n")
 
     return on_done
 
@@ -111,8 +111,8 @@ class Standing:
     @property
     def left(self) -> tuple[Message, ...]:
         """``about 12 s left``; nothing as long as nothing is known of it."""
-        known = self.seconds is not None
-        return (say("progress.left", seconds=self.seconds or 0.0),) if known else ()
+        is_known = self.seconds is not None
+        return (say("progress.left", seconds=self.seconds or 0.0),) if is_known else ()
 
     @property
     def line(self) -> Message:
@@ -236,13 +236,13 @@ class RunProgress:
         if pace is None:
             return None
         rest = self._phases[self._place :]
-        later = sum(one.cases * one.cost for one in rest[1:])
+        later = sum(phase.cases * phase.cost for phase in rest[1:])
         solves = left * self._phase.cost * pace + later * (self._pace or pace)
-        return solves + sum(one.seconds for one in rest)
+        return solves + sum(phase.seconds for phase in rest)
 
     def _tell(self) -> None:
         left = self._count_left()
-        later = sum(one.cases for one in self._phases[self._place + 1 :])
+        later = sum(phase.cases for phase in self._phases[self._place + 1 :])
         is_last = self._place == len(self._phases) - 1
         phase, words = self._phase, self._words
         if phase.pieces:
@@ -307,15 +307,15 @@ def show_phases(
 
 
 def _write_lines(language: Language) -> Callable[[Standing], None]:
-    """One line for each stage, and between them before anybody wonders."""
+    """Writes one line for each stage, and one at least every ``_SILENCE_S`` seconds."""
     last: Message | str = ""
-    told = time.monotonic()
+    shown_at = time.monotonic()
 
     def show(standing: Standing) -> None:
-        nonlocal last, told
+        nonlocal last, shown_at
         is_new = standing.stage != last and standing.done > 0
-        if is_new or time.monotonic() - told >= _SILENCE_S:
-            last, told = standing.stage, time.monotonic()
+        if is_new or time.monotonic() - shown_at >= _SILENCE_S:
+            last, shown_at = standing.stage, time.monotonic()
             sys.stderr.write(f"{render(standing.line, language)}\n")
 
     return show

@@ -122,7 +122,7 @@ def _spell_sign(sign: str) -> str:
     if sign in _SPELLED:
         return _SPELLED[sign]
     decomposed = unicodedata.normalize("NFKD", sign)
-    return "".join(one for one in decomposed if one.isascii()) or "?"
+    return "".join(letter for letter in decomposed if letter.isascii()) or "?"
 
 
 def print_json(text: str) -> None:

@@ -68,8 +68,8 @@ class FrictionSkip:
             return
         if self._is_chance(point):
             self.tested += 1
-            known = self._sticking[self._line(point)][1]
-            self._agrees = self._agrees and _agree(known, end)
+            sticking = self._sticking[self._line(point)][1]
+            self._agrees = self._agrees and _agree(sticking, end)
         elif end.sticks:
             known_friction, _ = self._sticking.get(self._line(point), (2.0, end))
             if self._friction(point) < known_friction:
@@ -98,8 +98,8 @@ class FrictionSkip:
         return tuple(c for axis, c in enumerate(point) if axis != self._axis)
 
 
-def _agree(one: SolvedState, other: SolvedState) -> bool:
-    pairs = ((one.foot, other.foot), (one.head, other.head))
+def _agree(first: SolvedState, second: SolvedState) -> bool:
+    pairs = ((first.foot, second.foot), (first.head, second.head))
     return all(
         abs(a.x - b.x) + abs(a.y - b.y) <= _AGREEMENT * a.error for a, b in pairs
     )
@@ -127,7 +127,7 @@ class Cases:
         self._points, self._skip = points, skip
         self._tasks = [build_point_task(task, point, settings) for point in points]
         asked = zip(points, self._tasks, strict=True)
-        self._jobs = {point: one.job for point, one in asked if one.job is not None}
+        self._jobs = {point: case.job for point, case in asked if case.job is not None}
         self._ends: dict[Point, CaseEnd] = {}
         self._lines = self._list_lines()
 
@@ -152,13 +152,14 @@ class Cases:
         for point in self._jobs:
             if point not in self._ends:
                 self._ends[point] = self._skip.recall(point)
-        known: dict[int, CaseResult] = {}
+        resolved: dict[int, CaseResult] = {}
         results = []
         for point, task in zip(self._points, self._tasks, strict=True):
             end = self._ends.get(point)
-            same = known.get(id(end)) if end else None  # one end of several frictions
+            # Several frictions share an end where the snow sticks.
+            same = resolved.get(id(end)) if end else None
             result = replace(same, case=task.case) if same else resolve_case(task, end)
-            known[id(end)] = result
+            resolved[id(end)] = result
             results.append(result)
         return results
 
@@ -214,7 +215,7 @@ class FirstCases:
         if self._first is not None or self._cases.ask():
             return
         self._first = self._cases.finish()
-        rough = {k for k, one in enumerate(self._first) if self._would_gain(one)}
+        rough = {k for k, result in enumerate(self._first) if self._would_gain(result)}
         near = self._find_near(self._first)
         self._again, self.rough = sorted(rough & near), frozenset(rough - near)
         points = [self._points[place] for place in self._again]
@@ -228,4 +229,5 @@ class FirstCases:
         if result.solution is None:
             return True
         pulls = (result.solution.foot, result.solution.head)
-        return any(one.error > self._task.settings.accuracy * one.size for one in pulls)
+        accuracy = self._task.settings.accuracy
+        return any(pull.error > accuracy * pull.size for pull in pulls)

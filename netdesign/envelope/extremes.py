@@ -52,7 +52,7 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
     Converged means by outcome, never by arithmetic on missing numbers.
     """
     converged = [result for result in results if result.is_converged]
-    members = dict.fromkeys(one for result in converged for one in result.member_forces)
+    members = dict.fromkeys(name for case in converged for name in case.member_forces)
     return {member: find_extreme(member, converged) for member in members}
 
 
@@ -63,15 +63,15 @@ def describe_gap(results: Sequence[CaseResult]) -> Message | None:
         return say("envelope.no_case")
     if failed:
         return _describe_failed("envelope.failed_cases", failed, len(results))
-    without = [one for one in results if isinstance(one.panel, FailedPanel)]
+    without = [result for result in results if isinstance(result.panel, FailedPanel)]
     if without:
         return _describe_failed("panel.failed_cases", without, len(results))
     return None
 
 
 def _describe_failed(key: str, failed: Sequence[CaseResult], count: int) -> Message:
-    told = group_reasons(one.lack for one in failed if one.lack is not None)
-    return say(key, failed=len(failed), count=count, reasons=told)
+    reasons = group_reasons(result.lack for result in failed if result.lack is not None)
+    return say(key, failed=len(failed), count=count, reasons=reasons)
 
 
 def find_extreme(member: str, results: Sequence[CaseResult]) -> Extreme:

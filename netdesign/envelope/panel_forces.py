@@ -68,18 +68,19 @@ def resolve_pulls(
     list of (AnchorForces, dict of str to Band), or FailedSupport
         The failure of the first pulls that the support cannot hold, moved or not.
     """
-    found = []
+    of_pulls = []
     for foot, head in pulls:
         anchors = _resolve(points, width, (foot.x, foot.y, head.x, head.y))
         if isinstance(anchors, FailedSupport):
             return anchors
-        found.append(anchors)
-    errors = _find_errors(points, width, pulls, [one.member_forces for one in found])
+        of_pulls.append(anchors)
+    forces = [anchors.member_forces for anchors in of_pulls]
+    errors = _find_errors(points, width, pulls, forces)
     if isinstance(errors, FailedSupport):
         return errors
     return [
         (anchors, {m: spread_out(x, of[m]) for m, x in anchors.member_forces.items()})
-        for anchors, of in zip(found, errors, strict=True)
+        for anchors, of in zip(of_pulls, errors, strict=True)
     ]
 
 
@@ -112,7 +113,7 @@ def _find_errors(
             return failed
         raise ValueError("pulls that one way holds, and not the other")
     changes = {
-        member: np.abs(force - [one[member] for one in values]).max(axis=1).sum(axis=0)
+        member: np.abs(force - [own[member] for own in values]).max(axis=1).sum(axis=0)
         for member, force in forces.items()
     }
     return [
@@ -174,7 +175,7 @@ def resolve_layouts(
     tests/envelope/test_layouts.py
     """
     panels = panel.variants if panel else ()
-    pulls = [section, *((one.foot, one.head) for one in panels)]
+    pulls = [section, *((panel.foot, panel.head) for panel in panels)]
     moved = np.concatenate([_hold_still(pulls), _move(pulls).reshape(8, -1, 4)])
     x, y, along, across = np.moveaxis(moved, -1, 0)
     of_members, is_held = compute_forces_of_layouts(
@@ -189,9 +190,9 @@ def resolve_layouts(
         if isinstance(failed, FailedSupport):
             return failed
         raise ValueError("pulls that one way holds, and not the other")
-    mids = np.array([0.0, *(math.hypot(*one.solution.mid_foot) for one in panels)])
+    mids = np.array([0.0, *(math.hypot(*panel.solution.mid_foot) for panel in panels)])
     at_mid = width * np.array([foot.error for foot, _ in pulls])
-    found: list[dict[str, Band]] = [{} for _ in places]
+    by_place: list[dict[str, Band]] = [{} for _ in places]
     for member, forces in of_members.items():
         value = forces[:, 0]
         changes = np.abs(forces[:, 1:] - value[:, None])
@@ -206,12 +207,12 @@ def resolve_layouts(
         ):
             if of.size:
                 for bands, (low, size, high) in zip(
-                    found, of.max(axis=2).T, strict=True
+                    by_place, of.max(axis=2).T, strict=True
                 ):
                     bands[name] = Band(
                         low=float(low), value=float(size), high=float(high)
                     )
-    return found
+    return by_place
 
 
 def _hold_still(pulls: Sequence[Pulls]) -> Floats:
@@ -221,11 +222,11 @@ def _hold_still(pulls: Sequence[Pulls]) -> Floats:
 
 def cover(bands: Iterable[Band]) -> Band:
     """Band of the largest one of some forces."""
-    known = list(bands)
+    parts = list(bands)
     return Band(
-        low=max(one.low for one in known),
-        value=max(one.value for one in known),
-        high=max(one.high for one in known),
+        low=max(band.low for band in parts),
+        value=max(band.value for band in parts),
+        high=max(band.high for band in parts),
     )
 
 
@@ -274,7 +275,8 @@ class PanelForces:
     def worst(self) -> dict[str, Band]:
         """Largest forces of all panels that the row may have [N]."""
         return {
-            name: cover(one.bands[name] for one in self.variants) for name in self.bands
+            name: cover(panel.bands[name] for panel in self.variants)
+            for name in self.bands
         }
 
 
@@ -312,11 +314,11 @@ def resolve_panels(
     solved = _solve_panels(strip, panels)
     if isinstance(solved, FailedPanel):
         return solved
-    pulls = [_find_pulls(one, state, doubt) for one in solved]
-    found = resolve_pulls(points, panels[0].post_spacing, pulls)
-    if isinstance(found, FailedSupport):
-        return FailedPanel(outcome=found.outcome, reason=found.reason)
-    first, *others = map(_gather, solved, pulls, found)
+    pulls = [_find_pulls(solution, state, doubt) for solution in solved]
+    supports = resolve_pulls(points, panels[0].post_spacing, pulls)
+    if isinstance(supports, FailedSupport):
+        return FailedPanel(outcome=supports.outcome, reason=supports.reason)
+    first, *others = map(_gather, solved, pulls, supports)
     return replace(first, others=tuple(others))
 
 
@@ -333,21 +335,21 @@ def _solve_panels(
     Of several that may be built, one that would lie on the ground has the largest sags
     with which it hangs free; where it never does, another one stands in its place.
     """
-    found = [solve_strips(strip, one) for one in panels]
-    failed = [one for one in found if isinstance(one, FailedPanel)]
-    free = [one for one in found if not isinstance(one, FailedPanel)]
+    solutions = [solve_strips(strip, panel) for panel in panels]
+    failed = [panel for panel in solutions if isinstance(panel, FailedPanel)]
+    free = [panel for panel in solutions if not isinstance(panel, FailedPanel)]
     if not failed:
         return free
-    sags = [(one.upper.sag, one.lower.sag) for one in panels]
+    sags = [(panel.upper.sag, panel.lower.sag) for panel in panels]
     least = tuple(map(min, zip(*sags, strict=True)))
-    is_built = any(one.reason.key not in _NOT_BUILT for one in failed)
+    is_built = any(failure.reason.key not in _NOT_BUILT for failure in failed)
     if is_built or not free:
         return failed[0]
     return [
         (_hang_free(strip, panel, least) or free[0])
-        if isinstance(one, FailedPanel)
-        else one
-        for one, panel in zip(found, panels, strict=True)
+        if isinstance(solution, FailedPanel)
+        else solution
+        for solution, panel in zip(solutions, panels, strict=True)
     ]
 
 
@@ -355,26 +357,26 @@ def _hang_free(
     strip: Strip, panel: Panel, least: tuple[float, ...]
 ) -> PanelSolution | None:
     """Panel with the largest sags up to its own with which it hangs free."""
-    found: PanelSolution | None = None
+    solution: PanelSolution | None = None
     free, lying, share = 0.0, 1.0, 0.0
     for _ in range(_HALVINGS + 1):
         upper, lower = (
             replace(rope, sag=sag + share * (rope.sag - sag))
             for rope, sag in zip((panel.upper, panel.lower), least, strict=True)
         )
-        one = solve_strips(strip, replace(panel, upper=upper, lower=lower))
-        if isinstance(one, FailedPanel):
+        trial = solve_strips(strip, replace(panel, upper=upper, lower=lower))
+        if isinstance(trial, FailedPanel):
             lying = share
         else:
-            found, free = one, share
-        if found is None:
+            solution, free = trial, share
+        if solution is None:
             return None
         share = 0.5 * (free + lying)
-    return found
+    return solution
 
 
-def _gather(solved: PanelSolution, pulls: Pulls, found: Resolved) -> PanelForces:
-    (foot, head), (anchors, members) = pulls, found
+def _gather(solved: PanelSolution, pulls: Pulls, support: Resolved) -> PanelForces:
+    (foot, head), (anchors, members) = pulls, support
     bands = {name_in_panel(member): band for member, band in members.items()}
     at_foot = name_in_panel(Member.FOOT_ANCHOR)
     mid_foot = math.hypot(*solved.mid_foot)
@@ -417,7 +419,7 @@ def _find_pulls(
     error = max(state.foot.error, state.head.error)
     error += doubt * float(np.hypot(*load)) / width
     error += share * float(np.hypot(*load)) / width
-    foot, head = (_divide(one, width, error) for one in (solved.foot, solved.head))
+    foot, head = (_divide(pull, width, error) for pull in (solved.foot, solved.head))
     return foot, head
 
 
@@ -430,13 +432,13 @@ def _read_ropes(solved: PanelSolution, foot: EndPull, head: EndPull) -> dict[str
     width = solved.panel.post_spacing
     on_lower = np.hypot(*np.add(solved.foot, solved.mid_foot)) / width
     shares = (foot.error / float(on_lower), head.error / head.size)
-    found: dict[str, Band] = {}
+    bands: dict[str, Band] = {}
     for names, rope, share in (
         ((RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION), solved.lower, shares[0]),
         ((RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION), solved.upper, shares[1]),
     ):
-        found |= dict(zip(names, _spread_rope(rope, share), strict=True))
-    return {name: found[name] for name in RopeForce}
+        bands |= dict(zip(names, _spread_rope(rope, share), strict=True))
+    return {name: bands[name] for name in RopeForce}
 
 
 def _spread_rope(rope: RopeForces, share: float) -> tuple[Band, Band]:

@@ -199,7 +199,7 @@ class Interval:
 
 def _list_twins(name: str) -> set[str]:
     """Other names of the same quantity."""
-    return {one for pair in ONE_QUANTITY if name in pair for one in pair} - {name}
+    return {twin for pair in ONE_QUANTITY if name in pair for twin in pair} - {name}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -218,8 +218,8 @@ class Ranges:
     def __post_init__(self) -> None:
         """Refuse unknown, repeated and contradicting names, and keep one order."""
         names = [name for name, _ in self.intervals]
-        known = [name for name in PARAMETERS if name in names]
-        if sorted(names) != sorted(known):
+        ordered = [name for name in PARAMETERS if name in names]
+        if sorted(names) != sorted(ordered):
             raise ModelError(
                 say(
                     "envelope.unknown_ranges",
@@ -227,15 +227,15 @@ class Ranges:
                     known=tuple(PARAMETERS),
                 )
             )
-        for one, other in ONE_QUANTITY:
-            if one in names and other in names:
+        for first, second in ONE_QUANTITY:
+            if first in names and second in names:
                 labels = {
-                    "one": PARAMETERS[one].label,
-                    "other": PARAMETERS[other].label,
+                    "one": PARAMETERS[first].label,
+                    "other": PARAMETERS[second].label,
                 }
                 raise ModelError(say("envelope.one_quantity", **labels))
         order = list(PARAMETERS)
-        ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
+        ranked = sorted(self.intervals, key=lambda interval: order.index(interval[0]))
         object.__setattr__(self, "intervals", tuple(ranked))
 
     @classmethod
@@ -265,7 +265,7 @@ class Ranges:
     def with_value(self, name: str, value: float) -> Ranges:
         """Ranges with one quantity at a single value; another name of it goes."""
         gone = {name, *_list_twins(name)}
-        kept = [one for one in self.intervals if one[0] not in gone]
+        kept = [interval for interval in self.intervals if interval[0] not in gone]
         return Ranges(intervals=(*kept, (name, Interval(low=value, high=value))))
 
     def place(self, point: Sequence[float]) -> dict[str, float]:
@@ -315,7 +315,7 @@ class Case:
     def with_value(self, name: str, value: float) -> Case:
         """Case with a value of its own; another name of the same quantity goes."""
         twins = _list_twins(name)
-        kept = {key: one for key, one in self.values.items() if key not in twins}
+        kept = {key: value for key, value in self.values.items() if key not in twins}
         return Case.of({**kept, name: value})
 
 

@@ -80,14 +80,14 @@ def bound_lifted(
     tests/envelope/test_lift.py
     """
     solved = [
-        (point, one)
-        for point, one in zip(points, results, strict=True)
-        if one.anchors is not None
+        (point, result)
+        for point, result in zip(points, results, strict=True)
+        if result.anchors is not None
     ]
     places = np.array([point for point, _ in solved])
     if not layouts or not solved or not supports_model(places):
         return {}
-    values = np.array([_measure(layouts, one) for _, one in solved])
+    values = np.array([_measure(layouts, result) for _, result in solved])
     tolerance = np.full(values.shape[1], settings.gap * np.abs(values[:, 1:]).max())
     tolerance[0] = settings.gap  # of a sine
     bound = partial(
@@ -104,12 +104,14 @@ def bound_lifted(
     if not bound(watched=(0,)).upper[0] > 0.0:
         return {}
     upper = bound(watched=range(values.shape[1])).upper.tolist()[1:]
-    found = {
-        str(one): force
+    by_member = {
+        str(member): force
         for members, force in zip(_LIFTED, upper, strict=False)
-        for one in members
+        for member in members
     }
-    return found | {name_in_panel(one): force for one, force in found.items()}
+    return by_member | {
+        name_in_panel(member): force for member, force in by_member.items()
+    }
 
 
 def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
@@ -121,19 +123,19 @@ def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
     if result.anchors is None or result.solution is None:
         raise ValueError("a case without a support")
     panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    states = (result.anchors, *(one.anchors for one in panels))
+    states = (result.anchors, *(panel.anchors for panel in panels))
     head, (first, *others) = result.solution.head_point, layouts
-    found = []
+    rises = []
     for anchors in states:
         pull, foot = anchors.head_pull, anchors.foot_anchor.size
         lifted = _lift(pull, foot, take_ends(place_support(first, head)))
-        found.append([pull[1] / (math.hypot(*pull) or 1.0), *lifted])
+        rises.append([pull[1] / (math.hypot(*pull) or 1.0), *lifted])
     if others:
-        x, y = np.array([one.head_pull for one in states]).T
-        feet = np.array([one.foot_anchor.size for one in states])
+        x, y = np.array([state.head_pull for state in states]).T
+        feet = np.array([state.foot_anchor.size for state in states])
         of_others = _lift((x, y), feet, spread_ends(others, head))
-        found.append([-math.inf, *(float(one.max()) for one in of_others)])
-    largest: Floats = np.array(found).max(axis=0)
+        rises.append([-math.inf, *(float(rise.max()) for rise in of_others)])
+    largest: Floats = np.array(rises).max(axis=0)
     return largest if first.is_foot_shared else largest[:-1]
 
 
@@ -203,8 +205,8 @@ class ResultReader:
         self._name_quantities(results)
         for result in results:
             for member, band in result.member_forces.items():
-                known = self.largest.get(member, 0.0)
-                self.largest[member] = max(known, band.value)
+                before = self.largest.get(member, 0.0)
+                self.largest[member] = max(before, band.value)
                 if band.value > 0.0:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
@@ -227,17 +229,17 @@ class ResultReader:
         lower end.
         """
         self._name_quantities(results)
-        known = {
+        by_place = {
             place: (value, self._read_errors(result))
             for place, result in enumerate(results)
             if (value := self._read_one(result)) and not self._lacks_panel(result)
         }
-        if not known:
+        if not by_place:
             return set(range(len(results)))
-        values, errors = (np.array(one) for one in zip(*known.values(), strict=True))
+        values, errors = map(np.array, zip(*by_place.values(), strict=True))
         least = _NEAR * np.maximum(np.max(values - errors, axis=0), 0.0)
         is_near = (values + errors >= least)[:, list(self.watch())].any(axis=1)
-        far = {place for place, near in zip(known, is_near, strict=True) if not near}
+        far = {place for place, near in zip(by_place, is_near, strict=True) if not near}
         return set(range(len(results))) - far
 
     def _lacks_panel(self, result: CaseResult) -> bool:
@@ -249,10 +251,10 @@ class ResultReader:
         converged = [result for result in results if result.is_converged]
         if self.members or not converged:
             return
-        first, behind = converged[0], [self._find_signed(one) for one in converged]
+        first, behind = converged[0], list(map(self._find_signed, converged))
         self.members = self._list_members(first)
         self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-        if all(one is not None for one in behind):
+        if all(forces is not None for forces in behind):
             self.signed = self._list_signed(behind[0] or {})
 
     def _list_members(self, first: CaseResult) -> tuple[str, ...]:
@@ -260,9 +262,9 @@ class ResultReader:
 
         A post that pulls is bounded apart, by ``bound_lifted``.
         """
-        own = [one for one in first.member_forces if one not in PANEL_QUANTITIES]
+        own = [name for name in first.member_forces if name not in PANEL_QUANTITIES]
         every = (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
-        return tuple(one for one in every if one not in POST_PULLS)
+        return tuple(name for name in every if name not in POST_PULLS)
 
     def _list_signed(self, first: Mapping[str, float]) -> tuple[str, ...]:
         own = [name for name in first if not name.startswith(_BY_PANEL)]
@@ -272,7 +274,7 @@ class ResultReader:
         """Quantities to be bounded, by place, and how closely each."""
         names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
         if self.is_without_panel:
-            names = tuple(one for one in names if not one.startswith(_BY_PANEL))
+            names = tuple(name for name in names if not name.startswith(_BY_PANEL))
         return {self.quantities.index(name): self._ask_for(name) for name in names}
 
     def _ask_for(self, name: str) -> Watched:
@@ -313,22 +315,23 @@ class ResultReader:
 
     def _read_errors(self, result: CaseResult) -> Values | None:
         """Numerical errors of what ``_read_one`` gives [N]."""
-        known = {
-            one: band.high - band.value for one, band in result.member_forces.items()
+        errors = {
+            member: band.high - band.value
+            for member, band in result.member_forces.items()
         }
-        return self._line_up(known, read_signed_errors, result)
+        return self._line_up(errors, read_signed_errors, result)
 
     def _read_one(self, result: CaseResult) -> Values | None:
         if not result.is_converged:
             return None
-        known = {one: band.value for one, band in result.member_forces.items()}
-        return self._line_up(known, read_signed, result)
+        values = {member: band.value for member, band in result.member_forces.items()}
+        return self._line_up(values, read_signed, result)
 
     def _line_up(
-        self, known: Mapping[str, float], read: ReadSigned, result: CaseResult
+        self, of_members: Mapping[str, float], read: ReadSigned, result: CaseResult
     ) -> Values | None:
         """Members, then signed forces; what is missing counts as 0."""
-        forces = tuple(known.get(member, 0.0) for member in self.members)
+        forces = tuple(of_members.get(member, 0.0) for member in self.members)
         if not self.signed or not self.layouts:
             return forces
         signed = read(result, self.layouts)

@@ -140,20 +140,20 @@ class RowEnvelope:
 
     def _describe_unconfirmed(self) -> Message | None:
         """Governing case that could not be solved again; None if all could."""
-        for one in self.confirmations:
-            if one.member not in one.confirmed.member_forces:
+        for confirmation in self.confirmations:
+            if confirmation.member not in confirmation.confirmed.member_forces:
                 return say(
                     "envelope.unconfirmed",
-                    member=name_member(one.member),
-                    reason=one.confirmed.lack or "",
+                    member=name_member(confirmation.member),
+                    reason=confirmation.confirmed.lack or "",
                 )
         return None
 
     @property
     def extremes(self) -> dict[str, Extreme]:
         """Largest forces by member; a confirmation above the bound raises its end."""
-        found = find_extremes(self.results)
-        return {member: self._bound(one) for member, one in found.items()}
+        extremes = find_extremes(self.results)
+        return {member: self._bound(extreme) for member, extreme in extremes.items()}
 
     def at_layout(self, place: int) -> RowEnvelope:
         """The envelope on one of the task's layouts alone.
@@ -164,11 +164,11 @@ class RowEnvelope:
         if not self.task.other_layouts:
             return self
         layout = self.task.layouts[place]
-        return self._move(layout, lambda one: one.at_layout(place))
+        return self._move(layout, lambda result: result.at_layout(place))
 
     def on_layout(self, layout: SupportLayout) -> RowEnvelope:
         """The envelope on a layout between those of the task, as ``at_layout``."""
-        return self._move(layout, lambda one: one.on_layout(layout))
+        return self._move(layout, lambda result: result.on_layout(layout))
 
     def _move(
         self, layout: SupportLayout, move: Callable[[CaseResult], CaseResult]
@@ -180,8 +180,12 @@ class RowEnvelope:
             results=results,
             maxima=self._bound_on_layout(results),
             confirmations=tuple(
-                replace(one, screened=move(one.screened), confirmed=move(one.confirmed))
-                for one in self.confirmations
+                replace(
+                    confirmation,
+                    screened=move(confirmation.screened),
+                    confirmed=move(confirmation.confirmed),
+                )
+                for confirmation in self.confirmations
             ),
         )
 
@@ -190,13 +194,15 @@ class RowEnvelope:
         maximum, upper = list(self.maxima.maximum), list(self.maxima.upper_bound)
         for place, member in enumerate(self.members if upper else ()):
             pairs = [
-                (one.member_forces[member].value, all_.member_forces[member].value)
-                for one, all_ in zip(results, self.results, strict=True)
-                if member in one.member_forces
+                (result.member_forces[member].value, all_.member_forces[member].value)
+                for result, all_ in zip(results, self.results, strict=True)
+                if member in result.member_forces
             ]
-            own = max((one for one, _ in pairs), default=0.0)
+            own = max((force for force, _ in pairs), default=0.0)
             shares = [
-                one / all_ for one, all_ in pairs if all_ > 0.0 and all_ >= _LARGE * own
+                force / all_
+                for force, all_ in pairs
+                if all_ > 0.0 and all_ >= _LARGE * own
             ]
             upper[place] = max(own, max(shares, default=1.0) * upper[place])
             maximum[place] = own
@@ -213,9 +219,9 @@ class RowEnvelope:
         if member in self.lifted:
             hidden = max(hidden, self.lifted[member] - extreme.force.value)
         confirmed = [
-            one.confirmed.member_forces[member].high - hidden
-            for one in self.confirmations
-            if member in one.confirmed.member_forces
+            confirmation.confirmed.member_forces[member].high - hidden
+            for confirmation in self.confirmations
+            if member in confirmation.confirmed.member_forces
         ]
         force = replace(extreme.force, high=max([extreme.force.high, *confirmed]))
         return replace(extreme, force=force, hidden=hidden)

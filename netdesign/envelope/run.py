@@ -122,15 +122,15 @@ class CaseResult:
         if not self.is_converged or self.solution is None:
             return self
         solution = self.solution
-        found = resolve_layouts(
+        on_layouts = resolve_layouts(
             [place_support(layout, solution.head_point)],
             layout.post_spacing,
             (solution.foot, solution.head),
             self.panel if isinstance(self.panel, PanelForces) else None,
         )
-        if isinstance(found, FailedSupport):
+        if isinstance(on_layouts, FailedSupport):
             raise ValueError("a case that another layout holds")
-        forces = {**self.member_forces, **found[0]}
+        forces = {**self.member_forces, **on_layouts[0]}
         return replace(self, member_forces=forces, of_layouts=())
 
     def stand(self, layout: SupportLayout) -> CaseResult:
@@ -179,13 +179,13 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
     if task.layout is None:
         return replace(_resolve_net(task, end), reason=end.reason)
-    found = catch_fault(
+    result = catch_fault(
         partial(_resolve_support, task, task.layout, end),
         describe_case(task.job.scene, task.job.settings),
     )
-    if not isinstance(found, Fault):
-        return replace(found, reason=found.reason or end.reason)
-    return replace(_failed(task, Outcome.PROGRAM_FAULT, SENTENCE), fault=found)
+    if not isinstance(result, Fault):
+        return replace(result, reason=result.reason or end.reason)
+    return replace(_failed(task, Outcome.PROGRAM_FAULT, SENTENCE), fault=result)
 
 
 def _resolve_net(task: CaseTask, state: SolvedState) -> CaseResult:
@@ -215,10 +215,10 @@ def _resolve_support(
 ) -> CaseResult:
     points = place_support(layout, solution.head_point)
     pulls = [(solution.foot, solution.head)]
-    found = resolve_pulls(points, layout.post_spacing, pulls)
-    if isinstance(found, FailedSupport):
-        return _failed(task, found.outcome, found.reason)
-    ((anchors, bands),) = found
+    supports = resolve_pulls(points, layout.post_spacing, pulls)
+    if isinstance(supports, FailedSupport):
+        return _failed(task, supports.outcome, supports.reason)
+    ((anchors, bands),) = supports
     panel = _resolve_panel(task, points, solution)
     forces = {
         **bands,
@@ -243,17 +243,17 @@ def _resolve_others(
     solution, panel = result.solution, result.panel
     if solution is None:
         raise ValueError("a case without a solution")
-    found = resolve_layouts(
-        [place_support(one, solution.head_point) for one in task.other_layouts],
+    on_layouts = resolve_layouts(
+        [place_support(layout, solution.head_point) for layout in task.other_layouts],
         layout.post_spacing,
         (solution.foot, solution.head),
         panel if isinstance(panel, PanelForces) else None,
     )
-    if isinstance(found, FailedSupport):
-        return _failed(task, found.outcome, found.reason)
+    if isinstance(on_layouts, FailedSupport):
+        return _failed(task, on_layouts.outcome, on_layouts.reason)
     first = result.member_forces
-    forces = (first, *({**first, **one} for one in found))
-    largest = {name: cover(one[name] for one in forces) for name in first}
+    forces = (first, *({**first, **own} for own in on_layouts))
+    largest = {name: cover(by_member[name] for by_member in forces) for name in first}
     layouts = (layout, *task.other_layouts)
     return replace(
         result,

@@ -98,10 +98,10 @@ class RowSearch:
         elif search.result is not None:
             self._confirm(search.result)
 
-    def _confirm(self, found: Maxima) -> None:
+    def _confirm(self, maxima: Maxima) -> None:
         """Ask for the governing cases once more."""
-        self._maxima = self._reader.bound_members(found)
-        points = [found.points[place] for place in self._list_confirmed(found)]
+        self._maxima = self._reader.bound_members(maxima)
+        points = [maxima.points[place] for place in self._list_confirmed(maxima)]
         apart = FrictionSkip(())  # each is solved
         self._cases = Cases(self.task, points, apart, self.task.confirmed_by)
 
@@ -113,10 +113,10 @@ class RowSearch:
 
     def _find_governing(self, maxima: Maxima) -> dict[str, int]:
         """Place of the governing case of each member that carries a force."""
-        found = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
+        peaks = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
         return {
             member: place
-            for member, (force, place) in zip(self._reader.members, found, strict=False)
+            for member, (force, place) in zip(self._reader.members, peaks, strict=False)
             if force > 0.0
         }
 
@@ -168,7 +168,7 @@ def search_rows(
     """
     searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
     while asked := _ask_rows(searches.values()):
-        ends = iter(runner.solve_batches([one for _, its in asked for one in its]))
+        ends = iter(runner.solve_batches([batch for _, its in asked for batch in its]))
         for search, batches in asked:
             search.tell(list(islice(ends, len(batches))))
         on_wave(_describe_wave(_ask_rows(searches.values())))

@@ -51,17 +51,17 @@ def take_ends(points: SupportPoints) -> Ends[float]:
 
 def spread_ends(layouts: Sequence[SupportLayout], head: Point) -> Ends[Floats]:
     """Points of some layouts under one head."""
-    places = [place_support(one, head) for one in layouts]
+    places = [place_support(layout, head) for layout in layouts]
 
     def gather(points: Iterable[Point]) -> Vector[Floats]:
         x, y = np.array(list(points)).T[:, :, None]
         return x, y
 
     return Ends(
-        head=gather(one.head for one in places),
-        base=gather(one.post_base for one in places),
-        uphill=gather(one.uphill_anchor for one in places),
-        downhill=gather(one.downhill_anchor for one in places),
+        head=gather(place.head for place in places),
+        base=gather(place.post_base for place in places),
+        uphill=gather(place.uphill_anchor for place in places),
+        downhill=gather(place.downhill_anchor for place in places),
     )
 
 
@@ -89,19 +89,19 @@ def read_signed(
     panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
     pulls = [
         (solution.head.x * width, solution.head.y * width),
-        *(one.solution.head for one in panels),
+        *(panel.solution.head for panel in panels),
     ]
     feet = [anchors.foot_anchor.size, *map(_find_foot, panels)]
     first = take_ends(place_support(layouts[0], head))
-    found = [
+    states = [
         _find_signed(pull, foot, first) for pull, foot in zip(pulls, feet, strict=True)
     ]
     if others := layouts[1:]:
         x, y = np.array(pulls).T
         on_others = _find_signed((x, y), np.array(feet), spread_ends(others, head))
-        found = _take_largest(found, on_others)
-    section, *beside = found
-    return section and section | _name_largest(one or {} for one in beside)
+        states = _take_largest(states, on_others)
+    section, *beside = states
+    return section and section | _name_largest(state or {} for state in beside)
 
 
 def _find_foot(panel: PanelForces) -> float:
@@ -113,15 +113,15 @@ _Signed = dict[str, float] | None
 
 
 def _take_largest(
-    found: Sequence[_Signed], on_others: dict[str, Floats] | None
+    states: Sequence[_Signed], on_others: dict[str, Floats] | None
 ) -> list[_Signed]:
     """Signed forces by state, or those on other layouts where they are larger."""
     if on_others is None:
-        return [None for _ in found]
+        return [None for _ in states]
     most = {name: values.max(axis=0).tolist() for name, values in on_others.items()}
     return [
-        one and {name: max(value, most[name][place]) for name, value in one.items()}
-        for place, one in enumerate(found)
+        state and {name: max(value, most[name][place]) for name, value in state.items()}
+        for place, state in enumerate(states)
     ]
 
 
@@ -133,38 +133,38 @@ def read_signed_errors(
     if solution is None or result.anchors is None:
         return None
     head, width = solution.head_point, layouts[0].post_spacing
-    found = _find_largest_errors(
+    errors = _find_largest_errors(
         solution.foot.error * width, solution.head.error * width, layouts, head
     )
-    if found is None or not isinstance(result.panel, PanelForces):
-        return found
-    pulls = [(one.foot.error, one.head.error) for one in result.panel.variants]
-    foot, pull = (width * max(errors) for errors in zip(*pulls, strict=True))
+    if errors is None or not isinstance(result.panel, PanelForces):
+        return errors
+    pulls = [(panel.foot.error, panel.head.error) for panel in result.panel.variants]
+    foot, pull = (width * max(ends) for ends in zip(*pulls, strict=True))
     beside = _find_largest_errors(foot, pull, layouts, head) or {}
-    return found | {name_in_panel(name): error for name, error in beside.items()}
+    return errors | {name_in_panel(name): error for name, error in beside.items()}
 
 
 def _find_largest_errors(
     foot: float, pull: float, layouts: Sequence[SupportLayout], head: Point
 ) -> dict[str, float] | None:
     """Errors of signed forces on the layout where each is largest [N]."""
-    found = _find_errors(foot, pull, take_ends(place_support(layouts[0], head)))
-    if found is None or len(layouts) < 2:
-        return found
+    errors = _find_errors(foot, pull, take_ends(place_support(layouts[0], head)))
+    if errors is None or len(layouts) < 2:
+        return errors
     ends = spread_ends(layouts[1:], head)
     others = _find_errors(np.array([foot]), np.array([pull]), ends)
     if others is None:
         return None
-    return {name: max(one, float(others[name].max())) for name, one in found.items()}
+    return {name: max(own, float(others[name].max())) for name, own in errors.items()}
 
 
-def _name_largest(found: Iterable[dict[str, float]]) -> dict[str, float]:
+def _name_largest(panels: Iterable[dict[str, float]]) -> dict[str, float]:
     """Largest values of some panels, by their names beside those of the section."""
     largest: dict[str, float] = {}
-    for values in found:
+    for values in panels:
         for name, value in values.items():
-            known = largest.get(name_in_panel(name), -math.inf)
-            largest[name_in_panel(name)] = max(known, value)
+            before = largest.get(name_in_panel(name), -math.inf)
+            largest[name_in_panel(name)] = max(before, value)
     return largest
 
 
@@ -246,7 +246,7 @@ def choose_watched(
     return tuple(watched)
 
 
-def _length(one: Vector[Number], other: Vector[Number]) -> Number:
-    x, y = one[0] - other[0], one[1] - other[1]
-    found: Number = (x * x + y * y) ** 0.5
-    return found
+def _length(start: Vector[Number], end: Vector[Number]) -> Number:
+    x, y = start[0] - end[0], start[1] - end[1]
+    length: Number = (x * x + y * y) ** 0.5
+    return length

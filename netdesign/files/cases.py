@@ -70,9 +70,9 @@ def write_envelope_document(
         "reason": render(envelope.gap or "", language),
         "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
         "extremes": [
-            _write_bound(envelope, extremes[one], language)
-            for one in QUANTITY_KEYS
-            if one in extremes
+            _write_bound(envelope, extremes[member], language)
+            for member in QUANTITY_KEYS
+            if member in extremes
         ],
         "cases": {
             "solved": counts.solved,
@@ -88,7 +88,7 @@ def write_envelope_document(
             "resolved_share": record.resolved_share,
             "rests_on": render(say("envelope.rests_on"), language),
         },
-        "log": [_write_addition(envelope, one) for one in envelope.maxima.log],
+        "log": [_write_addition(envelope, case) for case in envelope.maxima.log],
         "cost": {"wall_s": wall_s},
         "provenance": {
             "version": __version__,
@@ -161,9 +161,9 @@ def _write_bound(
     force = record_largest(extreme, envelope, tuple(QUANTITY_KEYS))
     confirmation, bound = None, force.bound_kN
     if force.confirmed is not None:
-        told = render(force.confirmed.reason or "", language)
+        reason = render(force.confirmed.reason or "", language)
         plain = asdict(replace(force.confirmed, reason=None))
-        confirmation = _per_metre(plain | {"reason": told})
+        confirmation = _per_metre(plain | {"reason": reason})
     return {
         "quantity": QUANTITY_KEYS[force.quantity],
         "max": force.value_kN,
@@ -178,8 +178,8 @@ def _write_bound(
 
 
 def _list_coincident(extreme: Extreme) -> dict[str, float]:
-    found = show_coincident(extreme, tuple(QUANTITY_KEYS))
-    return {QUANTITY_KEYS[other]: force for other, force in found.items()}
+    coincident = show_coincident(extreme, tuple(QUANTITY_KEYS))
+    return {QUANTITY_KEYS[other]: force for other, force in coincident.items()}
 
 
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
@@ -187,19 +187,19 @@ def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 
-def _write_addition(envelope: RowEnvelope, one: Addition) -> dict[str, Any]:
+def _write_addition(envelope: RowEnvelope, addition: Addition) -> dict[str, Any]:
     """One line of the densification log."""
     names = envelope.quantities
     forces = {
-        "predicted": one.predicted,
-        "claimed": one.standard_error,  # one, of the prediction
-        "found": one.found,
+        "predicted": addition.predicted,
+        "claimed": addition.standard_error,  # of the prediction
+        "found": addition.found,
     }
     return {
-        "round": one.round,
-        "reason": one.reason,
-        "quantity": QUANTITY_KEYS.get(names[one.quantity], "") if names else "",
-        "case": show_case(envelope.task.ranges.place(one.point)),
+        "round": addition.round,
+        "reason": addition.reason,
+        "quantity": QUANTITY_KEYS.get(names[addition.quantity], "") if names else "",
+        "case": show_case(envelope.task.ranges.place(addition.point)),
     } | {
         f"{name}_kN_per_m": kilonewton_from_newton(force)
         if math.isfinite(force)
@@ -217,29 +217,30 @@ def _per_metre(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def resolve_support(
-    solution: Solution, settings: Settings, given: GivenSupport
+    solution: Solution, settings: Settings, support: GivenSupport
 ) -> CaseResult:
     """Forces of a support of the net that was solved, by the section and the panel."""
     task = CaseTask(
         case=build_case(solution.scene, {}),
         job=Job(scene=solution.scene, settings=settings),
         refusal=None,
-        layout=given.layout,
-        panels=(given.panel,) if given.panel else (),
+        layout=support.layout,
+        panels=(support.panel,) if support.panel else (),
     )
     return resolve_case(task, keep_state(solution))
 
 
-def _find_end(given: GivenSupport, result: CaseResult) -> EndForces | None:
+def _find_end(support: GivenSupport, result: CaseResult) -> EndForces | None:
     if result.solution is None or not isinstance(result.panel, PanelForces):
         return None
-    points = place_support(given.layout, result.solution.head_point)
-    end = compute_end_forces(result.panel.solution, points, given.end_guy_angle or 0.0)
+    points = place_support(support.layout, result.solution.head_point)
+    angle = support.end_guy_angle or 0.0
+    end = compute_end_forces(result.panel.solution, points, angle)
     return end if isinstance(end, EndForces) else None
 
 
 def write_support(
-    result: CaseResult, given: GivenSupport, language: Language = "en"
+    result: CaseResult, support: GivenSupport, language: Language = "en"
 ) -> dict[str, Any]:
     """Part ``support`` of the solution document: kN on one support."""
     written: dict[str, Any] = {"plain": None, "panel": None, "row_end": None}
@@ -250,8 +251,8 @@ def write_support(
     written["plain"] = _write_forces(result, result.anchors, SOLVED_MEMBERS)
     if isinstance(result.panel, PanelForces):
         written["panel"] = _write_panel(result, result.panel)
-    if end := _find_end(given, result):
-        has_guy = given.end_guy_angle is not None
+    if end := _find_end(support, result):
+        has_guy = support.end_guy_angle is not None
         written["row_end"] = _write_end(end, has_guy=has_guy)
     return written
 

@@ -153,8 +153,8 @@ def _list_faults(panel: PanelTable) -> list[Message]:
     faults = []
     for name in ("stiffness_kN", "sag"):
         keys = [f"{which}rope_{name}" for which in ("", "lower_", "upper_")]
-        given = tuple(getattr(panel, key) is not None for key in keys)
-        if given not in ((True, False, False), (False, True, True)):
+        are_given = tuple(getattr(panel, key) is not None for key in keys)
+        if are_given not in ((True, False, False), (False, True, True)):
             faults.append(say("scene_file.both_ropes_or_each", name=name))
     return faults
 
@@ -308,8 +308,8 @@ def read_scene(
     path: str | Path, method: Method | None = None
 ) -> tuple[Scene, Settings]:
     """Scene and settings of a scene file, as ``read_scene_file`` gives them."""
-    given = read_scene_file(Path(path), method)
-    return given.scene, given.settings
+    file = read_scene_file(Path(path), method)
+    return file.scene, file.settings
 
 
 def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
@@ -331,10 +331,10 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
     except ValidationError as error:
         faults: Sequence[Message | str] = [_describe(fault) for fault in error.errors()]
     except ModelError as error:
-        told = error.message
-        given = told.arguments.get("lines") if told.key == "text.lines" else None
-        faults = given if isinstance(given, tuple) else (told,)
-    lines = [say("text.at_place", place=str(path), text=one) for one in faults]
+        message = error.message
+        lists = message.arguments.get("lines") if message.key == "text.lines" else None
+        faults = lists if isinstance(lists, tuple) else (message,)
+    lines = [say("text.at_place", place=str(path), text=fault) for fault in faults]
     raise SceneFileError(list_faults(lines))
 
 
@@ -410,25 +410,25 @@ def _thickness(snow: SnowTable, slope: float) -> float:
 
 def _creep_law(snow: SnowTable) -> CreepLaw:
     if isinstance(snow.creep_law, CreepLawTable):
-        given = snow.creep_law
-        if given.name in CREEP_LAWS:
-            raise ModelError(say("scene_file.shipped_law", name=given.name))
+        table = snow.creep_law
+        if table.name in CREEP_LAWS:
+            raise ModelError(say("scene_file.shipped_law", name=table.name))
         own = snow.creep_exponent
-        return CreepLaw(exponent=own, own_exponent=own, **dict(given))
+        return CreepLaw(exponent=own, own_exponent=own, **dict(table))
     if snow.creep_law not in CREEP_LAWS:
-        known = tuple(CREEP_LAWS)
+        names = tuple(CREEP_LAWS)
         raise ModelError(
-            say("scene_file.unknown_law", name=snow.creep_law, known=known)
+            say("scene_file.unknown_law", name=snow.creep_law, known=names)
         )
     return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
 
 
 def _fluidity(snow: SnowTable) -> float | None:
-    given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
+    fluidity, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
     if temperature is None:
         exponent = snow.creep_exponent
-        return None if given is None else fluidity_from_mpa_year(given, exponent)
-    if given is not None:
+        return None if fluidity is None else fluidity_from_mpa_year(fluidity, exponent)
+    if fluidity is not None:
         raise ModelError(say("scene_file.fluidity_or_temperature"))
     if snow.creep_exponent != FLUIDITY_EXPONENT:
         raise ModelError(

@@ -67,7 +67,7 @@ def write_solution_document(
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         **({"history": None} if history is None else history.write(solution, language)),
-        "flags": [render(one, language) for one in _list_flags(solution, settings)],
+        "flags": [render(flag, language) for flag in _list_flags(solution, settings)],
         "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
             "version": __version__,
@@ -217,7 +217,7 @@ def _find_missed_accuracy(
         pulls: tuple[EndPull, ...] = (solution.force,)
     else:
         pulls = solution.foot, solution.head
-    error = max((one.error / one.size for one in pulls if one.size), default=0.0)
+    error = max((pull.error / pull.size for pull in pulls if pull.size), default=0.0)
     if error <= (1.0 + 1e-9) * settings.accuracy:
         return None
     return say("solution.accuracy_missed", asked=settings.accuracy, error=error)

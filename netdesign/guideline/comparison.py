@@ -194,9 +194,12 @@ def compare_with_guideline(
     of_same, of_net = glide_factors
     results = [solve_load_case(model, net, case, of_net) for case in cases]
     first, second = (
-        [one for one in results if one.case.name == name] for name in LOAD_CASES
+        [result for result in results if result.case.name == name]
+        for name in LOAD_CASES
     )
-    worst = (max(one, key=lambda two: two.foot or 0.0) for one in (first, second))
+    worst = (
+        max(of_case, key=lambda two: two.foot or 0.0) for of_case in (first, second)
+    )
     return (solve_load_case(model, net, same, of_same), *worst)
 
 

@@ -162,7 +162,7 @@ class Floor:
 
     def find(self, member: str) -> FloorForce | None:
         """Force of a member; None where the floor is not available."""
-        return next((one for one in self.forces if one.member == member), None)
+        return next((force for force in self.forces if force.member == member), None)
 
 
 def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> Floor:
@@ -196,7 +196,7 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         return Floor(reason=failed.reason)
     reached = scan.try_points(points)
     solve = cache(scan.solve_one)  # members are often largest at the same place
-    found: dict[str, FloorForce] = {}
+    by_member: dict[str, FloorForce] = {}
     for key, sizes in _list_sizes(reached).items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
         point = tuple(map(float, points[:, number]))
@@ -204,7 +204,7 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         if result.solved is None:
             return Floor(reason=_explain(at, result))
         load, pull, anchors = result.solved
-        found[key] = FloorForce(
+        by_member[key] = FloorForce(
             member=key,
             force=_measure(anchors, pull)[key],
             at=at,
@@ -213,8 +213,8 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
             pull=pull,
         )
     return Floor(
-        forces=tuple(found[member] for member in _LOADED),
-        spans=tuple(found[key] for key in SPANS),
+        forces=tuple(by_member[member] for member in _LOADED),
+        spans=tuple(by_member[key] for key in SPANS),
         head=_measure_head(largest),
     )
 
@@ -275,8 +275,8 @@ def _measure(anchors: AnchorForces, pull: NetPull[float]) -> dict[str, float]:
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
     tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
     sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
-    found = {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
-    return {**found, NetPart.MESH: pull.largest_tension}
+    forces = {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
+    return {**forces, NetPart.MESH: pull.largest_tension}
 
 
 def _measure_head(largest: Floats) -> HeadSpan:
@@ -285,7 +285,7 @@ def _measure_head(largest: Floats) -> HeadSpan:
     A tension with a sign is that of the uphill guy, or less that of the downhill one.
     Between a load with one sign and one with the other lies one without tension.
     """
-    pull, turn, less_turn, most, less = (float(one) for one in largest[len(_LOADED) :])
+    pull, turn, less_turn, most, less = map(float, largest[len(_LOADED) :])
     return HeadSpan(
         pull=pull,
         least_tension=max(0.0, -less, -most),
@@ -324,11 +324,11 @@ class _Scan:
     def list_anchors(self, points: Floats) -> Floats:
         """Pull on the head, then forces on the anchors of each layout, shape (q, n)."""
         tried = self.try_points(points)
-        forces = [tried.of_members[one] for one in _SOUGHT]
+        forces = [tried.of_members[member] for member in _SOUGHT]
         every = np.array(np.broadcast_arrays(*forces)).max(axis=(2, 3))
         pull = tried.head_pull.max(axis=(0, 1))[None]
-        found: Floats = np.concatenate([pull, *every.swapaxes(0, 1)])
-        return found
+        values: Floats = np.concatenate([pull, *every.swapaxes(0, 1)])
+        return values
 
     def list_sought(self, points: Floats) -> Floats:
         """Values that are made as large as they can be, at points, shape (3, n).
@@ -340,7 +340,7 @@ class _Scan:
         turn = tried.foot_turn
         uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
         signed = uphill - downhill
-        members = (tried.of_members[one] for one in _LOADED)
+        members = (tried.of_members[member] for member in _LOADED)
         at_head = (tried.head_pull, turn, -turn, signed, -signed)
         largest: Floats = np.array([*members, *at_head]).max(axis=(1, 2))
         return largest
@@ -361,23 +361,23 @@ class _Scan:
         )
         if not forces.is_held.all():
             raise self._find_failed(points)
-        found: dict[str, Floats] = {**forces.of_members}
-        found[NetPart.MESH] = pull.largest_tension
-        return replace(forces, of_members=found)
+        of_members: dict[str, Floats] = {**forces.of_members}
+        of_members[NetPart.MESH] = pull.largest_tension
+        return replace(forces, of_members=of_members)
 
     def _place(self, points: Floats) -> NetGeometry[Floats]:
         """Nets at points; the ends of the tension are rows."""
-        given = self.ranges
+        ranges = self.ranges
         inclination, thickness, _ = points
-        ends = np.array(_list_ends(given))
+        ends = np.array(_list_ends(ranges))
         return NetGeometry(
-            slope_angle=given.net.slope_angle,
+            slope_angle=ranges.net.slope_angle,
             snow_thickness=thickness,
-            net_height=given.net.net_height,
+            net_height=ranges.net.net_height,
             inclination=inclination,
             stiffness=ends[:, :1],
             slack=ends[:, 1:],
-            layout=given.net.layout,
+            layout=ranges.net.layout,
         )
 
     def _load(self, points: Floats) -> tuple[LoadCase[Floats], Floats]:
@@ -388,13 +388,13 @@ class _Scan:
         _, thickness, share = points
         cases = list_load_cases(self.model, self.ranges.net, self.altitude)
         numbers = [
-            (one.density, one.normal_share, one.settled, self._find_creep(one))
-            for one in cases
+            (case.density, case.normal_share, case.settled, self._find_creep(case))
+            for case in cases
         ]
         density, normal, settled, creep = np.array(numbers).T[:, :, None, None]
         glide = self._find_glide(thickness, share)
         if self.model.dimensioning is not None:
-            has_form = np.array([[[one.creep_factor is not None]] for one in cases])
+            has_form = np.array([[[case.creep_factor is not None]] for case in cases])
             full = 0.0 * thickness + self.ranges.net.net_height
             glide = np.where(has_form, self._find_glide(full, share), glide)
             thickness = np.where(has_form, full, thickness)
@@ -418,8 +418,8 @@ class _Scan:
     def _find_glide(self, thickness: Floats, share: Floats) -> Floats:
         """N under snow of some thicknesses, at shares of its range [-]."""
         least, largest = self.ranges.find_glide_factors(thickness)
-        found: Floats = least + share * (largest - least)
-        return found
+        points: Floats = least + share * (largest - least)
+        return points
 
     def solve_one(
         self, point: tuple[float, ...], case: int, end: int, place: int = 0

@@ -24,7 +24,7 @@ Number = TypeVar("Number", float, Floats)
 
 
 def freeze(array: NDArray[Any]) -> NDArray[Any]:
-    """The array itself, which nobody can change any more: it is kept for many.
+    """The array itself, made read-only: many callers keep it.
 
     Parameters
     ----------
@@ -99,39 +99,39 @@ def measure_turn(x: Number, y: Number) -> Number:
     return np.arctan2(y, x) if isinstance(x, np.ndarray) else math.atan2(y, x)
 
 
-def take_larger(one: Number, other: Number | float) -> Number:
-    """Larger one of two.
+def take_larger(a: Number, b: Number | float) -> Number:
+    """Larger of two numbers, or of two arrays element by element.
 
     Parameters
     ----------
-    one, other : float or ndarray
+    a, b : float or ndarray
         In any unit, alike in both.
     """
-    return np.maximum(one, other) if isinstance(one, np.ndarray) else max(one, other)
+    return np.maximum(a, b) if isinstance(a, np.ndarray) else max(a, b)
 
 
-def take_smaller(one: Number, other: Number | float) -> Number:
-    """Smaller one of two.
+def take_smaller(a: Number, b: Number | float) -> Number:
+    """Smaller of two numbers, or of two arrays element by element.
 
     Parameters
     ----------
-    one, other : float or ndarray
+    a, b : float or ndarray
         In any unit, alike in both.
     """
-    return np.minimum(one, other) if isinstance(one, np.ndarray) else min(one, other)
+    return np.minimum(a, b) if isinstance(a, np.ndarray) else min(a, b)
 
 
-def choose(condition: Truth, one: Number, other: Number) -> Number:
-    """The one where the condition holds, else the other; both are worked out."""
+def choose(condition: Truth, then: Number, other: Number) -> Number:
+    """``then`` where the condition holds, else ``other``; both are computed."""
     if isinstance(condition, np.ndarray):
-        return cast(Number, np.where(condition, one, other))
-    return one if condition else other
+        return cast(Number, np.where(condition, then, other))
+    return then if condition else other
 
 
 def find_none(first: Truth, *others: Truth) -> Truth:
     """Truth that none of the conditions holds."""
-    for one in others:
-        first = first | one
+    for condition in others:
+        first = first | condition
     return ~first if isinstance(first, np.ndarray) else not first
 
 
@@ -155,8 +155,8 @@ def spread_over(values: Iterable[float], like: Floats) -> Floats:
     ndarray, shape (n, ...)
         In the unit of the values.
     """
-    given = np.array(list(values)).reshape((-1, *(1,) * like.ndim))
-    return np.broadcast_to(given, (len(given), *like.shape))
+    column = np.array(list(values)).reshape((-1, *(1,) * like.ndim))
+    return np.broadcast_to(column, (len(column), *like.shape))
 
 
 def require_all_within(

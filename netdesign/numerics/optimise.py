@@ -166,7 +166,7 @@ def build_grid(axes: Sequence[Floats]) -> Floats:
     axes : sequence of d ndarrays
         Values along each axis, shape (any,); those of the last one run first.
     """
-    return np.array([one.ravel() for one in np.meshgrid(*axes, indexing="ij")])
+    return np.array([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")])
 
 
 def _find_peaks(values: Floats) -> tuple[Ints, Ints]:
@@ -210,8 +210,8 @@ def _climb(functions: Functions, peaks: _Peaks, axes: Sequence[Floats]) -> _Peak
     for _ in range(_MOST_ROUNDS):
         around = peaks.points[:, :, None] + offsets[:, None, :] * steps[:, :, None]
         around = np.clip(around.reshape(len(axes), -1), low, high)
-        found = functions(around).reshape(-1, count.size, offsets.shape[1])
-        own = found[peaks.sought, count]
+        values = functions(around).reshape(-1, count.size, offsets.shape[1])
+        own = values[peaks.sought, count]
         best = own.argmax(axis=1)
         steps *= np.where(offsets[:, best] == 0.0, 0.5, 2.0)
         place = count * offsets.shape[1] + best

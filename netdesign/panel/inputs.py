@@ -144,8 +144,8 @@ def list_panels(
         Of the lower rope. Not given beside anything that is given, both count.
     """
     is_all_assumed = cut is None and sags == (None, None)
-    of_sags = [(one, one) if one is not None else SAGS for one in sags]
-    found = {
+    of_sags = [(sag, sag) if sag is not None else SAGS for sag in sags]
+    panels = {
         Panel(
             post_spacing=post_spacing,
             upper=Rope(stiffness=stiffnesses[0][stiff], sag=of_sags[0][ridge]),
@@ -156,12 +156,12 @@ def list_panels(
         for worst, ridge, lower, stiff, soft, own in _WORST
         for mid in _list_mids(own, has_mid_anchors, is_all_assumed=is_all_assumed)
     }
-    return tuple(found)
+    return tuple(panels)
 
 
 def _list_mids(
-    own: bool, given: bool | None, *, is_all_assumed: bool
+    own: bool, stated: bool | None, *, is_all_assumed: bool
 ) -> tuple[bool, ...]:
-    if given is not None:
-        return (given,)
+    if stated is not None:
+        return (stated,)
     return (own,) if is_all_assumed else (False, True)

@@ -143,14 +143,14 @@ def _solve_compiled(
     argument, kept = describe_panel(problem)
     argument.still, argument.longest_step = _STILL, _LONGEST_STEP
     argument.most_steps, argument.most_halvings = _MOST_STEPS, _HALVINGS
-    found = to_floats(point, (2 * problem.lengths.size + 2,)).copy()
-    code = core.nd_panel(ctypes.byref(argument), ctypes.c_void_p(locate(found)))
+    unknowns = to_floats(point, (2 * problem.lengths.size + 2,)).copy()
+    code = core.nd_panel(ctypes.byref(argument), ctypes.c_void_p(locate(unknowns)))
     del kept  # the core had its addresses
     if require_sound(code) == _TOO_MANY_STEPS:
         raise SolveError(Outcome.MAX_ITERATIONS)
     if code:
         raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found"))
-    return read_loads(problem, found), argument.steps
+    return read_loads(problem, unknowns), argument.steps
 
 
 def _invert(matrix: Floats) -> Floats:

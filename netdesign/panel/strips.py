@@ -270,7 +270,7 @@ def build_strip_at_end(
         pull.size / float(np.hypot(*end))
         for pull, end in zip(pulls, (foot, head), strict=True)
     ]
-    if not max(abs(one - 1.0) for one in growths) <= FURTHEST:
+    if not max(abs(growth - 1.0) for growth in growths) <= FURTHEST:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.history_went_on"))
     nodes, on_nodes = np.zeros((2, 2, 2 * curve.shape[1] - 1))
     nodes[:, ::2], on_nodes[:, ::2] = curve, at_corners

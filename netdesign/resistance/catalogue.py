@@ -65,7 +65,7 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
     """
     grounds = load_catalogue()["bond"]["ground"]
     listed = [grounds[ground]] if ground in grounds else list(grounds.values())
-    spans = [span for one in listed for key, span in one.items() if key != "text"]
+    spans = [span for table in listed for key, span in table.items() if key != "text"]
     return float(min(low for low, _ in spans)), float(max(high for _, high in spans))
 
 
@@ -144,7 +144,7 @@ def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> 
     return float(values[end - 1] + share * (values[end] - values[end - 1]))
 
 
-def pick(what: Message, name: str, known: dict[str, Any]) -> Any:
+def pick(what: Message, name: str, table: dict[str, Any]) -> Any:
     """Entry of a table; an unknown name is refused with the nearest ones.
 
     Raises
@@ -152,15 +152,15 @@ def pick(what: Message, name: str, known: dict[str, Any]) -> Any:
     ModelError
         With the nearest known names.
     """
-    if name in known:
-        return known[name]
-    near = tuple(get_close_matches(name, list(known), n=2))
+    if name in table:
+        return table[name]
+    near = tuple(get_close_matches(name, list(table), n=2))
     raise ModelError(
         say(
             "catalogue.one_of",
             what=what,
             value=name,
-            accepted=tuple(known),
+            accepted=tuple(table),
             nearest=say("catalogue.nearest", near=near) if near else "",
         )
     )

@@ -128,10 +128,10 @@ def load_products() -> dict[str, Any]:
 
 def join(name: str, family: str, fitting: list[Product]) -> Product:
     """All that a name may mean: what each of them has, with its least and largest."""
-    shared = set.intersection(*(set(one.values) for one in fitting))
-    recalled = set().union(*(one.assumed for one in fitting))
+    shared = set.intersection(*(set(product.values) for product in fitting))
+    recalled = set().union(*(product.assumed for product in fitting))
     spans = {
-        quantity: [one.values[quantity] for one in fitting]
+        quantity: [product.values[quantity] for product in fitting]
         for quantity in fitting[0].values
         if quantity in shared
     }
@@ -139,7 +139,7 @@ def join(name: str, family: str, fitting: list[Product]) -> Product:
         quantity: (min(low for low, _ in listed), max(high for _, high in listed))
         for quantity, listed in spans.items()
     }
-    sources = dict.fromkeys(source for one in fitting for source in one.sources)
+    sources = dict.fromkeys(source for product in fitting for source in product.sources)
     return Product(
         id=name,
         family=family,
@@ -159,7 +159,7 @@ def make_beam(row: list[float]) -> Product:
     """
     table = load_products()["section"]
     columns = zip(row, table["columns"].items(), strict=True)
-    values = {quantity: _span(one, unit) for one, (quantity, unit) in columns}
+    values = {quantity: _span(values_, unit) for values_, (quantity, unit) in columns}
     return _make(values, table)
 
 
@@ -175,7 +175,7 @@ def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
     *sides, wall = (size * 1e-3 for size in sizes)
     if len(sides) == 1:
         tube = compute_tube(sides[0], wall)
-        return [_make({key: _span(one) for key, one in tube.items()}, table["round"])]
+        return [_make({key: _span(size) for key, size in tube.items()}, table["round"])]
     made = []
     for way in table["box"]:
         outer, inner = next(
@@ -184,7 +184,7 @@ def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
             if sizes[-1] <= limit
         )
         box = compute_box(sides[0], sides[1], wall, outer=outer, inner=inner)
-        made.append(_make({key: _span(one) for key, one in box.items()}, way))
+        made.append(_make({key: _span(size) for key, size in box.items()}, way))
     return made
 
 
@@ -221,8 +221,8 @@ def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
 
 def list_constructions(strands: Iterable[str]) -> list[str]:
     """Constructions of the catalogue with these strands, whatever their core."""
-    known = load_catalogue()["rope"]["construction"]
-    return [one for one in known if one.partition("-")[0] in strands]
+    constructions = load_catalogue()["rope"]["construction"]
+    return [rope for rope in constructions if rope.partition("-")[0] in strands]
 
 
 def make_rope(construction: str, diameter: float, grades: list[float]) -> Product:
@@ -237,7 +237,7 @@ def make_rope(construction: str, diameter: float, grades: list[float]) -> Produc
     grades : list of float
         Strengths of wires [N/mm2].
     """
-    area, breaking = (find_rope_factor(construction, one) for one in ("C", "K"))
+    area, breaking = (find_rope_factor(construction, factor) for factor in ("C", "K"))
     force = breaking.value * diameter**2
     values = {
         "rope_diameter": _span(diameter, 1e-3),

@@ -68,8 +68,8 @@ def find_product(name: str) -> Product | None:
         _find_hollow_bar,
         _find_rope,
     )
-    found = [one for find in finders if (one := find(text)) is not None]
-    return found[0] if len(found) == 1 else None
+    products = [product for find in finders if (product := find(text)) is not None]
+    return products[0] if len(products) == 1 else None
 
 
 def _simplify(name: str) -> str:
@@ -92,14 +92,14 @@ def _has_word(pattern: str, text: str) -> bool:
 
 def _find_beam(text: str) -> Product | None:
     table = load_products()["section"]["series"]
-    found = {
+    sections = {
         (series, next(filter(None, match.groups())))
-        for series, one in table.items()
+        for series, entry in table.items()
         for match in re.finditer(
-            rf"(?<![a-z0-9])(?:{one['pattern']})(?![a-z0-9]|/\d\d)", text
+            rf"(?<![a-z0-9])(?:{entry['pattern']})(?![a-z0-9]|/\d\d)", text
         )
     }
-    series, size = found.pop() if len(found) == 1 else ("", "")
+    series, size = sections.pop() if len(sections) == 1 else ("", "")
     row = table.get(series, {}).get("sizes", {}).get(size)
     return join(f"{series}{size}", "section", [make_beam(row)]) if row else None
 
@@ -108,17 +108,17 @@ def _find_hollow_section(text: str) -> Product | None:
     table = load_products()["hollow_section"]
     is_round = _has_word(table["round_word"], text)
     is_box = _has_word(table["box_word"], text)
-    found: set[tuple[float, ...]] = set()
+    sections: set[tuple[float, ...]] = set()
     for match in re.finditer(_SIZES, text):
-        sizes = [float(one) for one in match.groups() if one]
+        sizes = [float(size) for size in match.groups() if size]
         is_marked = text[: match.start()].endswith("@") or sizes[0] % 1.0 != 0.0
         if is_box or (is_round and len(sizes) == 3):
-            found |= _read_box(sizes, table)
+            sections |= _read_box(sizes, table)
         if not is_box and (is_round or is_marked):
-            found |= _read_tube(sizes, table, slack=0.5 if is_round else 0.0)
-    if len(found) != 1:
+            sections |= _read_tube(sizes, table, slack=0.5 if is_round else 0.0)
+    if len(sections) != 1:
         return None
-    sizes = list(found.pop())
+    sizes = list(sections.pop())
     name = "x".join(f"{size:g}" for size in sizes)
     kind = "CHS" if len(sizes) == 2 else "RHS"
     return join(f"{kind} {name}", "section", make_hollow_section(tuple(sizes)))
@@ -128,7 +128,7 @@ def _read_tube(
     sizes: list[float], table: dict[str, Any], slack: float
 ) -> set[tuple[float, ...]]:
     """Diameter and wall, if there is such a tube; a length may follow."""
-    nearest: float = min(table["diameters"], key=lambda one: abs(one - sizes[0]))
+    nearest: float = min(table["diameters"], key=lambda size: abs(size - sizes[0]))
     fits = abs(nearest - sizes[0]) <= slack and sizes[1] in table["walls"]
     return {(nearest, sizes[1])} if fits and sizes[1] <= nearest / 5.0 else set()
 
@@ -144,22 +144,22 @@ def _read_box(sizes: list[float], table: dict[str, Any]) -> set[tuple[float, ...
 def _find_bar(text: str) -> Product | None:
     table: list[dict[str, Any]] = load_products()["bar"]
     hits = (
-        (one, match)
-        for one in table
-        if (match := re.search(rf"(?<![a-z0-9])(?:{one['pattern']})(?![a-z])", text))
+        (entry, match)
+        for entry in table
+        if (match := re.search(rf"(?<![a-z0-9])(?:{entry['pattern']})(?![a-z])", text))
     )
     first, match = next(hits, (None, None))
     if first is None or match is None:
         return None
-    same = [one for one in table if one["id"] == first["id"]]
-    sizes = [size for one in same for size in one["diameters"]]
+    same = [entry for entry in table if entry["id"] == first["id"]]
+    sizes = [size for entry in same for size in entry["diameters"]]
     size = _find_diameter(text, match, sizes, may_precede=first.get("behind", False))
     if size is None and first.get("plain", False):
         return None
     fitting = [
-        make_bar(one, one["diameters"] if size is None else [size])
-        for one in same
-        if size is None or size in one["diameters"]
+        make_bar(entry, entry["diameters"] if size is None else [size])
+        for entry in same
+        if size is None or size in entry["diameters"]
     ]
     name = first["id"] if size is None else f"{first['id']} {size:g}"
     return join(name, "solid bar", fitting)
@@ -175,9 +175,9 @@ def _find_diameter(
         direct = re.search(rf"(?<![\w./]){_DECIMAL} ?$", before)
     if direct is not None:
         return _pick_size(float(direct[1]), sizes)
-    found = {_pick_size(one, sizes) for one in _list_marked(f"{before} ; {after}")}
-    found.discard(None)
-    return found.pop() if len(found) == 1 else None
+    marked = {_pick_size(size, sizes) for size in _list_marked(f"{before} ; {after}")}
+    marked.discard(None)
+    return marked.pop() if len(marked) == 1 else None
 
 
 def _pick_size(number: float, sizes: list[float]) -> float | None:
@@ -196,14 +196,14 @@ def _list_marked(text: str) -> Iterator[float]:
 def _find_hollow_bar(text: str) -> Product | None:
     table = load_products()["hollow"]
     is_said = _has_word(table["word"], text)
-    found: set[tuple[str, str]] = set()
+    bars: set[tuple[str, str]] = set()
     for match in re.finditer(_HOLLOW_BAR, text):
         letter, size, mark, number, titan = match.groups()
         if titan:
-            found.add(("TITAN", re.sub(" ?[/x-] ?", "/", titan)))
+            bars.add(("TITAN", re.sub(" ?[/x-] ?", "/", titan)))
         elif is_said or mark or number:
-            found.add((f"{letter}{size}".upper(), mark or number or ""))
-    series, mark = found.pop() if len(found) == 1 else ("", "")
+            bars.add((f"{letter}{size}".upper(), mark or number or ""))
+    series, mark = bars.pop() if len(bars) == 1 else ("", "")
     fitting = [
         make_hollow_bar(bar, family)
         for family in table["family"]
@@ -233,12 +233,12 @@ def _find_rope(text: str) -> Product | None:
     diameter = _find_rope_diameter(rest, table, is_enough=bool(strands))
     if diameter is None:
         return None
-    known = meant or set(chain.from_iterable(table["strands"].values()))
+    names = meant or set(chain.from_iterable(table["strands"].values()))
     numbers = {float(match[1]) for match in re.finditer(r"(?<!\d)(\d{4})(?!\d)", rest)}
-    grades = [float(one) for one in load_catalogue()["rope"]["grade"]["values"]]
+    grades = [float(grade) for grade in load_catalogue()["rope"]["grade"]["values"]]
     fitting = [
-        make_rope(one, diameter, [g for g in grades if g in numbers] or grades)
-        for one in _keep_cores(list_constructions(known), rest, table["cores"])
+        make_rope(rope, diameter, [g for g in grades if g in numbers] or grades)
+        for rope in _keep_cores(list_constructions(names), rest, table["cores"])
     ]
     return join(f"{written.replace(' ', '')} {diameter:g} mm", "rope", fitting)
 
@@ -250,14 +250,14 @@ def _find_rope_diameter(
     if re.search(r"(?<![\w.])\d ?x ?@?\d", text):  # several ropes
         return None
     low, high = table["diameters"]
-    found = {one for one in _list_marked(text) if low <= one <= high}
-    if is_enough and not found:
+    diameters = {number for number in _list_marked(text) if low <= number <= high}
+    if is_enough and not diameters:
         numbers = {float(match[1]) for match in re.finditer(_NUMBER, text)}
-        found = {one for one in numbers if low <= one <= high}
-    return found.pop() if len(found) == 1 else None
+        diameters = {number for number in numbers if low <= number <= high}
+    return diameters.pop() if len(diameters) == 1 else None
 
 
-def _keep_cores(known: list[str], text: str, cores: dict[str, str]) -> list[str]:
+def _keep_cores(ropes: list[str], text: str, cores: dict[str, str]) -> list[str]:
     """Constructions whose core is said; all, if none is, or none has it."""
     said = [core for core, pattern in cores.items() if _has_word(pattern, text)]
-    return [one for one in known if one.partition("-")[2] in said] or known
+    return [rope for rope in ropes if rope.partition("-")[2] in said] or ropes

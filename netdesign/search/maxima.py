@@ -226,7 +226,7 @@ class MaximaSearch:
         Each coordinate is a share of its range, 0 to 1. Asked again before the values
         are told, the points are the same.
         """
-        return tuple(one.point for one in self._asked)
+        return tuple(question.point for question in self._asked)
 
     def tell(
         self,
@@ -277,16 +277,16 @@ class MaximaSearch:
     def _note(self, values: Sequence[Values | None], expected: Prediction) -> None:
         """Log the questions with what was expected and what was found."""
         number = self.log[-1].round + 1 if self.log else 0
-        for k, (one, value) in enumerate(zip(self._asked, values, strict=True)):
+        for k, (question, value) in enumerate(zip(self._asked, values, strict=True)):
             self.log.append(
                 Addition(
-                    point=one.point,
+                    point=question.point,
                     round=number,
                     reason=self._reason,
-                    quantity=one.quantity,
-                    predicted=float(expected.mean[k, one.quantity]),
-                    standard_error=float(expected.standard_error[k, one.quantity]),
-                    found=math.nan if value is None else value[one.quantity],
+                    quantity=question.quantity,
+                    predicted=float(expected.mean[k, question.quantity]),
+                    standard_error=float(expected.standard_error[k, question.quantity]),
+                    found=math.nan if value is None else value[question.quantity],
                 )
             )
 
@@ -339,7 +339,7 @@ class MaximaSearch:
     ) -> tuple[Surrogate, Bounds]:
         """Model of the cases solved so far, and what it allows."""
         tolerance = _set_tolerance(values, self.settings, watched)
-        deciding = [q for q, one in watched.items() if one.is_deciding]
+        deciding = [q for q, bound in watched.items() if bound.is_deciding]
         if self._axis_weights is None and places.shape[1] > DENSE_DIMENSIONS:
             self._axis_weights = weigh_axes(
                 places, values[:, deciding], tolerance[deciding]

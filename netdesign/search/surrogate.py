@@ -135,8 +135,8 @@ class Surrogate:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
         trend, near = _build_trend(at), _correlate(self._measure(at))
         return [
-            trend @ self._trend_weights[:, one] + near @ self._weights[:, one]
-            for one in quantities
+            trend @ self._trend_weights[:, quantity] + near @ self._weights[:, quantity]
+            for quantity in quantities
         ]
 
 
@@ -234,9 +234,9 @@ def weigh_axes(places: Floats, values: Floats, tolerance: Floats) -> Floats:
     for axis, weight in product(range(len(weights)), _AXIS_WEIGHTS):
         tried = weights.copy()
         tried[axis] = weight
-        found = judge(tried)
-        if found < least:
-            least, weights = found, tried
+        misfit = judge(tried)
+        if misfit < least:
+            least, weights = misfit, tried
     return weights
 
 

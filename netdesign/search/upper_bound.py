@@ -130,7 +130,7 @@ def bound_quantities(
         reached = np.concatenate([heights, allowed[order[quantity], quantity]])
         excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
         wanted += zip(excess.tolist(), _settle(places), repeat(quantity), strict=False)
-    wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
+    wanted.sort(key=lambda entry: (-entry[0], entry[1], entry[2]))
     summits = _settle(around)
     return Bounds(
         best=best,
@@ -297,8 +297,8 @@ def choose_questions(
         return _pick(bounds, bounds.deciding, points, most, 0.0, GRAIN) or _pick(
             bounds, bounds.open, points, most, -math.inf, _BESIDE
         )
-    known = set(points)
-    beside = [one for one in _list_neighbours(bounds) if one.point not in known]
+    sampled = set(points)
+    beside = [ask for ask in _list_neighbours(bounds) if ask.point not in sampled]
     if beside:
         return beside[:room]
     return _pick(bounds, bounds.deciding, points, most, -math.inf, _TEST_APART)
@@ -313,11 +313,13 @@ def _pick(
     apart: float,
 ) -> list[Question]:
     """Wanted cases above an excess, well apart from each other and from known ones."""
-    asked = [one for one in bounds.wanted if one[2] in quantities and one[0] > least]
+    asked = [
+        want for want in bounds.wanted if want[2] in quantities and want[0] > least
+    ]
     if not asked:
         return []
-    at, known = np.array([point for _, point, _ in asked]), np.array(points)
-    is_free = measure_distances(at, known).min(axis=1) >= apart * (1.0 - 1e-9)
+    at, sampled = np.array([point for _, point, _ in asked]), np.array(points)
+    is_free = measure_distances(at, sampled).min(axis=1) >= apart * (1.0 - 1e-9)
     chosen: list[Question] = []
     for k in np.flatnonzero(is_free).tolist():
         if len(chosen) >= most:
@@ -330,10 +332,10 @@ def _pick(
 
 def _list_neighbours(bounds: Bounds) -> list[Question]:
     """Points just beside every maximum, along each axis: they tell if it is one."""
-    found: dict[Point, int] = {}
+    asked: dict[Point, int] = {}
     for place, quantity in bounds.summits:
         for axis, side in product(range(len(place)), (-_BESIDE, _BESIDE)):
             value = place[axis] + side
             if 0.0 <= value <= 1.0:
-                found.setdefault((*place[:axis], value, *place[axis + 1 :]), quantity)
-    return [Question(point, quantity) for point, quantity in found.items()]
+                asked.setdefault((*place[:axis], value, *place[axis + 1 :]), quantity)
+    return [Question(point, quantity) for point, quantity in asked.items()]

@@ -64,7 +64,7 @@ def build_plan(
             nodes.shape[1],
             len(triangles),
             net.size,
-            *(ctypes.c_void_p(locate(one)) for one in (triangles, nodes, net)),
+            *(ctypes.c_void_p(locate(array)) for array in (triangles, nodes, net)),
             *(LEAF, _MOST_NUMBERS),
             ctypes.c_void_p(locate(plan)),
             room,

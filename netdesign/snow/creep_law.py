@@ -204,7 +204,8 @@ def compute_factors(law: CreepLaw, densities: Floats) -> tuple[Floats, Floats]:
     """
     each = np.minimum(densities, DENSEST_SNOW).ravel().tolist()
     factors = [
-        (compute_shear_factor(law, one), compute_bulk_factor(law, one)) for one in each
+        (compute_shear_factor(law, temperature), compute_bulk_factor(law, temperature))
+        for temperature in each
     ]
     shear, bulk = np.array(factors).T.reshape(2, *densities.shape)
     return shear, bulk

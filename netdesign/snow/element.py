@@ -73,8 +73,8 @@ def find_preferred(value: float) -> float:
     """
     decade = 10.0 ** math.floor(math.log10(value))
     return min(
-        (round(one * decade, 12) for one in _PREFERRED),
-        key=lambda one: abs(math.log(one / value)),
+        (round(step * decade, 12) for step in _PREFERRED),
+        key=lambda step: abs(math.log(step / value)),
     )
 
 
@@ -108,13 +108,13 @@ def find_once(
     find : callable
         Of a template, and of what else can be a key.
     """
-    known = lru_cache(maxsize=256)(find)
+    cached = lru_cache(maxsize=256)(find)
 
-    @wraps(known)
+    @wraps(cached)
     def find_of_origin(
-        template: MeshTemplate, *given: Hashable, **named: Hashable
+        template: MeshTemplate, *arguments: Hashable, **named: Hashable
     ) -> Found:
-        return known(template.origin, *given, **named)
+        return cached(template.origin, *arguments, **named)
 
     return cast("Callable[Concatenate[MeshTemplate, Given], Found]", find_of_origin)
 

@@ -255,20 +255,20 @@ def transfer_state(
 
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
-    known, wanted = _list_points(source), _list_points(target)
-    layers, own = known[:, 1] // _FAR_APART, wanted[:, 1] // _FAR_APART
+    sources, wanted = _list_points(source), _list_points(target)
+    layers, own = sources[:, 1] // _FAR_APART, wanted[:, 1] // _FAR_APART
     nearest = np.empty(own.size, dtype=np.int64)
     for layer in range(len(source.interfaces) + 1):
         there, here = np.flatnonzero(layers == layer), np.flatnonzero(own == layer)
         for k in range(0, here.size, _AT_ONCE):
             piece = here[k : k + _AT_ONCE]
-            nearest[piece] = there[_find_nearest(known[there], wanted[piece])]
+            nearest[piece] = there[_find_nearest(sources[there], wanted[piece])]
     return nearest
 
 
-def _find_nearest(known: Floats, wanted: Floats) -> Ints:
+def _find_nearest(sources: Floats, wanted: Floats) -> Ints:
     """Nearest of some points (n, 2) to each of some others."""
-    (x_known, y_known), (x, y) = known.T, wanted.T[..., None]
+    (x_known, y_known), (x, y) = sources.T, wanted.T[..., None]
     distance, across = x - x_known, y - y_known
     distance *= distance
     across *= across
@@ -279,7 +279,7 @@ def _find_nearest(known: Floats, wanted: Floats) -> Ints:
 @lru_cache(maxsize=256)
 def _nearest_nodes(source: MeshTemplate, target: MeshTemplate) -> tuple[Ints, Ints]:
     """Nearest nodes on the net and on the ground, those of the foot left out."""
-    on_ground = (one.nodes[0, one.ground[1:]] for one in (source, target))
+    on_ground = (mesh.nodes[0, mesh.ground[1:]] for mesh in (source, target))
     return (
         _nearest(source.net_fractions[1:], target.net_fractions[1:]),
         _nearest(*on_ground),
@@ -298,8 +298,8 @@ def _list_points(template: MeshTemplate) -> Floats:
     return points + np.outer(layer, [0.0, _FAR_APART])
 
 
-def _nearest(known: Floats, wanted: Floats) -> Ints:
-    return np.asarray(np.abs(wanted[:, None] - known[None]).argmin(axis=1))
+def _nearest(sources: Floats, wanted: Floats) -> Ints:
+    return np.asarray(np.abs(wanted[:, None] - sources[None]).argmin(axis=1))
 
 
 def _resample_base(shear: Floats, source: MeshTemplate, target: MeshTemplate) -> Floats:

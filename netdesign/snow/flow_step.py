@@ -321,7 +321,7 @@ def linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tan
 def _gravity_load(problem: FlowProblem, material: Material, mesh: PlacedMesh) -> Floats:
     if isinstance(material.density, float):
         mass = mesh.load * material.density
-        load = mesh.to_node_axes(tuple(mass * one for one in problem.gravity))
+        load = mesh.to_node_axes(tuple(mass * part for part in problem.gravity))
     else:
         body_force = np.multiply.outer(np.array(problem.gravity), material.density)
         load = assemble_body_force(mesh, body_force)

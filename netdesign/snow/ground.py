@@ -134,8 +134,8 @@ class GlideTable:
             N [-]; beyond the table that of its end.
         """
         factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
-        found = np.interp(slip_ratio, ratios, factors)
-        return found if isinstance(slip_ratio, np.ndarray) else float(found)
+        factor = np.interp(slip_ratio, ratios, factors)
+        return factor if isinstance(slip_ratio, np.ndarray) else float(factor)
 
 
 @lru_cache(maxsize=1)

@@ -272,13 +272,13 @@ def _walk_boundary(
     """Nodes on the boundary from a corner along the ground and back to it."""
     loop = [corner]
     # of the foot's two neighbours the one on the ground
-    edge, vertex = max(around[corner], key=lambda one: float(points[one[1], 0]))
+    edge, vertex = max(around[corner], key=lambda pair: float(points[pair[1], 0]))
     while True:
         loop += [len(points) + edge, vertex]
         if vertex == corner:
             return loop
-        one, other = around[vertex]
-        edge, vertex = other if one[0] == edge else one
+        first, second = around[vertex]
+        edge, vertex = second if first[0] == edge else first
 
 
 def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:

@@ -92,17 +92,17 @@ class Snowpack:
     def _require_layers_add_up(self) -> None:
         thickness = _sum_thickness(self.layers)
         density = compute_mean_density(self.layers)
-        for name, total, given, unit in (
+        for name, total, stated, unit in (
             ("layer thicknesses", thickness, self.thickness, "m"),
             ("mean layer density", density, self.density, "kg/m3"),
         ):
-            if not abs(total - given) <= _LAYER_SUM_TOLERANCE * given:
+            if not abs(total - stated) <= _LAYER_SUM_TOLERANCE * stated:
                 raise ModelError(
                     say(
                         "snow.layers_add_up",
                         name=name_quantity(name),
                         total=total,
-                        given=given,
+                        given=stated,
                         unit=unit,
                     )
                 )

@@ -137,16 +137,16 @@ def build_series(
     air_temperatures : mapping of date to float, optional
         [K].
     """
-    given = list(readings)
-    first, warm = given[0], air_temperatures or {}
-    places = [(day - first).days for day in given]
+    measured = list(readings)
+    first, warm = measured[0], air_temperatures or {}
+    places = [(day - first).days for day in measured]
     every = range(places[-1] + 1)
     days = [first + timedelta(days=k) for k in every]
     heights = np.interp(np.array(every), places, list(readings.values()))
     between = [gap for gap in find_gaps(readings) if gap.is_between]
     for gap in between:
         heights[(gap.before - first).days + 1 : (gap.after - first).days] = 0.0
-    ends = [*(gap.before for gap in between), given[-1]]
+    ends = [*(gap.before for gap in between), measured[-1]]
     series = HeightSeries(
         first_day=first,
         heights=tuple(map(float, heights)),
@@ -212,10 +212,10 @@ def smooth(series: HeightSeries) -> HeightSeries:
     series : HeightSeries
         Without gaps.
     """
-    given: Floats = np.array(series.heights)
-    heights = given.copy()
-    if given.size > 2:
-        heights[1:-1] = np.median([given[:-2], given[1:-1], given[2:]], axis=0)
+    measured: Floats = np.array(series.heights)
+    heights = measured.copy()
+    if measured.size > 2:
+        heights[1:-1] = np.median([measured[:-2], measured[1:-1], measured[2:]], axis=0)
     return replace(series, heights=tuple(map(float, heights)))
 
 

@@ -46,7 +46,7 @@ def take_code(text: str) -> str:
     A docstring stands first or behind a colon at a line's end. Of text as it is
     formatted here nothing else is taken away, which the tests hold for every module.
     """
-    text = _STRINGS.sub(lambda one: "" if one[0].startswith("#") else one[0], text)
+    text = _STRINGS.sub(lambda hit: "" if hit[0].startswith("#") else hit[0], text)
     first = _FIRST.match(text)
     code = _DOCSTRING.sub(":", text[first.end() if first else 0 :])
     return "\n".join(line.rstrip() for line in code.split("\n") if line.strip())
@@ -70,7 +70,7 @@ def identify_installation() -> str:
     """
     digest = hashlib.sha256(identify_program().encode())
     for folder in map(find_resource, _RESOURCES):
-        for path in sorted(one for one in folder.rglob("*") if one.is_file()):
+        for path in sorted(filter(Path.is_file, folder.rglob("*"))):
             digest.update(path.relative_to(folder).as_posix().encode())
             digest.update(path.read_bytes())
     variables = {
@@ -87,7 +87,7 @@ def _list_installed() -> list[str]:
     To ask for single versions takes longer, and forgets what those packages need.
     """
     folders = (Path(place) for place in sys.path)
-    return sorted({one.name for folder in folders for one in folder.glob("*-info")})
+    return sorted({path.name for folder in folders for path in folder.glob("*-info")})
 
 
 @lru_cache
@@ -110,4 +110,4 @@ def _list_files(parts: tuple[str, ...], package: Path) -> Iterator[Path]:
     for part in parts:
         place = package / part
         files = [place] if place.is_file() else sorted(place.rglob("*"))
-        yield from (one for one in files if one.suffix in (".py", ".toml"))
+        yield from (file for file in files if file.suffix in (".py", ".toml"))

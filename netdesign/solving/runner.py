@@ -87,26 +87,26 @@ class Runner:
         ]
         names = [name for batch in named for name, _ in batch]
         nothing: dict[str, CaseEnd] = {}
-        known = self.ask_store(lambda store: store.find(names), nothing)
-        for end in known.values():
+        solved_cases = self.ask_store(lambda store: store.find(names), nothing)
+        for end in solved_cases.values():
             self.on_done(end)
         solved = self.counts.solved
-        while missing := _list_missing(named, known):
+        while missing := _list_missing(named, solved_cases):
             todo = [tuple(batch.values()) for batch in missing]
             self.on_ask([job for batch in todo for job in batch])
             for place, ends in self.workers.solve(todo):
                 for name, end in zip(missing[place], ends, strict=False):
-                    known[name] = end
+                    solved_cases[name] = end
                     self._note(name, end)
-            if any(batch.keys().isdisjoint(known) for batch in missing):
-                # else it would be asked for for ever
+            if any(batch.keys().isdisjoint(solved_cases) for batch in missing):
+                # without this the loop would not end
                 raise KeyError("workers lost a batch")
-        found = [
-            find_in_turn([name for name, _ in batch], known.__getitem__)
+        answers = [
+            find_in_turn([name for name, _ in batch], solved_cases.__getitem__)
             for batch in named
         ]
-        self.counts.reused += sum(map(len, found)) - (self.counts.solved - solved)
-        return found
+        self.counts.reused += sum(map(len, answers)) - (self.counts.solved - solved)
+        return answers
 
     def _note(self, name: str, end: CaseEnd) -> None:
         self.ask_store(lambda store: store.keep(name, end), None)
@@ -162,25 +162,25 @@ _Named = list[tuple[str, Job]]
 
 
 def _list_missing(
-    batches: Sequence[_Named], known: dict[str, CaseEnd]
+    batches: Sequence[_Named], ends: dict[str, CaseEnd]
 ) -> list[dict[str, Job]]:
     """Unknown cases of each batch that has any; a shared one goes with the first.
 
     The second batch waits for that case, and may then need no more.
     """
-    found: list[dict[str, Job]] = []
+    missing_batches: list[dict[str, Job]] = []
     claimed: set[str] = set()
     for batch in batches:
         missing: dict[str, Job] = {}
         for name, job in batch:
-            if name in claimed or (name in known and is_stuck(known[name])):
+            if name in claimed or (name in ends and is_stuck(ends[name])):
                 break
-            if name not in known:
+            if name not in ends:
                 missing[name] = job
                 claimed.add(name)
         if missing:
-            found.append(missing)
-    return found
+            missing_batches.append(missing)
+    return missing_batches
 
 
 @contextmanager

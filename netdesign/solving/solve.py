@@ -158,9 +158,9 @@ class SolvedState:
     def is_finite(self) -> bool:
         """Every number from which a force follows is one, and no error is negative."""
         parts = (
-            getattr(one, key)
-            for one in (self.foot, self.head, self.balance)
-            for key in one.__dataclass_fields__
+            getattr(part, key)
+            for part in (self.foot, self.head, self.balance)
+            for key in part.__dataclass_fields__
         )
         numbers = [self.tension_max, *(part for part in parts if part is not None)]
         shape = (self.net_curve, self.net_forces, self.mesh_nodes)
@@ -232,8 +232,8 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         If the two are not what ``encode_end`` wrote.
     """
     numbers: dict[str, Any] = json.loads(text)
-    outcome, given = Outcome(numbers["outcome"]), numbers["reason"]
-    reason = None if given is None else restore(given)
+    outcome, stored = Outcome(numbers["outcome"]), numbers["reason"]
+    reason = None if stored is None else restore(stored)
     if outcome is not Outcome.CONVERGED:
         if reason is None:
             raise ValueError("a failure without a reason")

@@ -52,9 +52,9 @@ class StoreError(NetDesignError):
 
 def find_store() -> Path:
     """File of the finished cases: ``NETDESIGN_STORE``, or one in the user's cache."""
-    given = os.environ.get("NETDESIGN_STORE")
-    if given:
-        return Path(given)
+    folder = os.environ.get("NETDESIGN_STORE")
+    if folder:
+        return Path(folder)
     from platformdirs import user_cache_path
 
     # without an author's folder, or one named Cache, on Windows
@@ -140,10 +140,10 @@ class CaseStore:
                 raise StoreError(say("store.unusable", path=str(path), cause=cause))
             if fault:
                 aside = _set_aside(path)
-                told = say(
+                warning = say(
                     "store.set_aside", path=str(path), fault=fault, aside=aside.name
                 )
-                tell(told)
+                tell(warning)
                 fault = self._open()
         except (OSError, sqlite3.Error) as error:
             raise StoreError(
@@ -206,7 +206,7 @@ class CaseStore:
     def find(self, names: Iterable[str]) -> dict[str, CaseEnd]:
         """Known cases among the names; a damaged entry is told and left out."""
         wanted = list(dict.fromkeys(names))
-        found: dict[str, CaseEnd] = {}
+        ends: dict[str, CaseEnd] = {}
         for start in range(0, len(wanted), _LOOKED_UP):
             part = wanted[start : start + _LOOKED_UP]
             marks = ", ".join("?" * len(part))
@@ -219,8 +219,8 @@ class CaseStore:
                     self._describe_damaged("store.case_damaged", name)
                     self._base.execute("DELETE FROM cases WHERE name = ?", (name,))
                 else:
-                    found[name] = end
-        return found
+                    ends[name] = end
+        return ends
 
     def _describe_damaged(self, key: str, name: str) -> None:
         self._tell(say(key, path=str(self.path), name=name[:12]))
@@ -278,7 +278,7 @@ def _unpack(name: str, packed: bytes, seal: str) -> list[str] | None:
         # never more than a study may have, whatever was packed there
         text = zlib.decompressobj().decompress(packed, MAX_JSON_BYTES)
         texts = json.loads(text)
-        if isinstance(texts, list) and all(isinstance(one, str) for one in texts):
+        if isinstance(texts, list) and all(isinstance(text, str) for text in texts):
             return texts
     return None
 

@@ -202,28 +202,28 @@ class ProcessPool:
             suspects = yield from self.spread(solve_batch, waiting)
             yield from _try_job_by_job(suspects)
 
-    def begin(self, work: Callable[..., Found], *given: Any) -> Callable[[], Found]:
+    def begin(self, work: Callable[..., Found], *arguments: Any) -> Callable[[], Found]:
         """Call that a worker makes meanwhile; its result is that of what is returned.
 
         What it is given is packed here and now: the pool would do so in a thread of its
         own, while this one goes on and fills what the values keep of themselves.
         Where the worker dies or fails, the call is made here when it is asked for.
         """
-        packed = pickle.dumps(partial(work, *given), pickle.HIGHEST_PROTOCOL)
+        packed = pickle.dumps(partial(work, *arguments), pickle.HIGHEST_PROTOCOL)
         call: Callable[[], Found] = partial(_call_packed, packed)
         caught = partial(catch_fault, call, work.__name__)
         try:
             future = self._start().submit(caught)
         except BrokenProcessPool:  # a worker has died since its last work
             self.close()
-            return partial(work, *given)
+            return partial(work, *arguments)
 
         def finish() -> Found:
             with suppress(BrokenProcessPool, MemoryError):
-                found = future.result()
-                if not isinstance(found, Fault):
-                    return found
-            return work(*given)  # a fault is met again where it can be told
+                answer = future.result()
+                if not isinstance(answer, Fault):
+                    return answer
+            return work(*arguments)  # a fault is met again where it can be told
 
         return finish
 
@@ -243,13 +243,13 @@ class ProcessPool:
                     held[pool.submit(work, waiting[-1][1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(held, return_when=FIRST_COMPLETED).done:
-                    found = future.result()
+                    answer = future.result()
                     place, _ = held.pop(future)
-                    yield place, found
+                    yield place, answer
         except BrokenProcessPool:
             self.close()
             self._worth = 0  # what kills a worker shall not kill this process
-            return sorted(held.values(), key=lambda one: one[0])
+            return sorted(held.values(), key=lambda entry: entry[0])
         return []
 
     @property

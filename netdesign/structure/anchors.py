@@ -104,9 +104,8 @@ def turn_by_splay(inclination: float, splay: float) -> float:
     float
         Of the guy in space, against the slope surface [rad].
     """
-    rises = math.cos(splay) * math.sin(inclination)
-    found = math.asin(rises)
-    return found if inclination <= 0.5 * math.pi else math.pi - found
+    rise = math.asin(math.cos(splay) * math.sin(inclination))
+    return rise if inclination <= 0.5 * math.pi else math.pi - rise
 
 
 def find_pull_range(directions: Iterable[float]) -> PullRange | None:
@@ -122,8 +121,8 @@ def find_pull_range(directions: Iterable[float]) -> PullRange | None:
     PullRange or None
         None of none.
     """
-    found = sorted(directions)
-    return PullRange(least=found[0], largest=found[-1]) if found else None
+    ordered = sorted(directions)
+    return PullRange(least=ordered[0], largest=ordered[-1]) if ordered else None
 
 
 def turn_sideways(angle: float, share: float) -> float:
@@ -226,7 +225,7 @@ class AnchorForces:
     def head_pull(self) -> Point:
         """Pull of the net on the head: what its members bring to the ground [N]."""
         brought = (self.post_base, self.uphill_anchor, self.downhill_anchor)
-        return sum(one.x for one in brought), sum(one.y for one in brought)
+        return sum(force.x for force in brought), sum(force.y for force in brought)
 
     @property
     def member_forces(self) -> dict[str, float]:
@@ -344,7 +343,7 @@ def compute_forces_of_pulls(
         head_pull_per_m=head_pull_per_m,
         post_spacing=post_spacing,
     )
-    return {one: force[0] for one, force in of_members.items()}, is_held[0]
+    return {member: force[0] for member, force in of_members.items()}, is_held[0]
 
 
 def compute_forces_of_layouts(

@@ -126,7 +126,7 @@ def compute_head_forces(
     held = hold_head(pull, post, uphill, downhill)
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
-    sizes = {one.name: getattr(held, one.name) for one in fields(MemberSizes)}
+    sizes = {field.name: getattr(held, field.name) for field in fields(MemberSizes)}
     return HeadForces(**sizes, reason=say(_describe_carriers(held)))
 
 
@@ -170,7 +170,7 @@ def hold_head(
     is_lifted = in_post < 0.0
     if as_mask(is_lifted).any():
         guys = _hold_without_post(pull, (uphill, downhill), (up, down))
-        loose_uphill, loose_downhill = (choose(is_lifted, one, none) for one in guys)
+        loose_uphill, loose_downhill = (choose(is_lifted, guy, none) for guy in guys)
     return HeldHead(
         post_compression=take_larger(in_post, 0.0),
         post_tension=take_larger(0.0 - in_post, 0.0),  # never -0
@@ -185,9 +185,9 @@ def hold_head(
     )
 
 
-def _pulls_more(one: _Pair[Number], other: _Pair[Number]) -> Truth:
-    """Beside one guy the post pulls more than beside another on the same side of it."""
-    return one.can_pull & (one.in_post < other.in_post)
+def _pulls_more(first: _Pair[Number], second: _Pair[Number]) -> Truth:
+    """The post pulls more beside the first guy than beside the second."""
+    return first.can_pull & (first.in_post < second.in_post)
 
 
 def _hold_without_post(
@@ -201,7 +201,7 @@ def _hold_without_post(
     """
     up, down = _share_between_guys(pull, *guys)
     hold, none = (up >= 0.0) & (down >= 0.0), 0.0 * up
-    by_up, by_down = (choose(one.can_pull, one.tension, none) for one in pairs)
+    by_up, by_down = (choose(pair.can_pull, pair.tension, none) for pair in pairs)
     return choose(hold, up, by_up), choose(hold, down, by_down)
 
 

@@ -107,7 +107,7 @@ class ManyLayouts:
             post_spacing=first.post_spacing,
             is_foot_shared=first.is_foot_shared,
             post_base_distance=first.post_base_distance,
-            lean=spread(one.lean for one in layouts),
+            lean=spread(layout.lean for layout in layouts),
             uphill_anchor_distance=spread(x.uphill_anchor_distance for x in layouts),
             downhill_anchor_distance=spread(
                 x.downhill_anchor_distance for x in layouts

@@ -25,7 +25,7 @@ class Member(StrEnum):
 
 
 # Those that carry a force to be resisted: all but the net.
-CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
+CARRYING_MEMBERS = tuple(member for member in Member if member is not Member.NET)
 
 
 class EndMember(StrEnum):

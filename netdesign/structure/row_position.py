@@ -220,7 +220,7 @@ def list_supports(
         return inside, wide
     third = beside  # in a row of four the next one stands beside an end, too
     if post_count is not None and post_count != 4:
-        third = sum(share_end_effect(reach, one) for one in (2, last - 2) if one > 1)
+        third = sum(share_end_effect(reach, post) for post in (2, last - 2) if post > 1)
     second = replace(
         edge,
         position="second",
@@ -264,7 +264,7 @@ def find_least_distance(bores: Sequence[Bore]) -> float:
     tests/verification/test_anchor_distance.py
     """
     pairs = combinations(bores, 2)
-    return min((measure_distance(one, other) for one, other in pairs), default=math.inf)
+    return min((measure_distance(*pair) for pair in pairs), default=math.inf)
 
 
 def find_distance_to_row_above(
@@ -286,9 +286,10 @@ def find_distance_to_row_above(
     -----------
     tests/verification/test_anchor_distance.py
     """
-    here, above = ({_flatten(one) for one in found} for found in (bores, alike))
+    here, above = (set(map(_flatten, anchors)) for anchors in (bores, alike))
     moved = [
-        replace(one, start=(one.start[0] - upslope, *one.start[1:])) for one in above
+        replace(bore, start=(bore.start[0] - upslope, *bore.start[1:]))
+        for bore in above
     ]
     pairs = product(here, moved)
     return min((measure_distance(*pair) for pair in pairs), default=math.inf)
@@ -303,7 +304,7 @@ def _flatten(bore: Bore) -> Bore:
     return Bore(start=(x, y, 0.0), direction=direction, length=length)
 
 
-def measure_distance(one: Bore, other: Bore) -> float:
+def measure_distance(first: Bore, second: Bore) -> float:
     """Least distance of two anchors, each a straight line of its length [m].
 
     It lies between two points inside both, or at an end of one of them.
@@ -312,9 +313,11 @@ def measure_distance(one: Bore, other: Bore) -> float:
     -----------
     tests/verification/test_anchor_distance.py
     """
-    ways = (one.direction, other.direction)
-    lengths = [_LONG if bore.length is None else bore.length for bore in (one, other)]
-    x, y, z = (a - b for a, b in zip(one.start, other.start, strict=True))
+    ways = (first.direction, second.direction)
+    lengths = [
+        _LONG if bore.length is None else bore.length for bore in (first, second)
+    ]
+    x, y, z = (a - b for a, b in zip(first.start, second.start, strict=True))
     gap = (x, y, z)
     cosine = _dot(*ways)
     along = (_dot(ways[0], gap), _dot(ways[1], gap))
@@ -322,15 +325,16 @@ def measure_distance(one: Bore, other: Bore) -> float:
     tried = [(end, along[1] + end * cosine) for end in (0.0, lengths[0])]
     tried += [(end * cosine - along[0], end) for end in (0.0, lengths[1])]
     if sine > 1e-12:
-        first = (cosine * along[1] - along[0]) / sine
-        tried.append((first, along[1] + first * cosine))
+        nearest = (cosine * along[1] - along[0]) / sine
+        tried.append((nearest, along[1] + nearest * cosine))
     return min(
-        math.dist(_go(one, s, lengths[0]), _go(other, t, lengths[1])) for s, t in tried
+        math.dist(_go(first, s, lengths[0]), _go(second, t, lengths[1]))
+        for s, t in tried
     )
 
 
-def _dot(one: Place, other: Place) -> float:
-    return sum(a * b for a, b in zip(one, other, strict=True))
+def _dot(first: Place, second: Place) -> float:
+    return sum(a * b for a, b in zip(first, second, strict=True))
 
 
 def _go(bore: Bore, way: float, length: float) -> Place:
@@ -405,9 +409,9 @@ def measure_fall(way: Place, slope: float) -> float:
     return way[0] * math.sin(slope) - way[1] * math.cos(slope)
 
 
-def measure_angle(one: Place, other: Place) -> float:
+def measure_angle(first: Place, second: Place) -> float:
     """Angle between two directions of length 1 [rad]."""
-    return 2.0 * math.asin(min(1.0, 0.5 * math.dist(one, other)))
+    return 2.0 * math.asin(min(1.0, 0.5 * math.dist(first, second)))
 
 
 def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
@@ -446,5 +450,5 @@ def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
 def _shorten(way: Sequence[float]) -> Place:
     """The same of length 1."""
     length = math.hypot(*way)
-    x, y, z = (one / length for one in way)
+    x, y, z = (part / length for part in way)
     return x, y, z

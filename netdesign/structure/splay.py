@@ -231,11 +231,11 @@ def is_held_sideways(
     -----------
     tests/structure/test_splay.py
     """
-    known: dict[int, tuple[Point, Point, Point]] = {}
-    for one in places:  # many states stand on one support
-        if id(one) not in known:
-            known[id(one)] = _list_directions(one)
-    ways = np.array([known[id(one)] for one in places]).transpose(1, 2, 0)
+    directions: dict[int, tuple[Point, Point, Point]] = {}
+    for points in places:  # many states stand on one support
+        if id(points) not in directions:
+            directions[id(points)] = _list_directions(points)
+    ways = np.array([directions[id(points)] for points in places]).transpose(1, 2, 0)
     x, y = np.array(pulls).T
     (post, uphill, downhill) = ((way[0], way[1]) for way in ways)
     head = hold_head((x, y), post, uphill, downhill)
@@ -356,12 +356,12 @@ def share_with_end_guy(
     -----------
     tests/verification/test_end_guy.py
     """
-    ways, lengths = _list_ropes([one.points for one in heads], splay, guy)
-    loads = np.array([(*one.pull, one.along) for one in heads])
-    given = np.array(stiffness)
-    ends = given[:, [0, 0, 1, 1, 2]] / lengths[:, None]  # (n, m, 5)
-    posts = np.array([(*_list_directions(one.points)[0], 0.0) for one in heads])
-    of_post = given[:, 3] / np.array([[one.points.post_length] for one in heads])
+    ways, lengths = _list_ropes([head.points for head in heads], splay, guy)
+    loads = np.array([(*head.pull, head.along) for head in heads])
+    axial = np.array(stiffness)
+    ends = axial[:, [0, 0, 1, 1, 2]] / lengths[:, None]  # (n, m, 5)
+    posts = np.array([(*_list_directions(head.points)[0], 0.0) for head in heads])
+    of_post = axial[:, 3] / np.array([[head.points.post_length] for head in heads])
     frame = of_post[..., None, None] * (posts[:, :, None] * posts[:, None, :])[:, None]
     squares = ways[..., :, None] * ways[..., None, :]  # (n, 5, 3, 3)
     of_ropes = ends[..., None, None] * squares[:, None]
@@ -377,8 +377,8 @@ def share_with_end_guy(
     if not fits.any(axis=-1).all():
         return None
     first = fits.argmax(axis=-1)[..., None, None]
-    found = np.take_along_axis(longer, first, axis=2)[:, :, 0]
-    tensions: Floats = ends * np.maximum(found, 0.0)
+    lengthened = np.take_along_axis(longer, first, axis=2)[:, :, 0]
+    tensions: Floats = ends * np.maximum(lengthened, 0.0)
     return tensions
 
 
@@ -393,13 +393,13 @@ def _list_ropes(
     for points in places:
         _, *guys = _list_directions(points)
         anchors = (points.uphill_anchor, points.downhill_anchor)
-        in_section = [math.dist(points.head, one) for one in anchors]
+        in_section = [math.dist(points.head, anchor) for anchor in anchors]
         flat, out = math.cos(splay), math.sin(splay)
         ways.append(
             [(x * flat, y * flat, side * out) for x, y in guys for side in (-1.0, 1.0)]
         )
         ways[-1].append(guy.find_way(points))
-        long = [one / flat for one in in_section for _ in range(2)]
+        long = [length / flat for length in in_section for _ in range(2)]
         end = math.dist((*points.head, 0.0), guy.find_anchor(points))
         lengths.append([*long, end])
     return np.array(ways), np.array(lengths)

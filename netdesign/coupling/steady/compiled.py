@@ -156,14 +156,14 @@ class CompiledRounds:
         ValueError
             If an array is not of its shape.
         """
-        given = to_floats(curve, (2, self.n_net))  # a copy lives as long as the call
+        nodes = to_floats(curve, (2, self.n_net))  # a copy lives as long as the call
         if state is not None:
             _copy_state(state, self.view_state(results))
         self.argument.effort.tolerance = tolerance
         return require_sound(
             self.library.nd_round(
                 ctypes.byref(self.argument),
-                ctypes.c_void_p(locate(given)),
+                ctypes.c_void_p(locate(nodes)),
                 ctypes.c_double(self.still),
                 int(state is not None),
                 *self._point(results),
@@ -190,8 +190,11 @@ class CompiledRounds:
         ValueError
             If an array is not of its shape.
         """
-        given, results = to_floats(on_net, (2, self.n_net)), self._lay_out(pull, parts)
-        forces = ctypes.c_void_p(locate(given))
+        on_nodes, results = (
+            to_floats(on_net, (2, self.n_net)),
+            self._lay_out(pull, parts),
+        )
+        forces = ctypes.c_void_p(locate(on_nodes))
         where = self._point(results)
         code = self.library.nd_hang(ctypes.byref(self.argument), forces, *where)
         _require_hung(require_sound(code))

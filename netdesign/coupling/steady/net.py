@@ -255,14 +255,14 @@ def _find_parts(
 ) -> Floats:
     """Lengths of the parts, from the pull of the last round or of the last lengths."""
     cut, head_x = _cut(problem), float(problem.head[0])
-    known = (cut, forces, head_x, problem.length, problem.stiffness)
-    found = find_part_lengths(*known, pull)
-    if found is None:
+    cable = (cut, forces, head_x, problem.length, problem.stiffness)
+    lengths = find_part_lengths(*cable, pull)
+    if lengths is None:
         hung = _solve_cable(problem, forces, _lengthen(problem, parts), pull)
-        found = find_part_lengths(*known, hung.pull)
-    if found is None:
+        lengths = find_part_lengths(*cable, hung.pull)
+    if lengths is None:
         raise SolveError(Outcome.NO_EQUILIBRIUM, say("steady.contact_not_found"))
-    return found
+    return lengths
 
 
 def _lengthen(problem: SteadyProblem, parts: Floats) -> Floats:

@@ -182,13 +182,13 @@ def take_round(
     if flow.outcome is not Outcome.CONVERGED:
         raise explain_flow(problem, flow.outcome)
     on_net = share_net_forces(snow, mesh, flow.state.reaction)
-    found = hang_net(problem, on_net, net.cable.pull, net.parts)
+    hung = hang_net(problem, on_net, net.cable.pull, net.parts)
     return RoundResult(
         curve=curve,
-        image=find_contact_curve(problem, found),
+        image=find_contact_curve(problem, hung),
         mesh=mesh,
         state=flow.state,
-        net=found,
+        net=hung,
         linear_solves=flow.linear_solves,
         change=flow.change,
         condense=partial(condense_to_net, snow, mesh, flow.state),
@@ -343,14 +343,14 @@ def correct_round(
     )
 
 
-def carry_tangent(tangent: Floats, known: Floats, wanted: Floats) -> Floats:
+def carry_tangent(tangent: Floats, places: Floats, wanted: Floats) -> Floats:
     """Derivative of a round between the nodes of another mesh.
 
     Parameters
     ----------
     tangent : ndarray, shape (2, n, 2, n)
         Component and node of the curve found; of the curve given.
-    known, wanted : ndarray, shape (n,), (m,)
+    places, wanted : ndarray, shape (n,), (m,)
         Places of its nodes and of the other mesh's along the net.
 
     Returns
@@ -358,14 +358,14 @@ def carry_tangent(tangent: Floats, known: Floats, wanted: Floats) -> Floats:
     ndarray, shape (2, m, 2, m)
         Of curves that are straight between nodes.
     """
-    to_known, to_wanted = _interpolate(wanted, known), _interpolate(known, wanted)
+    to_places, to_wanted = _interpolate(wanted, places), _interpolate(places, wanted)
     rows = np.einsum("fi,aibj->afbj", to_wanted, tangent)
-    return np.asarray(rows @ to_known)
+    return np.asarray(rows @ to_places)
 
 
-def _interpolate(known: Floats, wanted: Floats) -> Floats:
-    """Values at wanted places of hats about the known ones, (wanted, known)."""
-    return np.array([np.interp(wanted, known, hat) for hat in np.eye(known.size)]).T
+def _interpolate(places: Floats, wanted: Floats) -> Floats:
+    """Values at the wanted places of hats about the places, shape (wanted, places)."""
+    return np.array([np.interp(wanted, places, hat) for hat in np.eye(places.size)]).T
 
 
 def _find_step(tangent: Floats | None, miss: Floats) -> Floats:

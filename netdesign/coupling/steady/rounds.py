@@ -281,9 +281,9 @@ def _carry(problem: SteadyProblem, guess: CoupledState | None) -> Floats | None:
     """Derivative of a round as the coarser mesh knew it; None if it will not do."""
     if guess is None or guess.tangent is None or guess.pull_gain > _CALM:
         return None
-    known = locate_nodes(guess.problem.template, guess.last.net)
+    places = locate_nodes(guess.problem.template, guess.last.net)
     wanted = locate_nodes(problem.template, guess.last.net)
-    return carry_tangent(guess.tangent, known, wanted)
+    return carry_tangent(guess.tangent, places, wanted)
 
 
 def _begin(
@@ -335,12 +335,12 @@ def _start_curve(
     source, target = guess.problem.template, problem.template
     if not source.interfaces and not target.interfaces:
         return np.asarray(curve @ _weigh_nodes(source.origin, target.origin))
-    known, wanted = (locate_nodes(one, net) for one in (source, target))
-    return interpolate_curve(known, curve, wanted)
+    places, wanted = (locate_nodes(template, net) for template in (source, target))
+    return interpolate_curve(places, curve, wanted)
 
 
 @lru_cache(maxsize=64)  # else a twentieth of a solve
 def _weigh_nodes(source: MeshTemplate, target: MeshTemplate) -> Floats:
     """Weights of a net's nodes in those of another mesh, without layers, (n, m)."""
-    known, wanted = source.net_fractions, target.net_fractions
-    return interpolate_curve(known, np.eye(known.size), wanted)
+    places, wanted = source.net_fractions, target.net_fractions
+    return interpolate_curve(places, np.eye(places.size), wanted)

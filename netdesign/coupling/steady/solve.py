@@ -142,7 +142,7 @@ def _widen(freed: Solution, held: Solution | None) -> Solution:
 
 def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
     states, estimates = _solve_levels(scene, settings)
-    solution = _build_solution(scene, states, [one.error for one in estimates])
+    solution = _build_solution(scene, states, [end.error for end in estimates])
     try:
         check_balance(
             solution.balance,
@@ -294,8 +294,8 @@ def _build_solution(
         mesh_velocity=mesh.to_slope_axes(state.unknowns) * scene.velocity_scale,
         balance=measure_balance(problem.snow, mesh, forces, held, cable.tension, scale),
         cost=Cost(
-            linear_solves=sum(one.linear_solves for one in states),
-            rounds=sum(one.rounds for one in states),
+            linear_solves=sum(state.linear_solves for state in states),
+            rounds=sum(state.rounds for state in states),
             elements=mesh.template.triangles.shape[1],
             degrees_of_freedom=mesh.n_dofs,
             skipped=list_skipped(scene, mesh),
