@@ -124,10 +124,10 @@ THIRD_PARTY = {
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.files",),
     "docx": ("report.document.*",),
-    "rasterio": ("addons.terrain.grid", "addons.terrain.crs"),
+    "rasterio": ("addons.terrain.grid",),
     "pyogrio": ("addons.terrain.plan",),
     "shapely": ("addons.terrain.*",),
-    "contourpy": ("addons.terrain.drawing",),
+    "contourpy": ("addons.terrain.page",),
     "ezdxf": ("addons.terrain.verdict_map",),
     "PIL": ("report.drawing.raster",),
     "matplotlib": (

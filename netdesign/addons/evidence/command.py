@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 _FAIL, _NOT_PROVEN = 1, 4
-_SHOWN = 20  # differences; more help nobody
+_SHOWN = 20  # differences at most
 
 
 @click.command()

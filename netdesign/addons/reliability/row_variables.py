@@ -1,6 +1,6 @@
 """Random variables of a row's governing check: typed, assumed, or of a range.
 
-``assumed.toml`` has what is assumed where nobody gives a distribution. Theory:
+``assumed.toml`` has the distributions that count where the workbook gives none. Theory:
 addons/reliability/THEORY.md, section 1.
 """
 
@@ -189,7 +189,7 @@ def _build(
 
 
 def _find_ranged(find: _Find, name: str, low: float, high: float) -> KnownVariable:
-    """Variable of a range of the workbook: its middle nine tenths, if nobody says."""
+    """Variable of a range of the workbook: its middle nine tenths, unless typed."""
     typed, middle = find(name), 0.5 * (low + high)
     if typed is not None:
         variable = _build_typed(typed, name, middle)

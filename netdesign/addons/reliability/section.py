@@ -84,12 +84,12 @@ _NONE = (text_cell(MISSING),) * 5  # beside a row without an index
 
 
 def list_records(study: Study) -> list[tuple[RowStudy, ReliabilityRecord]]:
-    """Rows with what is known of their reliability; none where nobody asked."""
+    """Rows with their reliability records; none without ``--reliability``."""
     return [(row, row.reliability) for row in study.rows if row.reliability]
 
 
 def show_reliability(study: Study, words: Words) -> Iterator[Part]:
-    """Annex of the notional reliability; none where nobody asked for it."""
+    """Annex of the notional reliability; none without ``--reliability``."""
     records = list_records(study)
     if records:
         yield section(

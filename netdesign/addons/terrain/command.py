@@ -23,12 +23,12 @@ from netdesign.outcome import TerrainError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from netdesign.addons.terrain.as_typed import Lines
     from netdesign.addons.terrain.coverage import Coverage
     from netdesign.addons.terrain.geojson import Feature
     from netdesign.addons.terrain.grid import Grid
     from netdesign.addons.terrain.measure import MeasuredRow
     from netdesign.addons.terrain.plan import Plan
+    from netdesign.addons.terrain.site_lines import Lines
     from netdesign.addons.terrain.surface import Surface
 
 _SITE, _ROWS_FILE, _PAGE_FILE = "site.xlsx", "rows.geojson", "terrain.html"
@@ -55,9 +55,9 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     cell has a note with its band and its stretch. The map of verdicts is GeoJSON or a
     drawing (.dxf). It needs pip install "netdesign[terrain]".
     """
-    if any(find_spec(one) is None for one in _LIBRARIES):
-        told = 'terrain needs additional packages: pip install "netdesign[terrain]"'
-        raise TerrainError(told)
+    if any(find_spec(library) is None for library in _LIBRARIES):
+        message = 'terrain needs additional packages: pip install "netdesign[terrain]"'
+        raise TerrainError(message)
     if asked["study_file"] is not None:
         _map_study(asked["study_file"], asked["places_file"], asked)
         return
@@ -65,8 +65,8 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
     folder, site = _place(asked)
     if asked["example"]:
         if grid is not None or folder is None:
-            told = "--example has a grid and rows of its own, and writes files"
-            raise UsageRefusal(told)
+            message = "--example has a grid and rows of its own, and writes files"
+            raise UsageRefusal(message)
         from netdesign.addons.terrain.example import write_example
 
         grid, rows, asked["types"] = write_example(folder, overwrite=asked["force"])
@@ -79,7 +79,7 @@ def _map_study(
     study_file: Path, places_file: Path | None, asked: Mapping[str, Any]
 ) -> None:
     """Verdicts and anchors of a stored study on the map."""
-    from netdesign.addons.terrain.places import read_places
+    from netdesign.addons.terrain.geojson import read_places
     from netdesign.addons.terrain.verdict_map import (
         FORMATS,
         map_verdicts,
@@ -90,11 +90,11 @@ def _map_study(
 
     out, language = asked["out"], speak()
     if places_file is None or out is None:
-        told = "--verdicts needs --rows ROWS.geojson and --out OUT.geojson or .dxf"
-        raise UsageRefusal(told)
+        message = "--verdicts needs --rows ROWS.geojson and --out OUT.geojson or .dxf"
+        raise UsageRefusal(message)
     if out.suffix.lower() not in FORMATS:
-        told = f"{out.name}: the map of verdicts ends in {' or '.join(FORMATS)}"
-        raise UsageRefusal(told)
+        message = f"{out.name}: the map of verdicts ends in {' or '.join(FORMATS)}"
+        raise UsageRefusal(message)
     study = load_study(study_file)
     inputs = require_inputs(study, study_file, {})
     tell("not verified: values as stored, not solved again")
@@ -155,14 +155,13 @@ def _measure(
 
 def _read_ground(grid: Path, plan: Plan) -> Grid:
     """Elevation grid of a plan; what was noted in reading either is told."""
-    from netdesign.addons.terrain.crs import require_same
-    from netdesign.addons.terrain.grid import read_grid
+    from netdesign.addons.terrain.grid import read_grid, require_same
 
     ground = read_grid(grid)
     require_same(ground.crs, plan.crs)
     if ground.bands > 1:
-        told = f"The grid has {ground.bands} bands: the first one is read as heights"
-        tell(told, err=True)
+        message = f"The grid has {ground.bands} bands: the first one is read as heights"
+        tell(message, err=True)
     if plan.unread:
         names = ", ".join(plan.unread)
         tell(f"No columns of sheet Nets, left out: {names}", err=True)
@@ -171,14 +170,14 @@ def _read_ground(grid: Path, plan: Plan) -> Grid:
 
 def _read_types(path: Path | None, plan: Plan) -> Lines | None:
     """Lines of the other sheets; what names rows that the plan lacks is told."""
-    from netdesign.addons.terrain.as_typed import read_typed_sheets
+    from netdesign.addons.terrain.site_lines import read_typed_sheets
 
     if path is None:
         return None
-    lines, left_out = read_typed_sheets(path, [one.id for one in plan.lines])
+    lines, left_out = read_typed_sheets(path, [line.id for line in plan.lines])
     if left_out:
-        told = f"note: {path.name}, sheet Ends: {', '.join(left_out)}"
-        tell(f"{told} not among the drawn rows, left out", err=True)
+        message = f"note: {path.name}, sheet Ends: {', '.join(left_out)}"
+        tell(f"{message} not among the drawn rows, left out", err=True)
     return lines
 
 
@@ -192,8 +191,8 @@ def _cover(
 
     find_reach = read_reach(load_standard(standard))
     if find_reach is None:
-        told = f"profile {standard} does not say how far apart rows may stand"
-        raise UsageRefusal(f"{told}: name another one with --standard")
+        message = f"profile {standard} does not say how far apart rows may stand"
+        raise UsageRefusal(f"{message}: name another one with --standard")
     reach = {
         row.line.id: find_reach(row.slope.high, row.line.net_height) for row in rows
     }
@@ -209,9 +208,9 @@ def _describe(
         "zone_m2": coverage.area,
         "uncovered_m2": coverage.uncovered,
         "rows": [
-            one["properties"]
-            for one in features
-            if one["properties"]["kind"] == "net row"
+            feature["properties"]
+            for feature in features
+            if feature["properties"]["kind"] == "net row"
         ],
     }
 
@@ -236,9 +235,9 @@ def _tell_rows(rows: Sequence[MeasuredRow], coverage: Coverage, noise: float) ->
             f"{describe_end(row.upslope)}"
         )
         if length < LEAST_LENGTH:
-            told = f"Row {name} stands on ground flatter than 25°: its cell of the"
-            tell(f"{told} upslope length is left empty")
-        for told in filter(None, (describe_kinks(row), describe_steep_above(row))):
-            tell(told)
+            message = f"Row {name} stands on ground flatter than 25°: its cell of the"
+            tell(f"{message} upslope length is left empty")
+        for sentence in filter(None, (describe_kinks(row), describe_steep_above(row))):
+            tell(sentence)
     if coverage.area:
         tell(coverage.sentence)

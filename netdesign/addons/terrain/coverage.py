@@ -48,9 +48,9 @@ class Coverage:
     @property
     def sentence(self) -> str:
         """Both areas in words."""
-        told = f"Starting zone: {self.area:.0f} m² steeper than 25° in plan;"
+        total = f"Starting zone: {self.area:.0f} m² steeper than 25° in plan;"
         part = f"{self.uncovered:.0f} m² ({100.0 * self.share:.0f} %)"
-        return f"{told} {part} that no row holds"
+        return f"{total} {part} that no row holds"
 
 
 def find_coverage(
@@ -105,7 +105,7 @@ def _list_squares(surface: Surface, zones: shapely.Geometry) -> tuple[float, Flo
         np.arange(west + 0.5 * side, east, side),
         np.arange(south + 0.5 * side, north, side),
     )
-    places = np.column_stack([one.ravel() for one in mesh])
+    places = np.column_stack([axis.ravel() for axis in mesh])
     shapely.prepare(zones)
     places = places[shapely.contains_xy(zones, *places.T)]
     return side, places[surface.at(places).steepness >= LEAST_STEEP]
@@ -122,9 +122,9 @@ def _list_held(
             yield np.concatenate((left, right[::-1]))
     by_id = {row.line.id: row for row in rows}
     for gap in plan.closed_gaps:
-        most = min(reach[one] for one in gap.rows)
+        most = min(reach[name] for name in gap.rows)
         beside = zip(gap.rows, gap.ends, strict=True)
-        left, right = (_cut_above(by_id[one], end, most) for one, end in beside)
+        left, right = (_cut_above(by_id[name], end, most) for name, end in beside)
         yield np.concatenate((left, right[::-1]))
 
 
@@ -132,7 +132,7 @@ def _cut_above(row: MeasuredRow, post: int, reach: float) -> Floats:
     """Line of fall above a post as far as the row holds, shape (n, 2) [m]."""
     most = min(row.ends[post].length.value, reach)
     points, lengths = row.above.points[:, post], row.above.lengths[:, post]
-    known = np.isfinite(lengths)
-    points, lengths = points[known], lengths[known]
+    is_known = np.isfinite(lengths)
+    points, lengths = points[is_known], lengths[is_known]
     end = [np.interp(most, lengths, part) for part in points.T]
     return np.vstack((points[lengths < most], end))

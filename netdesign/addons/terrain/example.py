@@ -22,7 +22,7 @@ from netdesign.site.template.workbook import render_workbook
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"
 _STEP = 3.0  # along a contour: bends are those of the ground, not of the noise [m]
-_EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # nobody's place
+_EAST, _NORTH, _CELL, _SIZE = 2_700_000.0, 1_180_000.0, 1.0, 200  # no real place
 _SEED, _NOISE = 20_261_126, 0.05  # of the heights [m]
 _EDGE = 150.0  # north of it the ground is flatter [m]
 _ZONE = (
@@ -109,7 +109,7 @@ def write_grid(grid: Grid) -> bytes:
         f"ncols {columns}\nnrows {lines}\nxllcorner {corner[0]:.2f}\n"
         f"yllcorner {corner[1]:.2f}\ncellsize {grid.cell:g}\nNODATA_value -9999\n"
     )
-    rows = (" ".join(f"{one:.2f}" for one in row) for row in grid.heights[::-1])
+    rows = (" ".join(f"{height:.2f}" for height in row) for row in grid.heights[::-1])
     return (head + "\n".join(rows) + "\n").encode()
 
 
@@ -152,8 +152,8 @@ def _turn(surface: Surface, place: Floats) -> Floats:
 
 def write_types() -> bytes:
     """Workbook of the zone's types and of the ends of its rows."""
-    given = _load_types()
-    lines = {name: given[name] for name in _TYPES}
+    example = _load_types()
+    lines = {name: example[name] for name in _TYPES}
     lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
     return render_workbook({**lines, "Ends": [_ENDS]})
 

@@ -189,14 +189,14 @@ def find_mean(
         _integrate(part.lengths[:, post], part.steepness[:, post], most)
         for part, most in ((above, up), (below, down))
     ]
-    length, turned = (sum(one) for one in zip(*sums, strict=True))
+    length, turned = (sum(parts) for parts in zip(*sums, strict=True))
     return turned / length if length > 0.0 else float(above.steepness[0, post])
 
 
 def _integrate(lengths: Floats, angles: Floats, most: float) -> tuple[float, float]:
     """Length up to ``most`` and the integral of the angle over it [m, rad m]."""
-    known = np.isfinite(lengths) & np.isfinite(angles)
-    lengths, angles = lengths[known], angles[known]
+    is_known = np.isfinite(lengths) & np.isfinite(angles)
+    lengths, angles = lengths[is_known], angles[is_known]
     if lengths.size < 2:
         return 0.0, 0.0
     end = min(most, float(lengths[-1]))
@@ -228,11 +228,11 @@ def find_first_crossings(
     meets = shapely.intersection(path, list(shapes))
     places, which = shapely.get_coordinates(meets, return_index=True)
     at = _measure(path, lengths, places)
-    found: dict[str, float] = {}
+    crossings: dict[str, float] = {}
     for length, row in sorted(zip(at.tolist(), which.tolist(), strict=True)):
         if length > least:
-            found.setdefault(names[row], length)
-    return found
+            crossings.setdefault(names[row], length)
+    return crossings
 
 
 def find_exit(lines: FallLines, line: int, zones: shapely.Geometry) -> float | None:
@@ -248,10 +248,10 @@ def find_exit(lines: FallLines, line: int, zones: shapely.Geometry) -> float | N
     if path is None:
         return None
     inside = shapely.get_parts(shapely.line_merge(path.intersection(zones)))
-    ends = [_measure(path, lengths, shapely.get_coordinates(one)) for one in inside]
+    ends = [_measure(path, lengths, shapely.get_coordinates(part)) for part in inside]
     if not ends:
         return None
-    first = min(ends, key=lambda one: float(one.min()))
+    first = min(ends, key=lambda places: float(places.min()))
     end = float(first.max())
     return end if end < (1.0 - 1e-9) * float(lengths[-1]) else math.inf
 
@@ -259,9 +259,9 @@ def find_exit(lines: FallLines, line: int, zones: shapely.Geometry) -> float | N
 def _trace(lines: FallLines, line: int) -> tuple[shapely.LineString | None, Floats]:
     """Line of fall in plan, and the lengths along the ground of its points [m]."""
     points, lengths = lines.points[:, line], lines.lengths[:, line]
-    known = np.isfinite(points).all(axis=1) & np.isfinite(lengths)
-    path = shapely.LineString(points[known]) if known.sum() > 1 else None
-    return path, lengths[known]
+    is_known = np.isfinite(points).all(axis=1) & np.isfinite(lengths)
+    path = shapely.LineString(points[is_known]) if is_known.sum() > 1 else None
+    return path, lengths[is_known]
 
 
 def _measure(path: shapely.LineString, lengths: Floats, places: Floats) -> Floats:

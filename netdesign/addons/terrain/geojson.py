@@ -1,10 +1,12 @@
-"""Measured rows and their posts as GeoJSON, in the coordinates of the grid."""
+"""Measured rows and their posts as GeoJSON, written and read again."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import shapely
@@ -13,6 +15,10 @@ from shapely.geometry import mapping
 
 from netdesign.addons.terrain.measure import MeasuredRow
 from netdesign.addons.terrain.plan import ZONE
+from netdesign.edge.causes import explain
+from netdesign.edge.given_files import decode_utf8, read_bounded
+from netdesign.outcome import TerrainError
+from netdesign.words.message import say
 
 Feature = dict[str, Any]
 
@@ -49,7 +55,7 @@ def list_row_features(
     grid, sha256 : str
         Name and digest of the grid's file.
     """
-    found = []
+    features = []
     for row in rows:
         below = row.below_length
         properties = {
@@ -74,11 +80,11 @@ def list_row_features(
             "grid": grid,
             "grid_sha256": sha256,
         }
-        found.append(make_feature(LineString(row.posts), properties))
+        features.append(make_feature(LineString(row.posts), properties))
         for number, post in enumerate(row.posts, 1):
-            told = {"kind": "post", "row": row.line.id, "post": number}
-            found.append(make_feature(Point(post), told))
-    return [*found, *(make_feature(one, {"kind": ZONE}) for one in zones)]
+            marks = {"kind": "post", "row": row.line.id, "post": number}
+            features.append(make_feature(Point(post), marks))
+    return [*features, *(make_feature(zone, {"kind": ZONE}) for zone in zones)]
 
 
 def find_exposure(aspect: float) -> str:
@@ -101,5 +107,73 @@ def _degrees(angle: float) -> float:
 
 def make_feature(geometry: Any, properties: dict[str, Any]) -> Feature:
     """Feature of a shape, its coordinates to a millimetre."""
-    rounded = shapely.transform(geometry, lambda one: one.round(3), include_z=None)
+    rounded = shapely.transform(
+        geometry, lambda coordinates: coordinates.round(3), include_z=None
+    )
     return {"type": "Feature", "properties": properties, "geometry": mapping(rounded)}
+
+
+_MOST_BYTES = 20_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredPlace:
+    """A row as ``netdesign terrain`` wrote it.
+
+    Attributes
+    ----------
+    feature : mapping
+        Its GeoJSON.
+    aspect, slope : float
+        Direction in which the ground falls, and its angle [rad].
+    posts : list of tuple of float
+        East, north, height [m].
+    """
+
+    feature: Feature
+    aspect: float
+    slope: float
+    posts: list[tuple[float, float, float]]
+
+
+def read_places(path: Path) -> tuple[dict[str, MeasuredPlace], Any]:
+    """Rows of ``rows.geojson`` by name, and the whole document.
+
+    Raises
+    ------
+    TerrainError
+        If the file is not one that ``netdesign terrain`` wrote.
+    """
+    try:
+        text = decode_utf8(read_bounded(path, _MOST_BYTES))
+    except (OSError, ValueError) as error:
+        message = say("rows_map.unreadable", file=path.name, cause=explain(error))
+        raise TerrainError(message) from None
+    try:
+        document = json.loads(text)
+        rows = document["features"]
+        rows = [
+            feature for feature in rows if feature["properties"]["kind"] == "net row"
+        ]
+        places = {
+            str(feature["properties"]["id"]): _read_place(feature) for feature in rows
+        }
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise TerrainError(say("rows_map.no_places", file=path.name)) from None
+    if not places:
+        raise TerrainError(say("rows_map.no_places", file=path.name))
+    return places, document
+
+
+def _read_place(feature: Feature) -> MeasuredPlace:
+    properties, points = feature["properties"], feature["geometry"]["coordinates"]
+    posts = [(float(x), float(y), float(z)) for x, y, z in points]
+    aspect, slope = properties["aspect_deg"], properties["slope_mean_deg"]
+    if not all(math.isfinite(coordinate) for post in posts for coordinate in post):
+        raise ValueError(feature)
+    return MeasuredPlace(
+        feature=feature,
+        aspect=math.radians(float(aspect)),
+        slope=math.radians(float(slope)),
+        posts=posts,
+    )

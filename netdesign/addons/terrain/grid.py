@@ -1,23 +1,148 @@
-"""Elevation grid: heights of the ground at the middles of square cells."""
+"""Elevation grid: heights of the ground at square cells, in metres on a map plane."""
 
 from __future__ import annotations
 
 import codecs
 import math
 import re
+import sys
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from netdesign.addons.terrain.crs import DAMAGE, keep_quiet, read_file, require_plane
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.given_files import make_printable, read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 
 if TYPE_CHECKING:
     from rasterio.io import DatasetReader
+
+# What rasterio and pyogrio raise on a damaged file, faults of their own among it.
+DAMAGE = (
+    *(ArithmeticError, AttributeError, LookupError, OSError, RuntimeError),
+    *(MemoryError, NameError, TypeError, ValueError),
+)
+
+
+def read_file(path: Path, most: int) -> bytes:
+    """Content of a file of at most ``most`` bytes.
+
+    Raises
+    ------
+    TerrainError
+        If it cannot be read, or is larger.
+    """
+    try:
+        return read_bounded(path, most)
+    except (OSError, ValueError) as error:
+        cause = getattr(error, "strerror", None) or error
+        raise TerrainError(f"{path.name}: cannot be read: {cause}") from None
+
+
+@contextmanager
+def keep_quiet() -> Iterator[None]:
+    """Neither warnings, nor what the libraries print where they cannot raise.
+
+    A message about a damaged file may itself be no text.
+    """
+    before = sys.excepthook, sys.unraisablehook
+    sys.excepthook, sys.unraisablehook = lambda *_: None, lambda _: None
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            yield
+    finally:
+        sys.excepthook, sys.unraisablehook = before
+
+
+_MERCATOR = ("Mercator", "Popular Visualisation")  # its metres grow with latitude
+
+
+def require_plane(crs: str) -> str:
+    """Refuse what is not in metres on a plane; the system's code, or its text.
+
+    Parameters
+    ----------
+    crs : str
+        Code or WKT, as GDAL gives it; empty where the file names none.
+
+    Returns
+    -------
+    str
+        Code where it has one. Empty for a local system: its coordinates are metres
+        from an unknown origin.
+
+    Raises
+    ------
+    TerrainError
+        Naming the system.
+    """
+    if not crs:
+        return ""
+    import rasterio
+    from rasterio.crs import CRS
+
+    with rasterio.Env():
+        plane = CRS.from_user_input(crs)
+        system: Mapping[str, Any] = plane.to_dict(projjson=True)
+        if system["type"] == "CompoundCRS":  # a plane with a system of heights
+            system = system["components"][0]
+            plane = CRS.from_dict(system)
+        name, code = _name(plane), plane.to_epsg()
+        system = system.get("source_crs", system)
+        if system["type"] not in ("ProjectedCRS", "EngineeringCRS"):
+            advice = (
+                "which is no map plane: project them in metres, to the national grid"
+            )
+            raise TerrainError(f"coordinates in {name}, {advice} or UTM")
+        unit = system["coordinate_system"]["axis"][0]["unit"]
+        if unit != "metre":
+            unit = unit["name"] if isinstance(unit, Mapping) else unit
+            advice = f"in the unit {unit}: give them in metres"
+            raise TerrainError(f"coordinates in {name}, {advice}")
+        if system["type"] == "EngineeringCRS":
+            return ""
+        if system["conversion"]["method"]["name"].startswith(_MERCATOR):
+            advice = "whose metres are no metres on the ground: project them to the"
+            raise TerrainError(f"coordinates in {name}, {advice} national grid or UTM")
+        return f"EPSG:{code}" if code else str(plane.to_wkt())
+
+
+def require_same(grid: str, rows: str) -> None:
+    """Refuse rows in another system than the grid, where both have one.
+
+    Parameters
+    ----------
+    grid, rows : str
+        As ``require_plane`` gives them.
+
+    Raises
+    ------
+    TerrainError
+        Naming both.
+    """
+    if not (grid and rows) or grid == rows:
+        return
+    import rasterio
+    from rasterio.crs import CRS
+
+    with rasterio.Env():
+        of_grid, other = CRS.from_user_input(grid), CRS.from_user_input(rows)
+        if of_grid != other:
+            advice = "are two reference systems: give the grid and all rows in one"
+            raise TerrainError(f"{_name(of_grid)} and {_name(other)} {advice}")
+
+
+def _name(crs: Any) -> str:
+    """Name as people know it, with its code."""
+    name = make_printable(str(crs.to_dict(projjson=True)["name"]))[:60]
+    code = crs.to_epsg()
+    return f"{name} (EPSG:{code})" if code else name
+
 
 MOST_CELLS = 16_000_000  # 4,000 x 4,000
 MOST_BYTES = 400_000_000
@@ -46,9 +171,9 @@ class Grid:
     cell : float
         Side of a cell [m].
     heights : ndarray, shape (n_y, n_x)
-        From south to north and west to east [m]; NaN where nobody knows.
+        From south to north and west to east [m]; NaN where not known.
     crs : str
-        Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
+        Reference system, as ``EPSG:2056`` or as WKT; empty where not known.
     bands : int
         Of its file; the first one is read as heights.
     """
@@ -81,10 +206,12 @@ def read_grid(path: Path) -> Grid:
         with keep_quiet():
             return parse_grid(content, is_geotiff=is_geotiff)
     except TerrainError as error:
-        told = str(error)
+        reason = str(error)
     except (*DAMAGE, RasterioError):
-        told = "no ESRI ASCII grid (.asc) or GeoTIFF (.tif), or damaged: save it again"
-    raise TerrainError(f"{path.name}: {told}")
+        reason = (
+            "no ESRI ASCII grid (.asc) or GeoTIFF (.tif), or damaged: save it again"
+        )
+    raise TerrainError(f"{path.name}: {reason}")
 
 
 def parse_grid(content: bytes, *, is_geotiff: bool) -> Grid:
@@ -145,8 +272,8 @@ def require_size(columns: int, lines: int) -> None:
         Naming it.
     """
     if not (min(columns, lines) >= 3 and columns * lines <= MOST_CELLS):
-        told = f"{columns} x {lines} cells: 3 x 3 to {MOST_CELLS} cells are read"
-        raise TerrainError(told)
+        size = f"{columns} x {lines} cells: 3 x 3 to {MOST_CELLS} cells are read"
+        raise TerrainError(size)
 
 
 def _require_numbers(content: bytes, cells: int) -> None:
@@ -170,14 +297,14 @@ def _require_memory(dataset: DatasetReader) -> None:
 
     A block is opened as a whole, with all bands that may lie in it.
     """
-    kinds = [np.dtype(one) for one in dataset.dtypes]
+    kinds = [np.dtype(kind) for kind in dataset.dtypes]
     if kinds[0].kind not in "iuf":
         raise ValueError(kinds)
     lines, columns = dataset.block_shapes[0]
-    size = lines * columns * sum(one.itemsize for one in kinds)
+    size = lines * columns * sum(kind.itemsize for kind in kinds)
     if size > MOST_BYTES:
-        told = f"a block of {size / 1e6:.0f} MB: save the grid in tiles of 256 x 256"
-        raise TerrainError(f"{told} cells, with one band")
+        refusal = f"a block of {size / 1e6:.0f} MB: save the grid in tiles of 256 x 256"
+        raise TerrainError(f"{refusal} cells, with one band")
 
 
 def _require_whole(dataset: DatasetReader) -> None:
@@ -199,8 +326,10 @@ def _read_place(dataset: DatasetReader) -> tuple[float, float, float]:
     if is_nowhere or not all(map(math.isfinite, place)):
         raise TerrainError("the file does not say where its cells lie")
     if place.b or place.d or not place.a >= 0.0 >= place.e:
-        told = "the grid is rotated or upside down: save it with its lines running east"
-        raise TerrainError(f"{told}, the first one in the north")
+        reason = (
+            "the grid is rotated or upside down: save it with its lines running east"
+        )
+        raise TerrainError(f"{reason}, the first one in the north")
     if abs(place.a + place.e) > _ALIKE * place.a:
         sides = f"{place.a:g} x {-place.e:g} m"
         raise TerrainError(f"cells of {sides}: save the grid with square cells")
@@ -223,8 +352,10 @@ def require_metres(cell: float, west: float, north: float) -> None:
         Naming it.
     """
     if 0.0 < cell < _DEGREES and abs(west) <= 360.0 and abs(north) <= 90.0:
-        told = f"a cell of {cell:g} degrees: give the grid in metres, projected to the"
-        raise TerrainError(f"{told} national grid or UTM")
+        reason = (
+            f"a cell of {cell:g} degrees: give the grid in metres, projected to the"
+        )
+        raise TerrainError(f"{reason} national grid or UTM")
     if not _LEAST_CELL <= cell <= _LARGEST_CELL:
         ends = f"{_LEAST_CELL:g} to {_LARGEST_CELL:g} m"
         raise TerrainError(f"a cell of {cell:g} m: {ends} are read")
@@ -232,13 +363,15 @@ def require_metres(cell: float, west: float, north: float) -> None:
 
 def _read_heights(dataset: DatasetReader) -> Floats:
     """Heights from north to south [m], NaN where none is known."""
-    found = dataset.read(1, masked=True, out_dtype="float64")
-    values: Floats = found.data * dataset.scales[0] + dataset.offsets[0]
-    values[np.ma.getmaskarray(found) | (found.data == _NO_HEIGHT)] = math.nan
+    band = dataset.read(1, masked=True, out_dtype="float64")
+    values: Floats = band.data * dataset.scales[0] + dataset.offsets[0]
+    values[np.ma.getmaskarray(band) | (band.data == _NO_HEIGHT)] = math.nan
     wrong = values[(values < LOWEST) | (values > HIGHEST)]
     if wrong.size:
-        told = f"a height of {wrong[0]:g} m: {LOWEST:g} to {HIGHEST:g} m are read, and"
-        raise TerrainError(f"{told} the no-data value that the file declares")
+        reason = (
+            f"a height of {wrong[0]:g} m: {LOWEST:g} to {HIGHEST:g} m are read, and"
+        )
+        raise TerrainError(f"{reason} the no-data value that the file declares")
     return values
 
 
@@ -272,6 +405,6 @@ def require_ground(heights: Floats, cell: float) -> None:
         worst = max(worst, (float(falls[at]), ends[0], ends[1]))
     fall, low, high = worst
     if fall > most:
-        told = f"the ground falls from {high:.6g} to {low:.6g} m within a cell"
+        reason = f"the ground falls from {high:.6g} to {low:.6g} m within a cell"
         asked = f"does {low:.6g} stand for no data? Declare it in the header"
-        raise TerrainError(f"{told}: {asked}, or correct the heights")
+        raise TerrainError(f"{reason}: {asked}, or correct the heights")

@@ -57,7 +57,7 @@ class Upslope:
         Along the ground [m].
     end : str
         "row", "zone", "flat", "cap", "top", or "edge" (of the grid, or of a hole in
-        it: the cap, since nobody knows the ground beyond).
+        it: the cap, since the ground beyond is not known).
     row : str
         The row that ends it, or "".
     steep : float
@@ -121,7 +121,7 @@ class MeasuredRow:
     @property
     def kinks(self) -> tuple[int, ...]:
         """Posts at which the row bends by more than a kink, from 1 on."""
-        return tuple(int(one) + 2 for one in np.flatnonzero(self.bends > KINK))
+        return tuple(int(place) + 2 for place in np.flatnonzero(self.bends > KINK))
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,17 +165,17 @@ def measure_rows(
     -----------
     tests/addons/terrain/test_measure.py
     """
-    found = []
+    rows = []
     for drawn in _draw_rows(surface, plan, most):
-        found.append(_measure_row(surface, plan, drawn, most))
+        rows.append(_measure_row(surface, plan, drawn, most))
         if on_row is not None:
             on_row(drawn.line)
-    return found
+    return rows
 
 
 def _draw_rows(surface: Surface, plan: Plan, most: float) -> list[_DrawnRow]:
     """Posts of all rows; their lines of fall are followed at once."""
-    found: list[tuple[NetLine, Floats, Floats]] = []
+    drawn: list[tuple[NetLine, Floats, Floats]] = []
     faults: list[str] = []
     for line in plan.lines:
         try:
@@ -186,17 +186,17 @@ def _draw_rows(surface: Surface, plan: Plan, most: float) -> list[_DrawnRow]:
         bends = find_bends(posts[:, :2])
         if bends.size and bends.max() > BROKEN:
             faults.append(_refuse_bend(line, bends))
-        found.append((line, posts, bends))
+        drawn.append((line, posts, bends))
     if faults:
         raise TerrainError("\n".join(faults))
-    places = np.concatenate([posts[:, :2] for _, posts, _ in found])
+    places = np.concatenate([posts[:, :2] for _, posts, _ in drawn])
     above = follow_fall(surface, places, most=most, is_up=True)
     below = follow_fall(surface, places, most=most, is_up=False)
-    firsts = np.cumsum([0, *(len(posts) for _, posts, _ in found)]).tolist()
-    parts = [slice(one, other) for one, other in pairwise(firsts)]
+    firsts = np.cumsum([0, *(len(posts) for _, posts, _ in drawn)]).tolist()
+    parts = [slice(first, other) for first, other in pairwise(firsts)]
     return [
         _DrawnRow(line, posts, bends, above.take(part), below.take(part))
-        for (line, posts, bends), part in zip(found, parts, strict=True)
+        for (line, posts, bends), part in zip(drawn, parts, strict=True)
     ]
 
 
@@ -216,8 +216,8 @@ def _measure_row(
     slopes, reliefs = (
         np.array(
             [
-                find_mean(*pair, post, one.length.value, line.net_height)
-                for post, one in enumerate(ends)
+                find_mean(*pair, post, end.length.value, line.net_height)
+                for post, end in enumerate(ends)
             ]
         )
         for pair in (
@@ -227,7 +227,7 @@ def _measure_row(
     )
     gradient = surface.at(places).gradient.mean(axis=0)
     crossed_below = _list_crossings(others, below, least)
-    nearest = [(at, name) for one in crossed_below for name, at in one.items()]
+    nearest = [(at, name) for rows in crossed_below for name, at in rows.items()]
     length, row = min(nearest, default=(None, ""))
     return MeasuredRow(
         line=line,
@@ -237,7 +237,7 @@ def _measure_row(
         slope=_band_slope(surface, slopes, reliefs, ends),
         flattest=_find_flattest(surface, places),
         aspect=math.atan2(-gradient[0], -gradient[1]) % (2.0 * math.pi),
-        upslope=max(ends, key=lambda one: one.length.high),
+        upslope=max(ends, key=lambda end: end.length.high),
         bends=drawn.bends,
         above=above,
         ends=ends,
@@ -249,11 +249,11 @@ def _measure_row(
 
 def _list_others(plan: Plan, line: NetLine) -> Rows:
     """Other rows and closed gaps, with their names."""
-    found = [(one.id, one.points) for one in plan.lines if one.id != line.id]
-    gaps = [one for one in plan.closed_gaps if line.id not in one.rows]
-    found += [(one.rows[0], one.points) for one in gaps]
-    names = [name for name, _ in found]
-    return names, [shapely.LineString(points) for _, points in found]
+    others = [(row.id, row.points) for row in plan.lines if row.id != line.id]
+    gaps = [gap for gap in plan.closed_gaps if line.id not in gap.rows]
+    others += [(gap.rows[0], gap.points) for gap in gaps]
+    names = [name for name, _ in others]
+    return names, [shapely.LineString(points) for _, points in others]
 
 
 def _list_crossings(
@@ -279,9 +279,9 @@ def _find_flattest(surface: Surface, places: Floats) -> float:
 
 
 def _refuse_bend(line: NetLine, bends: Floats) -> str:
-    angle, limit = (math.degrees(one) for one in (float(bends.max()), BROKEN))
-    told = f"row {line.id} bends by {angle:.1f}° at post {int(bends.argmax()) + 2}"
-    return f"{told}: above {limit:g}° draw two rows"
+    angle, limit = map(math.degrees, (float(bends.max()), BROKEN))
+    refusal = f"row {line.id} bends by {angle:.1f}° at post {int(bends.argmax()) + 2}"
+    return f"{refusal}: above {limit:g}° draw two rows"
 
 
 def place_posts(surface: Surface, line: NetLine) -> Floats:
@@ -294,16 +294,18 @@ def place_posts(surface: Surface, line: NetLine) -> Floats:
     heights = surface.at(fine).height
     if np.isnan(heights).any():
         at = fine[int(np.flatnonzero(np.isnan(heights))[0])]
-        told = f"row {line.id} leaves the grid, or meets a hole in it, at"
-        raise TerrainError(f"{told} {at[0]:.1f}, {at[1]:.1f}")
+        refusal = f"row {line.id} leaves the grid, or meets a hole in it, at"
+        raise TerrainError(f"{refusal} {at[0]:.1f}, {at[1]:.1f}")
     ground = np.column_stack((fine, heights))
     along = np.concatenate(
         ([0.0], np.cumsum(np.linalg.norm(np.diff(ground, axis=0), axis=1)))
     )
     count = math.floor(along[-1] / line.post_spacing + 1e-6) + 1
     if count < 2:
-        told = f"row {line.id} is {along[-1]:.1f} m long, shorter than its post spacing"
-        raise TerrainError(f"{told} of {line.post_spacing:g} m")
+        refusal = (
+            f"row {line.id} is {along[-1]:.1f} m long, shorter than its post spacing"
+        )
+        raise TerrainError(f"{refusal} of {line.post_spacing:g} m")
     left = max(0.0, float(along[-1]) - line.post_spacing * (count - 1))
     wanted = 0.5 * left + line.post_spacing * np.arange(count)
     return np.column_stack([np.interp(wanted, along, part) for part in ground.T])
@@ -343,23 +345,23 @@ def _end_above(
     """First end of the snow above a post: a row, the zone's edge, flat ground."""
     spread = _ERRORS * surface.slope_error
     flat = [
-        _find_flat(above, post, LEAST_STEEP + one, bench, most)
-        for one in (spread, 0.0, -spread)
+        _find_flat(above, post, LEAST_STEEP + error, bench, most)
+        for error in (spread, 0.0, -spread)
     ]
-    known, is_lost = above.find_length(post), bool(above.is_lost[post])
-    # beyond the grid nobody knows that the snow ends
+    followed, is_lost = above.find_length(post), bool(above.is_lost[post])
+    # the ground beyond the grid is not known to end the snow
     ends = [("edge" if is_lost else "cap", "", most)]
-    if known < most and not is_lost:
-        ends.append(("top", "", known))
-    ends += [("row", name, found) for name, found in rows.items()]
+    if followed < most and not is_lost:
+        ends.append(("top", "", followed))
+    ends += [("row", name, at) for name, at in rows.items()]
     if of_zone is not None:
         ends.append(("zone", "", of_zone))
-    end, row, length = min(ends, key=lambda one: one[2])
-    low, value, high = (min(one, length) for one in flat)
+    end, row, length = min(ends, key=lambda candidate: candidate[2])
+    low, value, high = (min(at, length) for at in flat)
     if value < length:
         end, row = "flat", ""
     band = Band(low=low, value=value, high=high)
-    steep = min(most if is_lost else known, most, flat[1])
+    steep = min(most if is_lost else followed, most, flat[1])
     return Upslope(length=band, end=end, row=row, steep=steep)
 
 
@@ -370,9 +372,9 @@ def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
     """
     zones = shapely.union_all(plan.zones)
     posts = range(above.points.shape[1])
-    found = [find_exit(above, post, zones) for post in posts]
-    has_zone = any(one is not None for one in found)
-    return [0.0 if one is None and has_zone else one for one in found]
+    ends = [find_exit(above, post, zones) for post in posts]
+    has_zone = any(end is not None for end in ends)
+    return [0.0 if end is None and has_zone else end for end in ends]
 
 
 def _find_row_above(
@@ -413,7 +415,7 @@ def _band_slope(
     surface: Surface, slopes: Floats, reliefs: Floats, ends: Sequence[Upslope]
 ) -> Band:
     """Slope of the steepest post with its errors by noise and relief, (T6)."""
-    stretches = np.array([one.length.value for one in ends])
+    stretches = np.array([end.length.value for end in ends])
     windows = np.maximum(1.0, stretches / (surface.window * surface.grid.cell))
     spreads = _ERRORS * surface.slope_error / np.sqrt(windows) + reliefs
     steepest = int(np.argmax(slopes))
@@ -428,8 +430,8 @@ def describe_kinks(row: MeasuredRow) -> str:
         return ""
     posts = ", ".join(map(str, row.kinks))
     bend, limit = math.degrees(float(row.bends.max())), math.degrees(KINK)
-    told = f"row {row.line.id} bends by up to {bend:.1f}° at post {posts}: beyond"
-    return f"{told} {limit:g}° check such a post as the end of a row on both sides"
+    sentence = f"row {row.line.id} bends by up to {bend:.1f}° at post {posts}: beyond"
+    return f"{sentence} {limit:g}° check such a post as the end of a row on both sides"
 
 
 def measure_plan(
@@ -457,18 +459,18 @@ def measure_plan(
     TerrainError
         With the faults of all rows at once.
     """
-    surface = choose_window(grid, np.concatenate([one.points for one in plan.lines]))
+    surface = choose_window(grid, np.concatenate([line.points for line in plan.lines]))
     return surface, measure_rows(surface, plan, most=most, on_row=on_row)
 
 
 def describe_steep_above(row: MeasuredRow) -> str:
     """Sentence on steep ground beyond the zone's edge, whose snow does not count."""
-    beyond = [one.steep - one.length.value for one in row.ends if one.end == "zone"]
+    beyond = [end.steep - end.length.value for end in row.ends if end.end == "zone"]
     most = max(beyond, default=0.0)
     if most < _BEYOND:
         return ""
-    told = f"Above row {row.line.id} the ground stays steep for {most:.0f} m beyond"
-    return f"{told} the edge of the starting zone: its snow does not count"
+    sentence = f"Above row {row.line.id} the ground stays steep for {most:.0f} m beyond"
+    return f"{sentence} the edge of the starting zone: its snow does not count"
 
 
 def describe_end(upslope: Upslope) -> str:
@@ -480,5 +482,5 @@ def describe_end(upslope: Upslope) -> str:
         "cap": "the largest length that was looked for",
         "top": "up to a top",
         "edge": "the largest length, since it meets the edge of the grid or a hole "
-        "in it and nobody knows the ground beyond",
+        "in it and the ground beyond is not known",
     }[upslope.end]

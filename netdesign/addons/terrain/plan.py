@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,8 +12,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from netdesign.addons.terrain.as_typed import read_typed_cells
-from netdesign.addons.terrain.crs import (
+from netdesign.addons.terrain.grid import (
     DAMAGE,
     keep_quiet,
     read_file,
@@ -22,6 +22,78 @@ from netdesign.addons.terrain.crs import (
 from netdesign.edge.given_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
+from netdesign.site.columns.all_tables import NETS, Lexicon
+from netdesign.site.columns.fields import (
+    convert_unit,
+    normalise_unit,
+    split_heading,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TypedCells:
+    """Cells of a line of sheet Nets.
+
+    Attributes
+    ----------
+    cells : mapping of str to float or str
+        By column, in its first unit.
+    faults : tuple of str
+        What is given twice, or not understood.
+    unread : tuple of str
+        Names that are no columns.
+    """
+
+    cells: Mapping[str, float | str]
+    faults: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
+
+
+def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
+    """Cells of a line of sheet Nets from values by their headings.
+
+    Parameters
+    ----------
+    given : mapping of str to object
+        Headings in any language, perhaps with a unit; None of an empty cell.
+    """
+    cells: dict[str, float | str] = {}
+    faults, unread = [], []
+    lexicon = Lexicon.of(NETS.fields, NETS)
+    for heading, value in properties.items():
+        meaning = lexicon.match(heading)
+        if value is None or value == "":
+            continue
+        if meaning.readings:
+            readings = ", ".join(str(reading.name) for reading in meaning.readings)
+            fault = f"property {heading!r:.60} may mean: {readings}"
+            faults.append(f"{fault}; name it as the workbook does")
+        elif meaning.field is None:
+            unread.append(f"{heading!r:.60}")
+        else:
+            converted = _convert(heading, value, meaning.field.unit)
+            if converted is None or meaning.field.key in cells:
+                fault = f"property {heading!r:.60} is given twice, or its value or unit"
+                faults.append(f"{fault} is not understood")
+            else:
+                cells[meaning.field.key] = converted
+    return TypedCells(cells=cells, faults=tuple(faults), unread=tuple(unread))
+
+
+def _convert(heading: str, value: object, unit: str) -> float | str | None:
+    """Number in the column's first unit, or words; None of what is neither."""
+    if isinstance(value, str):
+        return value.strip() or None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    if not math.isfinite(value):
+        return None
+    own = normalise_unit(split_heading(heading)[1])
+    try:
+        return convert_unit(float(value), own, unit) if own and unit else float(value)
+    except KeyError:
+        return None
+
 
 ZONE = "starting zone"
 _MOST_BYTES = 20_000_000
@@ -93,7 +165,7 @@ class Plan:
     zones : tuple of Polygon
         Starting zones [m].
     crs : str
-        Reference system, as ``EPSG:2056`` or as WKT; empty where nobody knows.
+        Reference system, as ``EPSG:2056`` or as WKT; empty where not known.
     unread : tuple of str
         Properties of rows that are no columns of sheet Nets.
     closed_gaps : tuple of ClosedGap
@@ -113,14 +185,14 @@ class Plan:
 
 def _list_closed_gaps(lines: Sequence[NetLine]) -> Iterator[ClosedGap]:
     """Gaps between two rows that hold the snow as the rows do."""
-    ends = [(one, end) for one in lines for end in (0, -1)]
-    places = np.array([one.points[end] for one, end in ends]).reshape(-1, 2)
+    ends = [(line, end) for line in lines for end in (0, -1)]
+    places = np.array([line.points[end] for line, end in ends]).reshape(-1, 2)
     apart = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
     for k, other_k in np.argwhere(np.triu(apart <= _CLOSED, 1)):
-        (one, end), (other, of_other) = ends[k], ends[other_k]
-        if one is not other:
+        (line, end), (other, of_other) = ends[k], ends[other_k]
+        if line is not other:
             yield ClosedGap(
-                rows=(one.id, other.id),
+                rows=(line.id, other.id),
                 ends=(end, of_other),
                 points=places[[k, other_k]],
             )
@@ -145,12 +217,12 @@ def read_plan(path: Path) -> Plan:
     except TerrainError as error:
         raise TerrainError(f"{path.name}: {error}") from None
     except DAMAGE:
-        told = "no GeoJSON, shapefile (.shp) or GeoPackage (.gpkg), or damaged"
-        raise TerrainError(f"{path.name}: {told}") from None
+        reason = "no GeoJSON, shapefile (.shp) or GeoPackage (.gpkg), or damaged"
+        raise TerrainError(f"{path.name}: {reason}") from None
     faults: list[str] = []
     plan = _build_plan(features, crs, faults)
     if faults:
-        raise TerrainError("\n".join(f"{path.name}: {one}" for one in faults))
+        raise TerrainError("\n".join(f"{path.name}: {fault}" for fault in faults))
     return plan
 
 
@@ -165,15 +237,15 @@ class _Feature:
     @property
     def name(self) -> str:
         """Its place, and its id where it has one."""
-        given = make_printable(str(self.properties.get("id") or ""))[:60]
-        return f"{self.place} ({given})" if given else self.place
+        row_id = make_printable(str(self.properties.get("id") or ""))[:60]
+        return f"{self.place} ({row_id})" if row_id else self.place
 
 
 def _list_features(source: str) -> tuple[list[_Feature], str]:
     """Features of all layers that have geometries, and their reference system."""
     from pyogrio import list_layers, raw
 
-    found: list[_Feature] = []
+    features: list[_Feature] = []
     crs = ""
     layers = [str(name) for name, kind in list_layers(source) if kind is not None]
     for layer in layers:
@@ -187,8 +259,8 @@ def _list_features(source: str) -> tuple[list[_Feature], str]:
         for number, shape in enumerate(shapes):
             values = (_take(column[number]) for column in columns)
             properties = dict(zip(map(str, meta["fields"]), values, strict=True))
-            found.append(_Feature(f"{place}feature {number + 1}", shape, properties))
-    return found, crs
+            features.append(_Feature(f"{place}feature {number + 1}", shape, properties))
+    return features, crs
 
 
 def _find_system(source: str, crs: str, shapes: Any) -> str:
@@ -218,9 +290,9 @@ def _build_plan(features: Sequence[_Feature], crs: str, faults: list[str]) -> Pl
             line = _read_line(feature, unread)
             lines += [line] if line else []
         except TerrainError as error:
-            faults += [f"{feature.name}: {one}" for one in str(error).split("\n")]
-    names = Counter(one.id for one in lines)
-    faults += [f"two rows are named {one}" for one, n in names.items() if n > 1]
+            faults += [f"{feature.name}: {fault}" for fault in str(error).split("\n")]
+    names = Counter(line.id for line in lines)
+    faults += [f"two rows are named {name}" for name, n in names.items() if n > 1]
     if not lines and not faults:
         faults.append("no line with the properties of a net row")
     return Plan(lines=tuple(lines), zones=tuple(zones), crs=crs, unread=tuple(unread))
@@ -229,14 +301,14 @@ def _build_plan(features: Sequence[_Feature], crs: str, faults: list[str]) -> Pl
 def _read_zones(shape: Any) -> list[shapely.Polygon]:
     """Polygons of a starting zone."""
     zones = list(shapely.get_parts(shape)) if shape is not None else []
-    if not zones or not all(isinstance(one, shapely.Polygon) for one in zones):
+    if not zones or not all(isinstance(zone, shapely.Polygon) for zone in zones):
         raise TerrainError("a starting zone is a polygon of finite coordinates")
     _require_finite(shape)
-    if any(one.interiors for one in zones):
+    if any(zone.interiors for zone in zones):
         raise TerrainError("a starting zone with a hole: draw zones without holes")
-    if not all(one.is_valid for one in zones):
-        told = "the outline of a starting zone crosses itself: draw its corners one"
-        raise TerrainError(f"{told} after the other")
+    if not all(zone.is_valid for zone in zones):
+        refusal = "the outline of a starting zone crosses itself: draw its corners one"
+        raise TerrainError(f"{refusal} after the other")
     return zones
 
 
@@ -249,25 +321,27 @@ def _read_line(feature: _Feature, unread: dict[str, None]) -> NetLine | None:
     """Net row of a feature; None of a point or an area that is none."""
     typed = read_typed_cells(feature.properties)
     parts = shapely.get_parts(feature.shape).tolist() if feature.shape else []
-    is_line = bool(parts) and all(isinstance(one, shapely.LineString) for one in parts)
+    is_line = bool(parts) and all(
+        isinstance(part, shapely.LineString) for part in parts
+    )
     if not is_line:
         if feature.shape is not None and len(_OPEN.keys() & typed.cells) < len(_OPEN):
             return None
         raise TerrainError("a net row without a line that can be read: draw it")
     if len(parts) > 1:
-        told = "lines in one feature: draw a feature for each row"
-        raise TerrainError(f"{len(parts)} {told}")
+        fault = "lines in one feature: draw a feature for each row"
+        raise TerrainError(f"{len(parts)} {fault}")
     _require_finite(feature.shape)
     faults = list(typed.faults)
     for key, name in _OPEN.items():
         value = typed.cells.get(key)
         if not value or (key != "id" and not (isinstance(value, float) and value > 0)):
-            told = f"the property {name!r} is missing, or is no number above 0"
-            faults.append(f"{told}; names in a shapefile end after ten letters")
+            fault = f"the property {name!r} is missing, or is no number above 0"
+            faults.append(f"{fault}; names in a shapefile end after ten letters")
     if faults:
         raise TerrainError("\n".join(faults))
     unread |= dict.fromkeys(typed.unread)
     points = shapely.get_coordinates(shapely.remove_repeated_points(feature.shape))
-    given = typed.cells["id"]
-    name = f"{given:.15g}" if isinstance(given, float) else given
+    id_cell = typed.cells["id"]
+    name = f"{id_cell:.15g}" if isinstance(id_cell, float) else id_cell
     return NetLine(id=name, points=points, cells=typed.cells)

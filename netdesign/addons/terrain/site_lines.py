@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from netdesign.addons.terrain.as_typed import Lines
 from netdesign.addons.terrain.measure import (
     CARED_ANGLE,
     CARED_LENGTH,
@@ -20,8 +20,81 @@ from netdesign.addons.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
+from netdesign.outcome import SiteDataError
+from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import ENDS, RANGES, SHEETS
+from netdesign.site.columns.fields import (
+    normalise,
+)
+from netdesign.site.headings import Table
+from netdesign.site.lines import ALL_ROWS
+from netdesign.site.reader import read_cells
+from netdesign.site.tables import find_table, read_rows
 from netdesign.site.template.workbook import list_starting_lines, render_workbook
 from netdesign.words.catalogue import Language
+
+Lines = Mapping[str, Sequence[Mapping[str, object]]]
+_TAKEN = ("Project", "Ranges", "Anchors", "Ropes", "Posts", "Links", "Tests", "Ends")
+
+
+def read_typed_sheets(path: Path, rows: Sequence[str]) -> tuple[Lines, tuple[str, ...]]:
+    """Lines of a workbook's project, ranges, types and row ends, as typed.
+
+    Of sheet Ends those of some rows, or of all rows.
+
+    Parameters
+    ----------
+    path : Path
+        Workbook.
+    rows : sequence of str
+        Names of these rows.
+
+    Returns
+    -------
+    mapping, tuple of str
+        Lines by sheet; names on sheet Ends that are left out.
+
+    Raises
+    ------
+    SiteDataError
+        If one of them cannot be read.
+    """
+    workbook = read_cells(path)
+    findings: list[Finding] = []
+    lines: dict[str, list[Mapping[str, object]]] = {}
+    for plan in SHEETS:
+        table = find_table(workbook, plan, findings) if plan.name in _TAKEN else None
+        if table is None:
+            continue
+        if plan is RANGES:  # its units stand in a column of their own
+            lines[plan.name] = list(_list_as_typed(table))
+            continue
+        lines[plan.name] = [
+            {key: cell.value for key, cell in row.items() if cell.state == "given"}
+            for row in read_rows(table, findings)
+        ]
+    errors = [finding for finding in findings if finding.severity == "error"]
+    if errors:
+        raise SiteDataError(errors)
+    ends = lines.get(ENDS.name, [])
+    lines[ENDS.name] = [line for line in ends if _is_of_rows(line, rows)]
+    others = (str(line.get("row")) for line in ends if not _is_of_rows(line, rows))
+    return lines, tuple(dict.fromkeys(others))
+
+
+def _is_of_rows(line: Mapping[str, object], rows: Sequence[str]) -> bool:
+    name = str(line.get("row", ""))
+    return name in rows or normalise(name) in ALL_ROWS
+
+
+def _list_as_typed(table: Table) -> Iterator[Mapping[str, object]]:
+    for row in table.rows:
+        cells = {
+            key: table.sheet.cell(row, column.number)
+            for key, column in table.columns.items()
+        }
+        yield {key: cell.value for key, cell in cells.items() if not cell.is_blank}
+
 
 _FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
 
@@ -44,8 +117,8 @@ def find_gap(row: MeasuredRow, rows: Sequence[MeasuredRow]) -> float | None:
     tests/addons/terrain/test_coverage.py
     """
     gaps = [_find_beside(row, rows, end) for end in (0, -1)]
-    known = [one for one in gaps if one is not None]
-    return max(known) if len(known) == len(gaps) else None
+    on_both_sides = [gap for gap in gaps if gap is not None]
+    return max(on_both_sides) if len(on_both_sides) == len(gaps) else None
 
 
 def _find_beside(
@@ -56,15 +129,15 @@ def _find_beside(
     outward = start - row.posts[1 if end == 0 else -2, :2]
     outward = outward / np.linalg.norm(outward)
     across = np.array((-outward[1], outward[0]))
-    found = []
+    distances = []
     for other in rows:
         if other is row:
             continue
         away = other.posts[:, :2] - start
         along, aside = away @ outward, np.abs(away @ across)
         beside = (along > 0.0) & (along <= _FARTHEST) & (aside <= row.line.net_height)
-        found += [float(one) for one in along[beside]]
-    return min(found, default=None)
+        distances += [float(distance) for distance in along[beside]]
+    return min(distances, default=None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,11 +210,11 @@ def _derive_thickness(row: MeasuredRow, grid: str) -> DerivedCell:
     The row's slope is that of its snow: where its foot is flatter, snow is deeper.
     """
     height = float(row.line.cells["snow_height"])
-    told = f"From {grid}: {height:g} m of vertical snow height, normal to the flattest"
+    note = f"From {grid}: {height:g} m of vertical snow height, normal to the flattest"
     return DerivedCell(
         key="snow_thickness",
         value=round(height * math.cos(row.flattest), 3),
-        note=f"{told} ground at a post, {math.degrees(row.flattest):.1f}°.",
+        note=f"{note} ground at a post, {math.degrees(row.flattest):.1f}°.",
     )
 
 
@@ -199,13 +272,13 @@ def write_workbook(
     """
     lines, notes = [], []
     for row in rows:
-        derived = {one.key: one for one in derive_cells(row, rows, grid)}
+        derived = {cell.key: cell for cell in derive_cells(row, rows, grid)}
         typed = dict(row.line.cells)
         if "snow_thickness" in derived:  # says the same, and the template takes one
             del typed["snow_height"]
-        values = {key: one.value for key, one in derived.items() if _is_told(one)}
+        values = {key: cell.value for key, cell in derived.items() if _is_told(cell)}
         lines.append({**values, **typed, "id": row.line.id})
-        notes.append({key: _tell(one, typed) for key, one in derived.items()})
+        notes.append({key: _tell(cell, typed) for key, cell in derived.items()})
     kept = {name: own for name, own in (others or {}).items() if own}
     sheets = {**list_starting_lines(), **kept, "Nets": lines}
     return render_workbook(sheets, language, notes={"Nets": notes})
@@ -221,5 +294,5 @@ def _tell(cell: DerivedCell, typed: Mapping[str, object]) -> str:
     """Note on a cell; of one that the row's properties give, what the grid says."""
     if cell.key not in typed:
         return cell.note
-    told = "Typed as a property of the row. The terrain gives"
-    return f"{told} {cell.value}. {cell.note}"
+    typed_note = "Typed as a property of the row. The terrain gives"
+    return f"{typed_note} {cell.value}. {cell.note}"

@@ -85,10 +85,10 @@ class Surface:
     def at(self, points: Floats) -> Ground:
         """Ground at points, shape (n, 2) [m]."""
         parts = np.array_split(points, 1 + len(points) // _AT_ONCE)
-        found = [fit(self.grid, part, self.window) for part in parts]
+        grounds = [fit(self.grid, part, self.window) for part in parts]
         return Ground(
-            height=np.concatenate([one.height for one in found]),
-            gradient=np.concatenate([one.gradient for one in found]),
+            height=np.concatenate([ground.height for ground in grounds]),
+            gradient=np.concatenate([ground.gradient for ground in grounds]),
         )
 
 
@@ -104,15 +104,15 @@ def choose_window(grid: Grid, points: Floats) -> Surface:
     """
     noise = min(_find_noise(grid, points, window) for window in WINDOWS)
     surfaces = [Surface(grid, window, noise) for window in WINDOWS]
-    enough = (one for one in surfaces if one.slope_error <= _ENOUGH)
+    enough = (surface for surface in surfaces if surface.slope_error <= _ENOUGH)
     return next(enough, surfaces[-1])
 
 
 def _find_noise(grid: Grid, points: Floats, window: int) -> float:
     """Median misfit of a window [m]: that of noise alone grows with none of them."""
     misfits = find_misfits(grid, points, window)
-    known = misfits[np.isfinite(misfits)]
-    return float(np.median(known)) / _MEDIANS[window] if known.size else 0.0
+    finite = misfits[np.isfinite(misfits)]
+    return float(np.median(finite)) / _MEDIANS[window] if finite.size else 0.0
 
 
 def fit(grid: Grid, points: Floats, window: int) -> Ground:
@@ -182,8 +182,8 @@ def _prepare(window: int) -> tuple[Floats, Floats]:
     """Terms of a quadratic at the cells of a window, and what solves for them."""
     steps = np.arange(window) - window // 2
     v, u = (
-        one.ravel().astype(np.float64)
-        for one in np.meshgrid(steps, steps, indexing="ij")
+        axis.ravel().astype(np.float64)
+        for axis in np.meshgrid(steps, steps, indexing="ij")
     )
     terms = _list_terms(u, v)
     return terms, np.asarray(np.linalg.pinv(terms), dtype=np.float64)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from netdesign.addons.terrain.places import Feature, MeasuredPlace
+from netdesign.addons.terrain.geojson import Feature, MeasuredPlace
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
 from netdesign.checks.schema import ACCEPTANCE_TEST
@@ -85,25 +85,25 @@ def map_verdicts(
     missing = [row.id for row in study.rows if row.id not in places]
     if missing:
         raise StudyError(f"not on the map: {', '.join(missing)}")
-    found = []
+    features = []
     for row in study.rows:
-        place, given = places[row.id], by_id[row.id]
-        points = place_row(given, _find_inclination(row))
-        found.append(_map_row(row, place, language))
-        found += _map_posts(row, points, place)
-        found += _map_anchors(row, given, points, standard, place, language)
-    return found
+        place, net_row = places[row.id], by_id[row.id]
+        points = place_row(net_row, _find_inclination(row))
+        features.append(_map_row(row, place, language))
+        features += _map_posts(row, points, place)
+        features += _map_anchors(row, net_row, points, standard, place, language)
+    return features
 
 
 def _map_row(row: RowStudy, place: MeasuredPlace, language: Language) -> Feature:
-    rated = [one for one in row.checks if one.utilisation is not None]
-    worst = max(rated, key=lambda one: one.utilisation or 0.0, default=None)
-    told: dict[str, Any] = {"verdict": row.verdict.value}
+    rated = [check for check in row.checks if check.utilisation is not None]
+    worst = max(rated, key=lambda check: check.utilisation or 0.0, default=None)
+    verdict: dict[str, Any] = {"verdict": row.verdict.value}
     if worst is not None:
         title = name_check(worst.member, worst.mode, worst.position)
-        told["governing_check"] = render(title, language)
-        told["utilisation"] = round(worst.utilisation or 0.0, 3)
-    properties = {**place.feature["properties"], **told}
+        verdict["governing_check"] = render(title, language)
+        verdict["utilisation"] = round(worst.utilisation or 0.0, 3)
+    properties = {**place.feature["properties"], **verdict}
     return {**place.feature, "properties": properties}
 
 
@@ -114,7 +114,7 @@ def _map_posts(
     for number, post in enumerate(place.posts, 1):
         position = _find_position(number, len(place.posts) + 1 - number)
         checks = list_checks_at(row, position)
-        verdict = merge_verdicts(one.verdict for one in checks).value
+        verdict = merge_verdicts(check.verdict for check in checks).value
         for kind, part, x in (
             ("net_foot", "Foot of the net", 0.0),
             ("post", "Base of the post", points.post_base[0]),
@@ -160,14 +160,18 @@ def list_checks_at(row: RowStudy, position: Position) -> list[Check]:
     tests/addons/terrain/test_verdict_map.py
     """
     inside, second, at_end = (
-        {(one.member, one.mode): one for one in row.checks if one.position == place}
+        {
+            (check.member, check.mode): check
+            for check in row.checks
+            if check.position == place
+        }
         for place in ("intermediate", "second", "edge")
     )
     if position == "edge":
         return [*(at_end or inside).values()]
     if position == "intermediate":
         return [*inside.values()]
-    said = {name: _take_more(one, at_end.get(name)) for name, one in inside.items()}
+    said = {name: _take_more(check, at_end.get(name)) for name, check in inside.items()}
     return [*(said | second).values()]
 
 
@@ -175,30 +179,30 @@ def _take_more(inside: Check, at_end: Check | None) -> Check:
     """Check of the end where that has the same type and more load, else that inside."""
     if at_end is None or at_end.resistance_type != inside.resistance_type:
         return inside
-    loads = [one.read_band("E_d")[1] or 0.0 for one in (inside, at_end)]
+    loads = [check.read_band("E_d")[1] or 0.0 for check in (inside, at_end)]
     return at_end if loads[1] > loads[0] else inside
 
 
 def _map_anchors(
     row: RowStudy,
-    given: NetRow,
+    net_row: NetRow,
     points: SupportPoints,
     standard: Standard,
     place: MeasuredPlace,
     language: Language,
 ) -> Iterator[Feature]:
     """Heads of all anchors of a row, with direction and design force."""
-    found = list(place_anchors(given, points, row.pulls))
-    outer = list(place_end_anchors(given, points, row.pulls))
+    inner = list(place_anchors(net_row, points, row.pulls))
+    outer = list(place_end_anchors(net_row, points, row.pulls))
     last = len(place.posts)
     for number in range(1, last + 1):
-        inside = (one for one in found if not _is_beyond(*one, number, last))
+        inside = (anchor for anchor in inner if not _is_beyond(*anchor, number, last))
         at_end = [*outer] if number == 1 else []
         if number == last:  # there the bay after the post is outside, too
             mirrored = ((part, _mirror(bore)) for part, bore in outer)
-            at_end = [one for one in mirrored if one[0] not in tuple(Member)]
+            at_end = [anchor for anchor in mirrored if anchor[0] not in tuple(Member)]
         for part, bore in (*inside, *at_end):
-            is_of_bay = _is_of_bay(given, part, bore)
+            is_of_bay = _is_of_bay(net_row, part, bore)
             position = _find_position(number, last - number + (not is_of_bay))
             yield _map_anchor(
                 row, standard, place, language, number, (part, bore), position
@@ -234,12 +238,12 @@ def _map_anchor(
     position: Position,
 ) -> Feature:
     part, bore = anchor
-    checks = [one for one in list_checks_at(row, position) if one.member == part]
-    forces = [one.read_band("E_d")[1] for one in checks if one.mode == "pull_out"]
-    design = max((one for one in forces if one is not None), default=None)
+    checks = [check for check in list_checks_at(row, position) if check.member == part]
+    forces = [check.read_band("E_d")[1] for check in checks if check.mode == "pull_out"]
+    design = max((force for force in forces if force is not None), default=None)
     factor = standard.find(ACCEPTANCE_TEST)
     proof = None if design is None or factor is None else factor.value * design
-    types = [one.resistance_type for one in checks if one.resistance_type]
+    types = [check.resistance_type for check in checks if check.resistance_type]
     head, azimuth, dip = turn_to_map(bore, place.posts[number - 1], place, number)
     return _point(
         head,
@@ -256,15 +260,19 @@ def _map_anchor(
             "length_m": bore.length,
             "design_kN": None if design is None else round(design, 1),
             "proof_kN": None if proof is None else round(proof, 1),
-            "verdict": merge_verdicts(one.verdict for one in checks).value,
+            "verdict": merge_verdicts(check.verdict for check in checks).value,
         },
     )
 
 
 def _find_inclination(row: RowStudy) -> float:
     """Inclination of the net in the middle of the cases [rad]."""
-    found = [math.radians(one.case.inclination_deg) for one in row.cases]
-    return 0.5 * (min(found) + max(found)) if found else math.radians(30.0)
+    inclinations = [math.radians(case.case.inclination_deg) for case in row.cases]
+    return (
+        0.5 * (min(inclinations) + max(inclinations))
+        if inclinations
+        else math.radians(30.0)
+    )
 
 
 def turn_to_map(
@@ -291,12 +299,12 @@ def turn_to_map(
     other = place.posts[number if number < len(place.posts) else number - 2]
     sign = 1.0 if number < len(place.posts) else -1.0
     along = tuple(sign * (b - a) for a, b in zip(post, other, strict=True))
-    size = math.sqrt(sum(one**2 for one in along))
+    size = math.sqrt(sum(part**2 for part in along))
     cosine, sine = math.cos(place.slope), math.sin(place.slope)
     axes = (
         (down[0] * cosine, down[1] * cosine, -sine),
         (down[0] * sine, down[1] * sine, cosine),
-        tuple(one / size for one in along),
+        tuple(part / size for part in along),
     )
     head, way = (
         tuple(
@@ -312,7 +320,7 @@ def turn_to_map(
 
 
 def _point(place: Sequence[float], properties: dict[str, Any]) -> Feature:
-    coordinates = [round(one, 3) for one in place]
+    coordinates = [round(coordinate, 3) for coordinate in place]
     geometry = {"type": "Point", "coordinates": coordinates}
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
@@ -347,10 +355,10 @@ def _write_setting_out(features: Sequence[Feature]) -> str:
         text, SETTING_OUT, extrasaction="ignore", lineterminator="\n"
     )
     table.writeheader()
-    for one in features:
-        properties = one["properties"]
+    for feature in features:
+        properties = feature["properties"]
         if properties["kind"] != "net row":
-            east, north, height = one["geometry"]["coordinates"]
+            east, north, height = feature["geometry"]["coordinates"]
             place = {"east_m": east, "north_m": north, "height_m": height}
             table.writerow({**properties, **place})
     return text.getvalue()
@@ -398,8 +406,8 @@ def _draw_all(features: Iterable[Feature], language: Language) -> bytes:
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:
         drawing, text = ezdxf.new("R2010", units=_METRES), io.StringIO()
-        for one in features:
-            _draw(drawing, one, language)
+        for feature in features:
+            _draw(drawing, feature, language)
         drawing.write(text)
         return drawing.encode(text.getvalue())
     finally:
@@ -442,12 +450,12 @@ def _find_layer(
 def _describe(properties: Mapping[str, Any]) -> str:
     """Part, type and force of a label."""
     design = properties.get("design_kN")
-    told = (
+    parts = (
         properties["part"],
         properties.get("type"),
         None if design is None else f"{design:g} kN",
     )
-    return ", ".join(one for one in told if one)
+    return ", ".join(text for text in parts if text)
 
 
 def _add_label(drawing: Drawing, place: Point, layer: str, text: str) -> None:

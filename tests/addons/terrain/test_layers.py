@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from netdesign.addons.terrain.crs import require_plane, require_same
+from netdesign.addons.terrain.grid import require_plane, require_same
 from netdesign.addons.terrain.plan import read_plan
 from netdesign.outcome import TerrainError
 from tests.addons.terrain.map_files import GIVEN, SWISS, write_rows

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from netdesign.addons.terrain.places import read_places
+from netdesign.addons.terrain.geojson import read_places
 from netdesign.outcome import TerrainError
 
 ZONE = [[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import ezdxf
 import pytest
 
-from netdesign.addons.terrain.places import MeasuredPlace
+from netdesign.addons.terrain.geojson import MeasuredPlace
 from netdesign.addons.terrain.verdict_map import list_checks_at, turn_to_map
 from netdesign.checks import check_member, load_standard
 from netdesign.structure.row_position import Bore
