@@ -1,14 +1,10 @@
 """The blocks of the pages for users are run, and what they print is compared."""
 
-import json
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
-
-import openpyxl
-import pytest
 
 from tests.each import each
 from tests.short_example import write_short_example
@@ -16,7 +12,6 @@ from tests.short_example import write_short_example
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 USAGE = (ROOT / "netdesign" / "USAGE.md").read_text(encoding="utf-8")
-TUTORIAL = (ROOT / "netdesign" / "TUTORIAL.md").read_text(encoding="utf-8")
 FLAGS = re.DOTALL | re.MULTILINE
 NETDESIGN = Path(sys.executable).with_name("netdesign")
 
@@ -39,7 +34,6 @@ def blocks(language: str, text: str = README) -> list[str]:
 
 (TABLE,) = blocks("text")
 (PULLS,) = blocks("text", USAGE)
-CHANGES, SIZES, MEASURED = blocks("text", TUTORIAL)
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -59,104 +53,12 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def fill(path: Path, cells: dict[str, object]) -> None:
-    """Write values into cells given as ``Sheet!A1``, as the reader is told to."""
-    workbook = openpyxl.load_workbook(path)
-    for place, value in cells.items():
-        sheet, cell = place.split("!")
-        workbook[sheet][cell] = value
-    workbook.save(path)
-
-
 def test_two_commands_run_as_printed(tmp_path):
     lines = blocks("console")[1].splitlines()
     assert len(lines) == len(EXPECTED_EXIT_CODES)
     for line in lines:
         result = run(line, tmp_path)
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
-
-
-@pytest.mark.long
-@pytest.mark.skip(reason="the tutorial is replaced with the example")
-def test_first_site_step_by_step(tmp_path):
-    """Every command of the tutorial: what it prints and writes."""
-    begin, look, again, hand_on, *_ = blocks("sh", TUTORIAL)
-    (write,), (check,) = begin.splitlines(), look.splitlines()
-    assert run(write, tmp_path).returncode == 0
-    first = run(f"{check} --quiet", tmp_path)
-    assert first.returncode == 1, first.stderr
-    printed = [line.rstrip() for line in first.stdout.splitlines()]
-    shown = TABLE.splitlines()
-    assert printed[: len(shown)] == shown
-    assert set(CHANGES.splitlines()) <= set(printed)
-    assert set(SIZES.splitlines()) <= set(printed)
-    outputs = {"study.json", "report.html", "report.xlsx"}
-    written = {path.name for path in (tmp_path / "first").glob("[!.]*")}
-    assert written == outputs | {f"what-if-{name}" for name in outputs}
-
-    workbook = openpyxl.load_workbook(tmp_path / "first.xlsx")
-    assert workbook["Anchors"]["A6"].value == "A25-untested"
-    assert workbook["Nets"]["A8"].value == "R7"
-    assert workbook["Nets"]["P1"].value == "foot anchor"
-    told = re.sub(r"\s+", " ", TUTORIAL)
-    assert "write `310` in `Anchors!C6` and `tested` beside it in `D6`" in told
-    assert "write `A40-tested` in `Nets!P8`" in told
-    fill(
-        tmp_path / "first.xlsx",
-        {"Anchors!C6": 310, "Anchors!D6": "tested", "Nets!P8": "A40-tested"},
-    )
-    mend, compare = again.splitlines()
-    mended = run(f"{mend} --quiet", tmp_path)
-    assert mended.returncode == 6, mended.stderr
-    assert "Verdict: PROVEN ELSEWHERE" in mended.stdout
-    turned = run(compare, tmp_path)
-    assert turned.returncode == 1  # a verdict turned
-    assert "R7: verdict: fail -> pass" in turned.stdout
-    report, verify = hand_on.splitlines()
-    handed = run(report, tmp_path)
-    assert handed.returncode == 6, handed.stderr
-    page = (tmp_path / "bericht" / "report.html").read_text(encoding="utf-8")
-    assert '<html lang="de">' in page
-    assert verify.split()[:3] == ["netdesign", "verify", "--study"]  # run elsewhere
-    assert (tmp_path / verify.split()[3]).is_file()
-
-
-MOST_COMMANDS = 8  # from a grid to a report that can be signed
-
-
-@pytest.mark.long
-@pytest.mark.skip(reason="the tutorial is replaced with the example")
-def test_a_grid_becomes_a_report_that_can_be_signed(tmp_path):
-    """Every command of the chapter; coordinates stay in the files they belong to."""
-    lines = blocks("sh", TUTORIAL)[-1].splitlines()
-    assert len(lines) <= MOST_COMMANDS
-    measure, check, place, verify = lines
-    first = run(measure, tmp_path)
-    assert first.returncode == 0, first.stderr
-    assert set(MEASURED.splitlines()) <= set(first.stdout.splitlines())
-    checked = run(f"{check} --quiet", tmp_path)
-    assert checked.returncode == 0, checked.stdout + checked.stderr
-    assert checked.stdout.count(" PASS ") >= 8
-    report = tmp_path / "zone" / "report"
-    page = (report / "report.html").read_text(encoding="utf-8")
-    study = (report / "study.json").read_text(encoding="utf-8")
-    todo = page.split('id="todo"')[1].split("</section>")[0]
-    assert todo.count("<li>") == 2  # values of the profile, boreholes that rise
-    assert '<section id="map"' in page
-    rows = json.loads((tmp_path / "zone" / "rows.geojson").read_text())["features"]
-    posts = [one for one in rows if one["properties"]["kind"] == "post"]
-    assert len(posts) > 100
-    for post in posts:
-        east, north, _ = post["geometry"]["coordinates"]
-        for number in (east, north):
-            assert f"{number:.1f}"[:-1] not in page
-            assert f"{number:.1f}"[:-1] not in study
-    placed = run(place, tmp_path)
-    assert placed.returncode == 0, placed.stderr
-    table = (tmp_path / "zone" / "checked-setting-out.csv").read_text().splitlines()
-    assert len(table) > len(posts)
-    assert verify.split()[:3] == ["netdesign", "verify", "--study"]  # run elsewhere
-    assert (tmp_path / verify.split()[3]).is_file()
 
 
 def test_scene_file_is_solved(tmp_path):
