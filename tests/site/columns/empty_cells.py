@@ -1,4 +1,4 @@
-"""The table of USAGE.md on empty cells, from the columns.
+"""The table of USAGE.md on empty cells, from the columns of the input workbook.
 
 ``python -m tests.site.columns.empty_cells`` writes it into USAGE.md.
 """
@@ -6,13 +6,14 @@
 from pathlib import Path
 
 import netdesign
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, load_file
+from netdesign.site.columns.office import PARTS, TABLES, load_columns
+from netdesign.site.template.empty import say_empty
+from netdesign.words.catalogue import render
+from netdesign.words.message import say
 
 USAGE = Path(netdesign.__file__).parent / "USAGE.md"
-HEAD = (
-    "| sheet | columns | left empty | never better, since |",
-    "|---|---|---|---|",
-)
+HEAD = ("| sheet | columns | if empty |", "|---|---|---|")
 
 
 def list_columns(plan):
@@ -22,24 +23,31 @@ def list_columns(plan):
 
 
 def build_table():
-    """Lines of the table: one for each statement of a sheet."""
+    """Lines of the table: one for each thing that empty cells of a sheet mean."""
     lines = list(HEAD)
-    for plan in SHEETS:
-        by_statement = {}
-        for one in list_columns(plan):
-            statement = (one.empty["means"], one.empty["why"])
-            by_statement.setdefault(statement, []).append(one)
-        for (means, why), columns in by_statement.items():
-            lines.append(f"| {plan.name} | {join_names(columns)} | {means} | {why} |")
+    for table in TABLES:
+        by_meaning = {}
+        for column in load_columns(table):
+            means = say_empty(column, "en") or "refused"
+            by_meaning.setdefault(means, []).append(name_column(column))
+        lines += [
+            f"| {name_table(table)} | {'; '.join(names)} | {means} |"
+            for means, names in by_meaning.items()
+        ]
     return "\n".join(lines) + "\n"
 
 
-def join_names(columns):
-    """Names of columns, with a comma between those that say the same."""
-    ways = {}
-    for one in columns:
-        ways.setdefault(one.alternative_to or one.key, []).append(str(one.name))
-    return "; ".join(map(", ".join, ways.values()))
+def name_column(column):
+    """Name with the unit that the template shows, where there is one."""
+    name = render(column.field.name, "en")
+    return f"{name} [{column.unit}]" if column.unit.strip("-") else name
+
+
+def name_table(table):
+    """Title of a sheet; of a block of sheet Parts, that of the block."""
+    if table in PARTS:
+        return load_file("office")["sheets"][table]["about"]["en"]
+    return render(say(f"sheet.{table}"), "en")
 
 
 def find_table(text):
