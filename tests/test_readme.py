@@ -40,7 +40,7 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     environment = {
         **os.environ,
         "PATH": f"{NETDESIGN.parent}{os.pathsep}{os.environ['PATH']}",
-        "COLUMNS": "160",
+        "COLUMNS": "100",
     }
     return subprocess.run(
         command,
@@ -59,6 +59,14 @@ def test_two_commands_run_as_printed(tmp_path):
     for line in lines:
         result = run(line, tmp_path)
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
+
+
+def test_the_example_gives_what_is_shown(tmp_path):
+    result = run("netdesign check --example --quiet", tmp_path)
+    assert result.returncode == 1, result.stderr
+    printed = [line.rstrip() for line in result.stdout.splitlines()]
+    shown = TABLE.splitlines()
+    assert printed[: len(shown)] == shown
 
 
 def test_scene_file_is_solved(tmp_path):
