@@ -22,8 +22,7 @@ from netdesign import addon_table
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import tell
 from netdesign.commands.version import print_version
-from netdesign.edge.causes import explain_system
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import explain_system, make_printable
 from netdesign.edge.streams import flush_streams, guard_streams
 from netdesign.outcome import (
     NetDesignError,

@@ -31,8 +31,8 @@ from netdesign.outcome import NetDesignError as NetDesignError
 from netdesign.outcome import SolveError as SolveError
 from netdesign.panel.inputs import Panel as Panel
 from netdesign.panel.inputs import Rope as Rope
-from netdesign.panel.solution import FailedPanel as FailedPanel
-from netdesign.panel.solution import PanelSolution as PanelSolution
+from netdesign.panel.solve import FailedPanel as FailedPanel
+from netdesign.panel.solve import PanelSolution as PanelSolution
 from netdesign.panel.solve import solve_panel as solve_panel
 from netdesign.search.maxima import SearchSettings as SearchSettings
 from netdesign.site.model import Site as Site

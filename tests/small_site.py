@@ -4,8 +4,8 @@ import math
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link, Wear
-from netdesign.resistance.wedge import AnchorType
 from netdesign.site.model import InputEcho, NetRow, Project, Resistance, Site
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout

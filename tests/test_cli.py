@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.reader import read_site

@@ -170,7 +170,7 @@ def test_installed_program_has_its_templates(installed, tmp_path):
     )
     assert "8 net rows" in counted
     report = (
-        "from netdesign.edge.given_files import find_resource;"
+        "from netdesign.edge.input_files import find_resource;"
         "print((find_resource('templates') / 'page.html').is_file())"
     )
     assert call(installed / "python", "-c", report, cwd=tmp_path) == "True\n"

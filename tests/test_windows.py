@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.edge import given_files
-from netdesign.edge.given_files import _RemovedError, _require_there
+from netdesign.edge import input_files
+from netdesign.edge.input_files import _RemovedError, _require_there
 from netdesign.edge.output import require_free, write_files
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
@@ -100,7 +100,7 @@ def test_an_open_report_is_refused_before_any_work(tmp_path, monkeypatch):
     (tmp_path / "~$report.xlsx").write_bytes(b"owner")
     deny(monkeypatch, report, "open")
     require_free([report], overwrite=True)  # elsewhere than on Windows it is replaced
-    monkeypatch.setattr(given_files, "_holds_open_files", lambda: True)
+    monkeypatch.setattr(input_files, "_holds_open_files", lambda: True)
     with pytest.raises(OutputError, match=r"close it there first: .*report\.xlsx"):
         require_free([report], overwrite=True)
 
@@ -118,4 +118,4 @@ def test_a_report_opened_meanwhile_is_told_and_kept(tmp_path, monkeypatch):
 def test_a_sharing_violation_is_an_open_file():
     error = PermissionError(errno.EACCES, "in use")
     error.winerror = 32
-    assert given_files.is_held(error, Path("report.xlsx"))
+    assert input_files.is_held(error, Path("report.xlsx"))

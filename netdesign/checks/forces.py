@@ -21,7 +21,7 @@ from netdesign.calculation.quantity import (
     sqrt,
     tan,
 )
-from netdesign.checks.support import (
+from netdesign.checks.result import (
     MemberLoad,
     Support,
     place_end_support,

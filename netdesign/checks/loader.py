@@ -27,9 +27,9 @@ from netdesign.checks.schema import (
     TablesFile,
     check_table,
 )
-from netdesign.edge.causes import explain
-from netdesign.edge.given_files import (
+from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
+    explain,
     find_resource,
     is_there,
     parse_toml,

@@ -1,12 +1,16 @@
-"""What a check is given: forces with their bands, resistances, proofs elsewhere."""
+"""Inputs of a check: force with its band, resistance, proof, place in the row.
+
+The width of net that an end support carries: structure/THEORY.md, (S9) to (S20).
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
+from netdesign.calculation.quantity import Quantity, largest
 from netdesign.outcome import ModelError
-from netdesign.resistance.pull_out import PullOutTests
+from netdesign.resistance.ground import PullOutTests
 from netdesign.words.message import Message, say
 
 
@@ -108,3 +112,121 @@ class Declaration:
     mode: str
     position: str = ""
     proof: Proof
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Support:
+    """Support of a row: what makes of a force inside the row that on it.
+
+    Attributes
+    ----------
+    spacing, width : Quantity or None
+        b and b_e [m]; None inside the row, where one is the other.
+    end_factor, end_length : Quantity or None
+        f_R [-] and its length [m]; None inside the row.
+    is_second : bool
+        It stands beside the end.
+    reaching : int
+        End effects that reach the last bay.
+    has_both : bool
+        An anchor of two posts, each beside an end: ropes add a force to both guys.
+    """
+
+    spacing: Quantity | None = None
+    width: Quantity | None = None
+    end_factor: Quantity | None = None
+    end_length: Quantity | None = None
+    is_second: bool = False
+    reaching: int = 1
+    has_both: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberLoad:
+    """Way from a force of the section to that of a member, inside the row.
+
+    Attributes
+    ----------
+    share : Quantity or None
+        g, of the section's force in the member [-]; None of all of it.
+    added : Quantity or None
+        A, by the load along the row [kN]; None of nothing.
+    lateral, along : Quantity or None
+        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
+    across, splay : Quantity or None
+        Of two guys on one anchor, square to what they share in the section [kN]; and
+        the angle of each out of it [deg].
+    """
+
+    share: Quantity | None = None
+    added: Quantity | None = None
+    lateral: Quantity | None = None
+    along: Quantity | None = None
+    across: Quantity | None = None
+    splay: Quantity | None = None
+
+
+def place_end_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    *,
+    other: Quantity | None = None,
+    beside: Quantity | None = None,
+    is_shared: bool = False,
+) -> Support:
+    """First or last support of a row: half a bay and the end effect.
+
+    An anchor that it shares holds a guy of the next post, which carries a whole bay.
+    ``other`` and ``beside`` are parts of a bay of the other end's effect on it, and of
+    the end effects on the next support.
+    """
+    width = spacing / 2 + factor * length
+    if other is not None:
+        width = width + factor * other * spacing
+    if is_shared:
+        of_next = spacing
+        if beside is not None:
+            of_next = _widen(spacing, factor, beside)
+        width = largest(width, (width + of_next) / 2)
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
+        end_factor=factor,
+        end_length=length,
+        reaching=1 if other is None else 2,
+    )
+
+
+def place_second_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    part: Quantity,
+    *,
+    beside: Quantity | None = None,
+    is_shared: bool = False,
+) -> Support:
+    """Support beside an end: a bay, and a part of the end effect by the lever rule.
+
+    An anchor that it shares with the one after it holds a guy of that, too, of which
+    ``beside`` is the part. In a row of four that one stands beside the other end.
+    """
+    width, has_both = _widen(spacing, factor, part), False
+    if is_shared and beside is not None:
+        has_both = (beside.value or 0.0) >= (part.value or 0.0)
+        width = (width + _widen(spacing, factor, beside)) / 2
+    elif is_shared:
+        width = (width + spacing) / 2
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else "(S10a)"),
+        end_factor=factor,
+        end_length=length,
+        is_second=True,
+        has_both=has_both,
+    )
+
+
+def _widen(spacing: Quantity, factor: Quantity, part: Quantity) -> Quantity:
+    return spacing + factor * part * spacing

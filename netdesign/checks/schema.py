@@ -19,7 +19,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails
 
-from netdesign.edge.causes import explain_shape
+from netdesign.edge.input_files import explain_shape
 from netdesign.outcome import ContentError, StandardError
 from netdesign.words.message import Message, say
 

@@ -139,7 +139,7 @@ def _look_at_core() -> Probe:
 
 def _measure_store() -> Probe:
     """Place and size of the store; one that is damaged is set aside by the next run."""
-    from netdesign.edge.given_files import is_there
+    from netdesign.edge.input_files import is_there
     from netdesign.solving.store import find_store
 
     path, what = find_store(), say("doctor.store")

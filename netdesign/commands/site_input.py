@@ -17,7 +17,7 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.running import write_outputs
 from netdesign.commands.usage import UsageRefusal, speak, tell
-from netdesign.edge.causes import explain_with_file
+from netdesign.edge.input_files import explain_with_file
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.words.message import say
 

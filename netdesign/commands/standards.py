@@ -94,7 +94,7 @@ def validate_profile(folder: Path, **_: Any) -> None:
 def copy_profile(name: str, folder: Path, **_: Any) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard
-    from netdesign.edge.given_files import find_resource
+    from netdesign.edge.input_files import find_resource
     from netdesign.edge.output import require_free, write_files
 
     profile = load_standard(name)

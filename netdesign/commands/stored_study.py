@@ -63,7 +63,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
     StudyError
         If there is none.
     """
-    from netdesign.edge.given_files import is_there, make_printable
+    from netdesign.edge.input_files import is_there, make_printable
 
     name = Path(study.provenance.site_file).name  # never a path out of these folders
     folder = study_file.absolute().parent

@@ -74,7 +74,7 @@ def _find_study(
     StudyError
         If the one that is given is of another site, or of another version of it.
     """
-    from netdesign.edge.given_files import is_there
+    from netdesign.edge.input_files import is_there
     from netdesign.structure.members import END_ANCHORS
     from netdesign.study.document import load_checks
     from netdesign.study.pulls import ANCHORS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message
 

@@ -11,7 +11,7 @@ import click
 
 from netdesign import __version__
 from netdesign.core.library import name_core
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 
 
 def print_version(context: click.Context, _: click.Parameter, asked: bool) -> None:

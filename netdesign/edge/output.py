@@ -11,8 +11,12 @@ from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
-from netdesign.edge.causes import explain_system, explain_with_file
-from netdesign.edge.given_files import is_open_in_program, lock_folder
+from netdesign.edge.input_files import (
+    explain_system,
+    explain_with_file,
+    is_open_in_program,
+    lock_folder,
+)
 from netdesign.outcome import OutputError
 from netdesign.words.message import say
 

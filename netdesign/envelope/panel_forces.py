@@ -18,8 +18,7 @@ from netdesign.coupling.solution import EndPull
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Panel
-from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
-from netdesign.panel.solve import solve_strips
+from netdesign.panel.solve import FailedPanel, PanelSolution, RopeForces, solve_strips
 from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
 from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (

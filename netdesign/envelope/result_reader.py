@@ -16,7 +16,7 @@ import numpy as np
 
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.signed import (
+from netdesign.envelope.signed_forces import (
     Ends,
     choose_watched,
     name_sources,

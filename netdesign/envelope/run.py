@@ -21,7 +21,7 @@ from netdesign.envelope.panel_forces import (
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
-from netdesign.panel.solution import FailedPanel
+from netdesign.panel.solve import FailedPanel
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import CaseEnd, Settings, SolvedState, describe_case
 from netdesign.solving.workers import Job

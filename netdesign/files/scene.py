@@ -18,8 +18,7 @@ from netdesign import addon_table
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings, Wall
 from netdesign.coupling.solution import Method
-from netdesign.edge.causes import explain, explain_shape
-from netdesign.edge.given_files import list_faults, read_toml
+from netdesign.edge.input_files import explain, explain_shape, list_faults, read_toml
 from netdesign.outcome import ModelError, SceneFileError
 from netdesign.panel.inputs import LARGEST_GUY_ANGLE, LARGEST_SAG, Cut, Panel, Rope
 from netdesign.snow.creep_law import (

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
 from netdesign.checks.check import Check
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.words import Words, find_choice

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise

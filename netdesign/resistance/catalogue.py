@@ -1,15 +1,21 @@
-"""Data of the resistances, read once; each table with its status and source."""
+"""Catalogue of products: its tables, read once, and sections, bars and ropes from them.
+
+Each table has its status and source. Area, second moments and moduli of hollow sections
+follow from their dimensions. `products.py` finds a product by the name of a type.
+"""
 
 from __future__ import annotations
 
+import math
 import tomllib
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any
+from types import MappingProxyType
+from typing import Any, TypeAlias
 
 from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
@@ -163,4 +169,258 @@ def pick(what: Message, name: str, table: dict[str, Any]) -> Any:
             accepted=tuple(table),
             nearest=say("catalogue.nearest", near=near) if near else "",
         )
+    )
+
+
+def compute_tube(diameter: float, wall: float) -> dict[str, float]:
+    """Values of a round tube, the quantities of `Product`; THEORY.md, (R7).
+
+    Parameters
+    ----------
+    diameter, wall : float
+        Outer diameter and wall [m].
+
+    Returns
+    -------
+    dict of str to float
+        In m, m2, m3, m4.
+    """
+    inner = diameter - 2.0 * wall
+    area = math.pi / 4.0 * (diameter**2 - inner**2)
+    second = math.pi / 64.0 * (diameter**4 - inner**4)
+    ends = {"outer_diameter": diameter, "inner_diameter": inner}
+    return ends | _name(diameter, diameter, area, second, second)
+
+
+def compute_box(
+    depth: float, width: float, wall: float, *, outer: float, inner: float
+) -> dict[str, float]:
+    """Values of a rectangular tube with round corners; THEORY.md, (R13) and (R14).
+
+    Parameters
+    ----------
+    depth, width, wall : float
+        Outer sides and wall [m].
+    outer, inner : float
+        Radii of the corners [m].
+
+    Returns
+    -------
+    dict of str to float
+        As of `compute_tube`.
+    """
+    whole = _compute_rounded(depth, width, outer)
+    hole = _compute_rounded(depth - 2.0 * wall, width - 2.0 * wall, inner)
+    area, strong, weak = (a - b for a, b in zip(whole, hole, strict=True))
+    return _name(depth, width, area, strong, weak)
+
+
+def _compute_rounded(depth: float, width: float, radius: float) -> list[float]:
+    """A, I_y and I_z of a rectangle with round corners, eq. (R13)."""
+    cut = (1.0 - math.pi / 4.0) * radius**2
+    distance = (10.0 - 3.0 * math.pi) / (12.0 - 3.0 * math.pi) * radius
+    own = 1.0 / 3.0 - math.pi / 16.0 - 1.0 / (36.0 - 9.0 * math.pi)
+    return [depth * width - 4.0 * cut] + [
+        b * h**3 / 12.0 - 4.0 * (own * radius**4 + cut * (h / 2.0 - distance) ** 2)
+        for h, b in ((depth, width), (width, depth))
+    ]
+
+
+def _name(
+    depth: float, width: float, area: float, strong: float, weak: float
+) -> dict[str, float]:
+    return {
+        "depth": depth,
+        "width": width,
+        "area": area,
+        "second_moment_strong": strong,
+        "second_moment_weak": weak,
+        "section_modulus_strong": 2.0 * strong / depth,
+        "section_modulus_weak": 2.0 * weak / width,
+    }
+
+
+Span: TypeAlias = tuple[float, float]
+
+# What a name itself says is never recalled.
+_NAMED = frozenset({"depth", "width", "nominal_diameter", "rope_diameter", "grade"})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Product:
+    """Product of the catalogue, or all that fit a name.
+
+    Attributes
+    ----------
+    id : str
+        As ``HEB120``, ``GEWI 28``, ``6x19 18 mm``.
+    family : str
+        "section", "solid bar", "hollow bar" or "rope".
+    values : mapping of str to (float, float)
+        Least and largest value of each quantity, SI units; they differ where several
+        products fit the name, or where makers differ.
+    assumed : frozenset of str
+        Quantities that are recalled, not read; the others were read in a source that
+        quotes the original, or follow from what was read there.
+    sources : tuple of Message
+        Publications.
+    """
+
+    id: str
+    family: str
+    values: Mapping[str, Span]
+    assumed: frozenset[str]
+    sources: tuple[Message, ...]
+
+
+@lru_cache(maxsize=1)
+def load_products() -> dict[str, Any]:
+    """Load the products as their file gives them, once a name is looked up."""
+    file = files(__package__).joinpath("products.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def join(name: str, family: str, fitting: list[Product]) -> Product:
+    """All that a name may mean: what each of them has, with its least and largest."""
+    shared = set.intersection(*(set(product.values) for product in fitting))
+    recalled = set().union(*(product.assumed for product in fitting))
+    spans = {
+        quantity: [product.values[quantity] for product in fitting]
+        for quantity in fitting[0].values
+        if quantity in shared
+    }
+    values = {
+        quantity: (min(low for low, _ in listed), max(high for _, high in listed))
+        for quantity, listed in spans.items()
+    }
+    sources = dict.fromkeys(source for product in fitting for source in product.sources)
+    return Product(
+        id=name,
+        family=family,
+        values=MappingProxyType(values),
+        assumed=frozenset(shared & recalled),
+        sources=tuple(sources),
+    )
+
+
+def make_beam(row: list[float]) -> Product:
+    """I-section of its table.
+
+    Parameters
+    ----------
+    row : list of float
+        Its line [mm, cm2, cm3, cm4 by column].
+    """
+    table = load_products()["section"]
+    columns = zip(row, table["columns"].items(), strict=True)
+    values = {quantity: _span(values_, unit) for values_, (quantity, unit) in columns}
+    return _make(values, table)
+
+
+def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
+    """Round tube, or box: this is hot finished or cold formed, so two products.
+
+    Parameters
+    ----------
+    sizes : tuple of float
+        Diameter and wall, or depth, width and wall [mm].
+    """
+    table = load_products()["hollow_section"]
+    *sides, wall = (size * 1e-3 for size in sizes)
+    if len(sides) == 1:
+        tube = compute_tube(sides[0], wall)
+        return [_make({key: _span(size) for key, size in tube.items()}, table["round"])]
+    made = []
+    for way in table["box"]:
+        outer, inner = next(
+            (outer * wall, inner * wall)
+            for limit, outer, inner in way["radii"]
+            if sizes[-1] <= limit
+        )
+        box = compute_box(sides[0], sides[1], wall, outer=outer, inner=inner)
+        made.append(_make({key: _span(size) for key, size in box.items()}, way))
+    return made
+
+
+def make_bar(entry: dict[str, Any], diameters: list[float]) -> Product:
+    """Solid bar of one of some diameters.
+
+    Parameters
+    ----------
+    entry : dict
+        Of the data.
+    diameters : list of float
+        Nominal [mm].
+    """
+    outer = min(diameters) * 1e-3, max(diameters) * 1e-3
+    area = math.pi / 4.0 * outer[0] ** 2, math.pi / 4.0 * outer[1] ** 2
+    values = {"outer_diameter": outer, "area": area}
+    for word in ("yield", "ultimate"):
+        low, high = values[f"{word}_strength"] = _span(entry[word], 1e6)
+        values[f"{word}_force"] = area[0] * low, area[1] * high
+    return _make(values, entry)
+
+
+def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
+    """Hollow bar; its strengths are its forces over its area."""
+    units = load_products()["hollow"]["units"].items()
+    values = {key: _span(bar[key], unit) for key, unit in units if key in bar}
+    least, most = values["area"]
+    for word in ("yield", "ultimate"):
+        if f"{word}_force" in values:
+            low, high = values[f"{word}_force"]
+            values[f"{word}_strength"] = low / least, high / most
+    return _make(values, family)
+
+
+def list_constructions_of(strands: Iterable[str]) -> list[str]:
+    """Constructions of the catalogue with these strands, whatever their core."""
+    constructions = load_catalogue()["rope"]["construction"]
+    return [rope for rope in constructions if rope.partition("-")[0] in strands]
+
+
+def make_rope(construction: str, diameter: float, grades: list[float]) -> Product:
+    """Wire rope of one of some grades; THEORY.md, (R4) without its ends.
+
+    Parameters
+    ----------
+    construction : str
+        With its core, of the catalogue.
+    diameter : float
+        Nominal [mm].
+    grades : list of float
+        Strengths of wires [N/mm2].
+    """
+    area, breaking = (find_rope_factor(construction, factor) for factor in ("C", "K"))
+    force = breaking.value * diameter**2
+    values = {
+        "rope_diameter": _span(diameter, 1e-3),
+        "metallic_area": _span(area.value * diameter**2, 1e-6),
+        "grade": (min(grades) * 1e6, max(grades) * 1e6),
+        "breaking_force": (force * min(grades), force * max(grades)),
+    }
+    is_assumed = breaking.status == "assumed"
+    return Product(
+        id="",
+        family="",
+        values=values,
+        assumed=frozenset(values) - _NAMED if is_assumed else frozenset(),
+        sources=(breaking.source,),
+    )
+
+
+def _span(value: Any, unit: float = 1.0) -> Span:
+    low, high = value if isinstance(value, list) else (value, value)
+    return low * unit, high * unit
+
+
+def _make(values: dict[str, Span], entry: dict[str, Any]) -> Product:
+    """One product, before a name; the entry of the data says where it comes from."""
+    recalled = values if entry["status"] == "assumed" else entry.get("recalled", ())
+    return Product(
+        id="",
+        family="",
+        values=values,
+        assumed=(frozenset(recalled) - _NAMED) & values.keys(),
+        sources=(say(f"product_source.{entry['source']}"),),
     )

@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
-from netdesign.resistance.catalogue import load_catalogue
-from netdesign.resistance.product_data import (
+from netdesign.resistance.catalogue import (
     Product,
     join,
-    list_constructions,
+    list_constructions_of,
+    load_catalogue,
     load_products,
     make_bar,
     make_beam,
@@ -238,7 +238,7 @@ def _find_rope(text: str) -> Product | None:
     grades = [float(grade) for grade in load_catalogue()["rope"]["grade"]["values"]]
     fitting = [
         make_rope(rope, diameter, [g for g in grades if g in numbers] or grades)
-        for rope in _keep_cores(list_constructions(names), rest, table["cores"])
+        for rope in _keep_cores(list_constructions_of(names), rest, table["cores"])
     ]
     return join(f"{written.replace(' ', '')} {diameter:g} mm", "rope", fitting)
 

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import TypeVar
 
 from netdesign.outcome import ModelError
+from netdesign.resistance.ground import AnchorType, Soil
 from netdesign.resistance.steel import HEAD_GRADE, RoundSection, find_ground_lever
-from netdesign.resistance.wedge import AnchorType, Soil
 from netdesign.site.lines import Types
 from netdesign.site.readings import Row
 from netdesign.site.type_resistances import SOIL_COLUMNS, lacks_inner, read_inner

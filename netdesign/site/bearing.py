@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from netdesign.checks import GivenResistance
+from netdesign.resistance.ground import AnchorType, Bond
 from netdesign.resistance.post import BasePlate, PostSection
-from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import Link, Wear
-from netdesign.resistance.wedge import AnchorType
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.splay import EndGuy
 from netdesign.words.message import Message, say

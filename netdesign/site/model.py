@@ -12,8 +12,8 @@ from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import NO_RANGES, Case, Ranges
 from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
+from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
-from netdesign.resistance.wedge import AnchorType
 from netdesign.site.assumed import Assumed
 from netdesign.site.bearing import Resistance as Resistance
 from netdesign.site.bearing import RowEnd as RowEnd

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 from rapidfuzz.fuzz import token_sort_ratio
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import (
     UNDECLARED,

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from netdesign.checks import list_standards
-from netdesign.edge.given_files import is_there
+from netdesign.edge.input_files import is_there
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import (

@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import Literal
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.pull_out import SingleTest
+from netdesign.resistance.ground import SingleTest
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
 from netdesign.site.cells.numbers import (

@@ -11,11 +11,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
+from netdesign.resistance.ground import BENDING, AnchorType
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
     Wear,
 )
-from netdesign.resistance.wedge import BENDING, AnchorType
 from netdesign.site.anchor_types import (
     AXES,
     AnyMember,

@@ -14,13 +14,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
-from netdesign.edge.causes import explain as explain_cause
-from netdesign.edge.given_files import (
+from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
     is_there,
     parse_toml,
     read_bounded,
 )
+from netdesign.edge.input_files import explain as explain_cause
 from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import (
     UNASKED,

@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import fmean
 
-from netdesign.resistance.product_data import Product
+from netdesign.resistance.catalogue import Product
+from netdesign.resistance.ground import Bond, SingleTest
 from netdesign.resistance.products import find_product
-from netdesign.resistance.pull_out import Bond, SingleTest
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si

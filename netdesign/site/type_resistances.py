@@ -18,6 +18,11 @@ from netdesign.resistance.catalogue import (
     list_constructions,
     load_catalogue,
 )
+from netdesign.resistance.ground import (
+    PullOutTests,
+    compute_pull_out_from_bond,
+    limit_proof_load,
+)
 from netdesign.resistance.post import (
     BasePlate,
     BucklingResistance,
@@ -25,11 +30,6 @@ from netdesign.resistance.post import (
     compute_buckling_resistance,
 )
 from netdesign.resistance.products import find_product
-from netdesign.resistance.pull_out import (
-    PullOutTests,
-    compute_pull_out_from_bond,
-    limit_proof_load,
-)
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import to_si

@@ -288,7 +288,7 @@ class DaskCluster:
         except ImportError:
             raise ClusterError(say("cluster.needs_extra", address=address)) from None
         # here, since workers of a pool need no store
-        from netdesign.solving.identity import identify_solver
+        from netdesign.solving.store import identify_solver
 
         _require_answer(address)
         self._address = address

@@ -12,7 +12,7 @@ from netdesign.checks.comparison import compare, lack_factor, leave_open
 from netdesign.checks.schema import ANCHOR_DISTANCE, SOIL_COHESION, SOIL_FRICTION
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
-from netdesign.resistance.wedge import (
+from netdesign.resistance.ground import (
     AnchorType,
     Soil,
     WedgeResistance,

@@ -24,8 +24,15 @@ from netdesign.checks.forces import resist_by_friction
 from netdesign.checks.schema import LONGEST_BOND, ROPE_ANGLE
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import Datum, find_steel_bond
+from netdesign.resistance.ground import (
+    BENDING,
+    AnchorType,
+    Bond,
+    PullOutTests,
+    Soil,
+    compute_steel_bond,
+)
 from netdesign.resistance.post import BasePlate, PostSection
-from netdesign.resistance.pull_out import Bond, PullOutTests, compute_steel_bond
 from netdesign.resistance.steel import (
     BARE,
     SHACKLE,
@@ -42,7 +49,6 @@ from netdesign.resistance.steel import (
     leave_area,
     resist_link,
 )
-from netdesign.resistance.wedge import BENDING, AnchorType, Soil
 from netdesign.site.model import Resistance
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.bores import find_ground_resistance

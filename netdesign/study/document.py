@@ -13,9 +13,10 @@ from typing import Any
 
 from netdesign.calculation.steps import require_calculation
 from netdesign.checks.check import Check
-from netdesign.edge.causes import explain, explain_shape
-from netdesign.edge.given_files import (
+from netdesign.edge.input_files import (
     decode_utf8,
+    explain,
+    explain_shape,
     list_faults,
     read_bounded,
 )

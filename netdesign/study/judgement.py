@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
 from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
-from netdesign.checks.comparison import find_missing_force
+from netdesign.checks.comparison import find_missing_force, find_proof_factor
 from netdesign.checks.schema import BY_REPORT
-from netdesign.checks.tested import find_proof_factor
 from netdesign.outcome import ModelError, Verdict
-from netdesign.resistance.pull_out import SingleTest as PullOutTest
+from netdesign.resistance.ground import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
     ROPE_OF,

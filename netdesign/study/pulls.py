@@ -11,7 +11,7 @@ from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
-from netdesign.resistance.wedge import BENDING
+from netdesign.resistance.ground import BENDING
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.anchors import (
     PullRange,

@@ -10,8 +10,8 @@ from typing import cast, get_args
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
+from netdesign.checks.comparison import find_proof_factor
 from netdesign.checks.schema import GLIDE_FACTORS
-from netdesign.checks.tested import find_proof_factor
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge.json_text import list_fields

@@ -7,13 +7,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from netdesign.coupling.face import NetState, find_net_face
-from netdesign.envelope.extremes import Extreme
+from netdesign.coupling.interface import NetState, find_net_face
 from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.rows import Extreme
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Rope
-from netdesign.panel.solution import FailedPanel
+from netdesign.panel.solve import FailedPanel
 from netdesign.panel.strips import ROPE_POINTS
 from netdesign.site.model import NetRow, Resistance
 from netdesign.solving.solve import SolvedState

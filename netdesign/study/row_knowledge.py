@@ -11,7 +11,7 @@ from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
-from netdesign.panel.solution import FailedPanel
+from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.members import RopeForce
 from netdesign.study.case_records import LargestForce

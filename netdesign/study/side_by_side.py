@@ -19,9 +19,13 @@ from netdesign.edge.json_text import JsonPart
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import Fault, catch_fault
 from netdesign.site.model import NetRow, Project, Site
-from netdesign.solving.identity import identify_installation
 from netdesign.solving.runner import Counts, Runner
-from netdesign.solving.store import CaseStore, StoreError, write_parts
+from netdesign.solving.store import (
+    CaseStore,
+    StoreError,
+    identify_installation,
+    write_parts,
+)
 from netdesign.study.cases import search_site
 from netdesign.study.check_run import CheckRun
 from netdesign.study.document import restore_row

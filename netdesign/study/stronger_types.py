@@ -17,11 +17,11 @@ from netdesign.resistance.catalogue import (
     find_rope_factor,
     find_termination,
     load_catalogue,
+    load_products,
 )
+from netdesign.resistance.ground import Bond
 from netdesign.resistance.post import compute_buckling_resistance
-from netdesign.resistance.product_data import load_products
 from netdesign.resistance.products import find_product
-from netdesign.resistance.pull_out import Bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart

@@ -17,7 +17,7 @@ from netdesign.checks.check import judge
 from netdesign.checks.comparison import find_resistance
 from netdesign.checks.geometry import check_inclination
 from netdesign.outcome import ModelError, Verdict
-from netdesign.resistance.pull_out import PullOutTests
+from netdesign.resistance.ground import PullOutTests
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name, name_mode

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from netdesign.checks.loader import list_standards, load_standard
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.outcome import StandardError
 
 NF_STYLE = "nf-p-95-304-style"

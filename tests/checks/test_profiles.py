@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import list_standards, load_standard
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import StandardError, Verdict
 from tests.checks.given_pulls import find_second, judge_row, study_row

@@ -12,7 +12,7 @@ import pytest
 from netdesign.addons.evidence.benchmark.scenes import write_site
 from netdesign.commands import stored_study
 from netdesign.commands.stored_study import read_own_site
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.study import side_by_side
 from tests.each import each
 

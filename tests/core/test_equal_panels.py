@@ -7,8 +7,7 @@ from netdesign.core.library import find_core
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError
-from netdesign.panel.solution import FailedPanel
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import FailedPanel, solve_panel
 from tests.panel.test_robustness import draw_panel, draw_scene
 
 pytestmark = pytest.mark.skipif(find_core() is None, reason="no compiled core here")

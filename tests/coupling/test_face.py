@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.coupling.face import Face
+from netdesign.coupling.interface import Face
 
 PRESSURE, SHEAR = 30e3, 6e3  # [Pa]
 TILT = math.radians(30.0)

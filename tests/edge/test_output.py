@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.edge.given_files import LOCK_FILE, lock_folder
+from netdesign.edge.input_files import LOCK_FILE, lock_folder
 from netdesign.edge.output import require_free, write_files
 from netdesign.outcome import OutputError
 

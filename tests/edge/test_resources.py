@@ -1,6 +1,6 @@
 import pytest
 
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 
 
 @pytest.mark.parametrize(

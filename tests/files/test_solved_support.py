@@ -11,8 +11,7 @@ from netdesign.files.cases import resolve_support, write_support
 from netdesign.files.scene import GivenSupport
 from netdesign.files.solution import write_solution_document
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.solution import compute_end_forces
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import compute_end_forces, solve_panel
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 

@@ -34,7 +34,7 @@ from hypothesis import strategies as st
 from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.coupling.solution import FailedSolution
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.files.scene import read_scene
 from netdesign.outcome import NetDesignError, Outcome, SiteDataError
 from netdesign.site.columns.all_tables import SHEETS

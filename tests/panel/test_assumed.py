@@ -21,7 +21,7 @@ from netdesign.panel.inputs import (
     find_stiffness,
     list_panels,
 )
-from netdesign.panel.solution import FailedPanel
+from netdesign.panel.solve import FailedPanel
 from netdesign.site.assumed import load_assumed
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.snow.ground import GroundLaw

@@ -15,8 +15,7 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError
 from netdesign.panel.inputs import CUTS, Panel, Rope
-from netdesign.panel.solution import FailedPanel
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import FailedPanel, solve_panel
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 

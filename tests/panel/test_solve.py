@@ -9,8 +9,7 @@ import pytest
 from netdesign.outcome import Outcome
 from netdesign.panel import solve as solving
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.solution import FailedPanel, PanelSolution
-from netdesign.panel.solve import STATIONS, solve_panel
+from netdesign.panel.solve import STATIONS, FailedPanel, PanelSolution, solve_panel
 
 PANEL = Panel(
     post_spacing=3.8,

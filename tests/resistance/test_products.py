@@ -10,12 +10,12 @@ from itertools import pairwise
 
 import pytest
 
-from netdesign.resistance.catalogue import load_catalogue
-from netdesign.resistance.product_data import (
+from netdesign.resistance.catalogue import (
     compute_box,
     compute_tube,
     join,
-    list_constructions,
+    list_constructions_of,
+    load_catalogue,
     load_products,
 )
 from netdesign.resistance.products import find_product
@@ -287,7 +287,7 @@ def test_spiral_ropes_have_the_area_of_their_wires(name, wires):
 
 def test_every_construction_is_meant_by_a_name():
     meant = load_products()["rope"]["strands"].values()
-    known = set().union(*(list_constructions(strands) for strands in meant))
+    known = set().union(*(list_constructions_of(strands) for strands in meant))
     assert known >= set(load_catalogue()["rope"]["construction"])
 
 

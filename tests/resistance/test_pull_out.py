@@ -6,7 +6,7 @@ from netdesign.calculation.quantity import given
 from netdesign.checks.forces import resist_by_friction, resist_by_tests
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_bond_stress
-from netdesign.resistance.pull_out import (
+from netdesign.resistance.ground import (
     PullOutTests,
     compute_pull_out_from_bond,
 )

@@ -5,6 +5,10 @@ import math
 import pytest
 
 from netdesign.outcome import ModelError
+from netdesign.resistance.ground import (
+    PullOutTests,
+    compute_pull_out_from_bond,
+)
 from netdesign.resistance.post import (
     BasePlate,
     PostSection,
@@ -12,10 +16,6 @@ from netdesign.resistance.post import (
     compute_buckling_resistance,
     compute_post_moment,
     find_inclination_factor,
-)
-from netdesign.resistance.pull_out import (
-    PullOutTests,
-    compute_pull_out_from_bond,
 )
 from netdesign.resistance.steel import (
     RoundSection,

@@ -5,7 +5,7 @@ import pytest
 import xlsxwriter
 
 from netdesign.envelope.ranges import Interval
-from netdesign.resistance.pull_out import PullOutTests
+from netdesign.resistance.ground import PullOutTests
 from netdesign.site import net_rows
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import (

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.solving import identity
-from netdesign.solving.identity import identify_solver, take_code
+from netdesign.solving import store
+from netdesign.solving.store import identify_solver, take_code
 from tests.each import each
 
-PACKAGE = Path(identity.__file__).parents[1]
-FILES = list(identity._list_files(identity._SOLVER_PARTS, PACKAGE))
+PACKAGE = Path(store.__file__).parents[1]
+FILES = list(store._list_files(store._SOLVER_PARTS, PACKAGE))
 MODULES = [path for path in FILES if path.suffix == ".py"]
 KEPT = (tokenize.NAME, tokenize.NUMBER, tokenize.STRING, tokenize.OP)
 
@@ -38,7 +38,7 @@ def rename(package, place, old, new):
     text = path.read_text(encoding="utf-8")
     assert old in text
     path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    identity._identify.cache_clear()
+    store._identify.cache_clear()
     return identify_solver(package)
 
 
@@ -97,7 +97,7 @@ def test_a_changed_constant_is_another_solver(package, place, old, new):
 
 def test_another_core_is_another_solver(monkeypatch):
     before = identify_solver()
-    monkeypatch.setattr(identity, "name_core", lambda: "C of another text")
+    monkeypatch.setattr(store, "name_core", lambda: "C of another text")
     assert identify_solver() != before
 
 

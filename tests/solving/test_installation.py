@@ -4,8 +4,8 @@ import sys
 
 import pytest
 
-from netdesign.solving import identity as module
-from netdesign.solving.identity import identify_installation, identify_program
+from netdesign.solving import store as module
+from netdesign.solving.store import identify_installation, identify_program
 
 
 @pytest.fixture

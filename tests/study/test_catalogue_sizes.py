@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from netdesign.resistance.pull_out import Bond
+from netdesign.resistance.ground import Bond
 from netdesign.site.model import Resistance
 from netdesign.study.stronger_types import find_size
 from netdesign.words.catalogue import LANGUAGES, render

@@ -9,8 +9,8 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
+from netdesign.resistance.ground import AnchorType, Soil, compute_wedge_resistance
 from netdesign.resistance.steel import find_loss, leave_area
-from netdesign.resistance.wedge import AnchorType, Soil, compute_wedge_resistance
 from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
 from netdesign.structure.members import Member

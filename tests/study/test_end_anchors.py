@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
+from netdesign.resistance.ground import AnchorType, Soil
 from netdesign.resistance.steel import RoundSection, compute_bent_bar_resistance
-from netdesign.resistance.wedge import AnchorType, Soil
 from netdesign.site.model import Resistance
 from netdesign.structure.members import END_ANCHORS, EndMember
 from tests.each import each

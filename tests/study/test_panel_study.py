@@ -11,7 +11,7 @@ from netdesign.envelope import run as running
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.panel.inputs import CUTS, Panel, Rope
-from netdesign.panel.solution import FailedPanel
+from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import END_ANCHORS, END_MODES, ROPE_OF

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.checks.tested import find_proof_factor
+from netdesign.checks.comparison import find_proof_factor
 from netdesign.outcome import Verdict
 from netdesign.report.sections.tested import show_tests
 from netdesign.report.words import Words

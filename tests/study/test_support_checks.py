@@ -626,7 +626,7 @@ def folder_without(tmp_path):
     """Copy of the Swiss profile without one of its values."""
     import shutil
 
-    from netdesign.edge.given_files import find_resource
+    from netdesign.edge.input_files import find_resource
 
     def copy(file, value_id):
         mine = shutil.copytree(find_resource("standards") / SWISS, tmp_path / "mine")
@@ -681,7 +681,7 @@ def test_what_is_given_twice_or_is_no_tube_is_one_finding(
 def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path):
     import shutil
 
-    from netdesign.edge.given_files import find_resource
+    from netdesign.edge.input_files import find_resource
 
     mine = shutil.copytree(find_resource("standards") / "eurocode", tmp_path / "ec")
     path = mine / "document.toml"

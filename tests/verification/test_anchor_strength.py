@@ -9,7 +9,7 @@ import pytest
 from netdesign.checks import check_member, load_standard
 from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
-from netdesign.resistance.pull_out import (
+from netdesign.resistance.ground import (
     Bond,
     PullOutTests,
     compute_pull_out_from_bond,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.wedge import (
+from netdesign.resistance.ground import (
     WATER,
     Soil,
     compute_cone_resistance,

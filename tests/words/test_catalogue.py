@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import say
 from tests.sources import PACKAGE, walk_package

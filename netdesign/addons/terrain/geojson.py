@@ -15,8 +15,7 @@ from shapely.geometry import mapping
 
 from netdesign.addons.terrain.measure import MeasuredRow
 from netdesign.addons.terrain.plan import ZONE
-from netdesign.edge.causes import explain
-from netdesign.edge.given_files import decode_utf8, read_bounded
+from netdesign.edge.input_files import decode_utf8, explain, read_bounded
 from netdesign.outcome import TerrainError
 from netdesign.words.message import say
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from netdesign.edge.given_files import make_printable, read_bounded
+from netdesign.edge.input_files import make_printable, read_bounded
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 

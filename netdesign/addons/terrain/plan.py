@@ -19,7 +19,7 @@ from netdesign.addons.terrain.grid import (
     require_plane,
     require_same,
 )
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 from netdesign.site.columns.all_tables import NETS, Lexicon

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.report.blocks import (
     SMALL,
     STRONG,

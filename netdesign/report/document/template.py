@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from netdesign.edge.given_files import read_bounded
+from netdesign.edge.input_files import read_bounded
 from netdesign.outcome import OutputError
 from netdesign.report.document.styles import add_missing, shape_all
 from netdesign.words.message import say

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup, escape
 
-from netdesign.edge.given_files import find_resource, make_printable
+from netdesign.edge.input_files import find_resource, make_printable
 from netdesign.report.blocks import (
     CODE,
     STRONG,

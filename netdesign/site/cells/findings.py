@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.outcome import SiteDataError
 from netdesign.words.message import Message, say
 

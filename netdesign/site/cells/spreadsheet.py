@@ -15,8 +15,7 @@ from io import BytesIO, StringIO
 from itertools import islice
 from pathlib import Path
 
-from netdesign.edge.causes import explain
-from netdesign.edge.given_files import is_held, make_printable, read_bounded
+from netdesign.edge.input_files import explain, is_held, make_printable, read_bounded
 from netdesign.outcome import ContentError
 from netdesign.site.cells.cells import (
     DAMAGE,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-from netdesign.edge.given_files import is_there, make_printable
+from netdesign.edge.input_files import is_there, make_printable
 from netdesign.site.cells.cells import (
     UNDECLARED,
     Cell,

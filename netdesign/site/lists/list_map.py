@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from netdesign.edge.causes import explain as explain_cause
-from netdesign.edge.given_files import (
+from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
     is_there,
     parse_toml,
     read_bounded,
 )
+from netdesign.edge.input_files import explain as explain_cause
 from netdesign.outcome import ContentError, SiteDataError
 from netdesign.site.cells.cells import Answers, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, quote, refuse_file

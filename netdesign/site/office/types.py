@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.resistance.product_data import Product
+from netdesign.resistance.catalogue import Product
 from netdesign.resistance.products import find_product
 from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS, ROPES, TESTS
 from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si

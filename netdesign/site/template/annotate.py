@@ -11,7 +11,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from netdesign.edge.given_files import make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.site.cells.cells import DAMAGE, UNDECLARED, Sheet, TextFormat
 from netdesign.site.cells.findings import Finding, refuse_file
 from netdesign.site.cells.xlsx import open_for_editing

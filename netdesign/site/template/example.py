@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from netdesign.edge.given_files import find_resource
+from netdesign.edge.input_files import find_resource
 from netdesign.site.template.office_workbook import write_input_workbook
 from netdesign.words.catalogue import Language
 

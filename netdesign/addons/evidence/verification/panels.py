@@ -25,8 +25,7 @@ from netdesign.coupling.solution import Solution
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Cut, Panel, Rope
-from netdesign.panel.solution import FailedPanel, PanelSolution
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import FailedPanel, PanelSolution, solve_panel
 from netdesign.panel.strips import Strip, take_strip
 from netdesign.snow.ground import GroundLaw
 

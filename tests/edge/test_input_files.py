@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from netdesign.edge.given_files import decode_utf8, parse_toml
+from netdesign.edge.input_files import decode_utf8, parse_toml
 from netdesign.outcome import ContentError
 from tests.each import each
 
