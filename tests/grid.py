@@ -8,9 +8,10 @@ from itertools import product
 
 import numpy as np
 
+from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS
-from netdesign.envelope.rows import RowEnvelope, RowTask, find_extremes
+from netdesign.envelope.rows import RowEnvelope, RowTask
 from netdesign.envelope.run import run_cases
 from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.study.row_to_check import build_row_task, build_scene

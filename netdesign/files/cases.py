@@ -14,9 +14,10 @@ from typing import Any
 from netdesign import __version__
 from netdesign.core.library import name_core
 from netdesign.coupling.solution import Solution
+from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import build_case
-from netdesign.envelope.rows import Extreme, RowEnvelope, describe_gap, find_extremes
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.scene import GivenSupport
 from netdesign.panel.solve import EndForces, RopeForces, compute_end_forces

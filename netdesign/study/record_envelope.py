@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from netdesign.checks.check import CasePoint
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import PARAMETERS, Case
-from netdesign.envelope.rows import Extreme, RowEnvelope
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.search.maxima import RESOLVED_SHARE
 from netdesign.site.model import NetRow

@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import DIMENSIONING
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case, Ranges
-from netdesign.envelope.rows import Extreme
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,

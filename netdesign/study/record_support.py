@@ -8,8 +8,8 @@ from types import MappingProxyType
 import numpy as np
 
 from netdesign.coupling.interface import NetState, find_net_face
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PanelForces
-from netdesign.envelope.rows import Extreme
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.panel.inputs import Rope

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from netdesign.cable.net import Net
 from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.rows import Extreme, RowEnvelope
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw

@@ -15,9 +15,9 @@ from netdesign.checks import Band, Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.coupling.solution import EndPull
+from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
-from netdesign.envelope.rows import Extreme, describe_gap
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.outcome import Verdict

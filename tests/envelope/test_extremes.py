@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from netdesign.checks.result import Band
+from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.rows import describe_gap, find_extremes
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError, Outcome
 from netdesign.words.message import group_reasons, say

@@ -9,6 +9,7 @@ import pytest
 from netdesign.addons.history.settings import TransientSettings
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
+from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.panel_forces import (
     PANEL_QUANTITIES,
     PanelForces,
@@ -16,12 +17,7 @@ from netdesign.envelope.panel_forces import (
 )
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.result_reader import POST_PULLS
-from netdesign.envelope.rows import (
-    RowTask,
-    describe_gap,
-    find_extremes,
-    refine_settings,
-)
+from netdesign.envelope.rows import RowTask, refine_settings
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.outcome import Outcome

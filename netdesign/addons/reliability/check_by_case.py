@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cache, cached_property, partial
 
 from netdesign.checks import OpenKind
+from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Case, Ranges
-from netdesign.envelope.rows import find_extreme
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.structure.members import Member, RopeForce
