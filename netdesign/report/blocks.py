@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from netdesign.outcome import Verdict
 from netdesign.report.words import MISSING, VerdictWords, Words, name_heading, show_text
 
 # Looks that every writer knows; a page's style sheet may have more. A small piece
@@ -55,6 +56,18 @@ def list_pieces(text: Text, *, has_symbols: bool = False) -> Content:
     return text
 
 
+def write_plain(text: Text) -> str:
+    """Text without its looks: of a verdict its symbol, of a sketch nothing."""
+    if isinstance(text, str):
+        return text
+    parts = [
+        one.text if isinstance(one, Piece) else one.verdict.symbol
+        for one in text
+        if not isinstance(one, Sketch)
+    ]
+    return " ".join(" ".join(parts).split(" ")).strip()
+
+
 def symbols(text: str) -> Content:
     """Text with lowered subscripts."""
     return (Piece(text, has_symbols=True),)
@@ -83,12 +96,15 @@ Medium = Literal["all", "page"]
 class Cell:
     """Text that a reader sees, and the number behind it if it is one.
 
-    ``content`` stands for the text where it has several looks.
+    ``content`` stands for the text where it has several looks. ``verdict`` sets the
+    sign before a number in a workbook, ``note`` a comment at the cell there.
     """
 
     text: str = ""
     number: float | None = None
     content: Content = ()
+    verdict: Verdict | None = None
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -95,7 +95,8 @@ def read_checks(sheet: Worksheet) -> list[ShownCheck]:
     for line, cells in enumerate(sheet.iter_rows(min_row=5, values_only=True), 5):
         row, name, verdict, first, *_ = cells
         if row:
-            texts = (row, name, verdict, first or "", cells[10] or "")
+            told = sheet[f"B{line + 1}"].value
+            texts = (row, name, verdict, told or "", cells[10] or "")
             checks.append(ShownCheck(line, *texts, cells[6:9], {}))
         elif first:
             checks[-1].steps[first] = line

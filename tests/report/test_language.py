@@ -10,12 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.checks import load_standard
+from netdesign.report.blocks import Table
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.quality import build_bounds, build_cases
+from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.report.workbook.quantities import build_schedule
 from netdesign.study.document import read_document, write_document
 from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import Message, say
@@ -101,7 +102,9 @@ def test_shipped_profiles_are_translated(language):
 def test_the_same_study_is_told_with_the_same_numbers(language):
     study, shown = build_study(), []
     for words in (Words("en"), Words(language)):
-        tables = [build_schedule(study, words)]
+        tables = [
+            one for one in show_schedule(study, words).blocks if isinstance(one, Table)
+        ]
         for row in study.rows:
             tables += [build_bounds(row, words), build_cases(row, words)]
         shown.append([c.number for one in tables for line in one.rows for c in line])

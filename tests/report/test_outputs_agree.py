@@ -11,8 +11,7 @@ from rich.console import Console
 from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.checks import describe_resistance
-from netdesign.report.sections.quality import build_bounds
-from netdesign.report.sections.scopes import describe_scopes, show_scope
+from netdesign.report.sections.scopes import show_scope
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check, show_member
 from netdesign.report.workbook.excel import render_workbook
@@ -92,24 +91,6 @@ def test_checks_agree(page, book):
                 assert ENGLISH.show(check.told) in told(page)
 
 
-def read_last_table(sheet):
-    first = [line[0] for line in sheet.iter_rows(values_only=True)]
-    start = len(first) - first[::-1].index("Net row")
-    heads = [cell.value for cell in sheet[start]]
-    lines = sheet.iter_rows(min_row=start + 1, values_only=True)
-    return [dict(zip(heads, line, strict=True)) for line in lines]
-
-
-def test_largest_forces_stand_in_the_workbook(book):
-    lines = read_last_table(book["Cases"])
-    for row in STUDY.rows:
-        table = build_bounds(row, ENGLISH)
-        mine = [line for line in lines if line["Net row"] == row.id]
-        for cells, line in zip(table.rows, mine, strict=True):
-            assert line["Member"] == cells[0].text
-            assert as_cell(cells[1].number) == list(line.values())[2]
-
-
 def test_every_step_of_the_page_stands_in_the_workbook(page, book):
     """Page and sheet have the same numbers, the page with four digits at least."""
     cells = [line[3:8] for line in book["Checks"].iter_rows(values_only=True)]
@@ -130,7 +111,7 @@ def test_verdicts_agree(page, book):
     stream = io.StringIO()
     print_summary(STUDY, Console(file=stream, width=200))
     lines = stream.getvalue().splitlines()
-    summary = read_rows(book["Decision"], "No.")
+    summary = read_rows(book["Decision"], "Row")
     shown = page.tables["decision"][0][1:]
     for index, row in enumerate(STUDY.rows):
         word = ENGLISH(f"verdict.{row.verdict}")
@@ -138,11 +119,10 @@ def test_verdicts_agree(page, book):
         assert summary[index]["Verdict"] == word
         scopes = [show_scope(row, scope, ENGLISH)[0] for scope in SCOPES]
         assert all(one in lines[1 + index] for one in scopes)
-        assert describe_scopes(row, ENGLISH) in summary[index]["Reasons"]
         used = ENGLISH.show_number("utilisation", find_governing(row.checks).used)
         assert used in lines[1 + index]
     overall = ENGLISH(f"verdict.{STUDY.verdict}")
-    assert book["Decision"]["C3"].value == overall
+    assert book["Decision"]["B3"].value == overall
     assert lines[1 + len(STUDY.rows)].startswith(f"Verdict: {overall}")
     assert f"{overall}" in "".join(page.text)
 
@@ -164,19 +144,6 @@ def test_json_document_agrees_with_the_workbook(book):
                 ("utilisation", "μ"),
             ):
                 assert read_step(book, line, symbol) == as_cell(check[key])
-
-
-def test_all_cases_of_the_document_stand_in_the_workbook(book):
-    lines = iter(read_rows(book["Cases"], "Net row"))
-    for row in json.loads(write_document(STUDY))["rows"]:
-        for case in row["cases"]:
-            line = next(lines)
-            for key, heading in (
-                ("foot_anchor_kN", "Net anchor (foot) [kN]"),
-                ("error_percent", "Estimated error [%]"),
-                ("balance_residual", "Balance residual"),
-            ):
-                assert line[heading] == as_cell(case[key])
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
@@ -225,9 +192,9 @@ def test_only_what_somebody_typed_has_a_point_in_french_and_german(language):
 
 def test_provenance_agrees(page, book):
     cells = {line[0]: line[1] for line in page.tables["annex-verify"][0][1:]}
-    sheet = {
-        line["Item"]: line["Value"] for line in read_rows(book["Provenance"], "Item")
-    }
-    assert cells == sheet
+    shown = list(book["Notes"].iter_rows(values_only=True))
+    start = max(k for k, line in enumerate(shown) if line[0] == "Provenance")
+    pairs = [[one for one in line if one is not None] for line in shown[start + 1 :]]
+    assert cells == {name: value for name, value in pairs}
     assert cells["Site file, SHA-256"] == STUDY.provenance.site_sha256
     assert cells["Limit profile, SHA-256"] == STUDY.profile.sha256

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
+import math
+
 from netdesign.outcome import Verdict
-from netdesign.report.blocks import SMALL, Badge, Content, Piece, Sketch
+from netdesign.report.blocks import (
+    SMALL,
+    Badge,
+    Cell,
+    Content,
+    Piece,
+    Sketch,
+    write_plain,
+)
 from netdesign.report.sections.rated import Rated, show_need
 from netdesign.report.words import MISSING, Words, show_verdict
 
@@ -46,6 +56,16 @@ def show_answer(rated: Rated, words: Words) -> Content:
         return show_rated(rated, words)
     told = show_need(rated.check, words) or words(f"verdict.{rated.verdict}").lower()
     return (sign(rated.verdict, words), Piece(told, has_symbols=True))
+
+
+def used_cell(rated: Rated | None, words: Words, content: Content = ()) -> Cell:
+    """Utilisation as a number with the sign of its verdict; else its content alone."""
+    content = content or show_rated(rated, words)
+    text = write_plain(content)
+    if rated is None or rated.used is None or not math.isfinite(rated.used):
+        return Cell(text=text, content=content)
+    shown = words.show_number("utilisation", rated.used)
+    return Cell(text=shown, number=rated.used, content=content, verdict=rated.verdict)
 
 
 def _fails(rated: Rated) -> bool:

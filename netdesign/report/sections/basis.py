@@ -8,6 +8,7 @@ from dataclasses import replace
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
+    Cell,
     Pair,
     Pairs,
     Paragraph,
@@ -15,6 +16,7 @@ from netdesign.report.blocks import (
     Table,
     given_cell,
     key_columns,
+    name_columns,
     section,
     symbols,
     text_cell,
@@ -22,6 +24,7 @@ from netdesign.report.blocks import (
 from netdesign.report.sections.assumed import ALTITUDE, DEFAULT
 from netdesign.report.sections.tested import show_tests
 from netdesign.report.words import (
+    MISSING,
     Words,
     name_heading,
     show_own,
@@ -35,28 +38,60 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 
-def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Table:
-    """List inputs as typed and as understood, each with its cell."""
-    keys = ("input", "typed", "understood_as", "unit", "cell")
+def build_inputs(study: Study, words: Words) -> Table:
+    """Inputs as understood: what all net rows share once, else a column for each row.
+
+    A number that was typed in another way stands behind it: ``14 % → 0.05``, with the
+    formula as a note.
+    """
+    shown: dict[tuple[str, str], dict[str, Cell]] = {}
+    ids = [row.id for row in study.rows]
+    places = [
+        (ids, study.range_inputs),
+        *(([row.id], row.inputs) for row in study.rows),
+    ]
+    for names, inputs in places:
+        for echo in inputs:
+            key = (_name_input(echo, words), show_unit(echo.unit))
+            cell = _input_cell(echo, words)
+            if echo.label != _NAME and cell.text != MISSING:
+                shown.setdefault(key, {}).update(dict.fromkeys(names, cell))
     return Table(
-        caption=caption,
-        columns=key_columns(words, "heading.", keys, numbers=("understood_as",)),
+        caption=words("heading.typed_and_understood"),
+        columns=(
+            *key_columns(words, "heading.", ("input", "unit", "in_all_rows")),
+            *name_columns([show_text(one) for one in ids], numbers=()),
+        ),
         rows=tuple(
-            (
-                text_cell(words.show(echo.label)),
-                text_cell(
-                    words.show(echo.derivation) if echo.derivation else echo.text
-                ),
-                given_cell(words, understand(echo, words)),
-                text_cell(show_unit(echo.unit)),
-                text_cell(
-                    words("status.default") if echo.cell == DEFAULT else echo.cell
-                ),
-            )
-            for echo in inputs
+            (text_cell(label), Cell(text=unit), *_share_cells(ids, cells))
+            for (label, unit), cells in shown.items()
         ),
         empty=words("show.none"),
     )
+
+
+def _name_input(echo: InputEcho, words: Words) -> str:
+    """Name of an input; that of a row's end says so."""
+    label = words.show(echo.label)
+    is_of_end = isinstance(echo.label, Message) and echo.label.key.startswith(_ENDS)
+    return words.join((label, words("heading.at_end"))) if is_of_end else label
+
+
+def _share_cells(ids: Sequence[str], cells: Mapping[str, Cell]) -> list[Cell]:
+    """A cell for all rows where their inputs are alike; else that of each row."""
+    first, *others = (cells.get(one, Cell(text=MISSING)) for one in ids)
+    if others and all(one == first for one in others):
+        return [first, *(Cell() for _ in ids)]
+    return [Cell(), first, *others]
+
+
+def _input_cell(echo: InputEcho, words: Words) -> Cell:
+    cell = given_cell(words, understand(echo, words))
+    typed = show_text(echo.text)
+    note = words.show(echo.derivation) if echo.derivation else ""
+    if cell.number is None or not echo.text or words.write(typed) == cell.text:
+        return replace(cell, note=note)
+    return Cell(text=f"{typed} → {cell.text}", note=note)
 
 
 _ASSUMED = "assumed"  # status of a value that nobody has confirmed
@@ -133,7 +168,7 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
 _READING = ("reading.checks", "reading.search", "reading.directions")
-_NAME = say("column.Nets.id")
+_NAME, _ENDS = say("column.Nets.id"), "column.Ends."
 # Net rows of which each is named; of more, those that are left out may be fewer.
 _FEW_ROWS, _TWO = 8, 2
 
@@ -254,11 +289,6 @@ def _count_by_floor(study: Study, words: Words) -> str:
 def name_law(study: Study) -> str:
     """Creep law of a study; "" of one that does not say."""
     return study.provenance.settings.get("creep_law", "").partition(" ")[0]
-
-
-def show_ranges(study: Study, words: Words) -> Table:
-    """Ranges of the envelope as typed and as understood."""
-    return build_inputs(study.range_inputs, words("heading.ranges_of_envelope"), words)
 
 
 def list_notes(study: Study, words: Words) -> list[str]:

@@ -27,7 +27,7 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.sections.assumed import list_assumed
-from netdesign.report.sections.bars import draw_bar, show_rated, sign
+from netdesign.report.sections.bars import draw_bar, show_rated, sign, used_cell
 from netdesign.report.sections.basis import (
     anchor_rows,
     count_assumed,
@@ -70,18 +70,18 @@ def show_decision(study: Study, words: Words, *, is_verified: bool = False) -> P
             Paragraph(text=_name_rows_by_state(study, words), look="say"),
             *_show_matrix(study, words),
             Heading(text=words("heading.decision"), level=2, look=HIDDEN, on="page"),
-            Part(
-                kind="div",
-                look="two",
-                blocks=(
-                    Part(kind="div", blocks=tuple(_show_to_do(study, words))),
-                    _show_assumed(study, words),
-                ),
-            ),
-            *_show_conditions(study, words),
+            *list_to_confirm(study, words),
             _sign(study, words),
         ),
     )
+
+
+def list_to_confirm(study: Study, words: Words) -> Iterator[Part]:
+    """What is to be done, and what whoever signs confirms."""
+    to_do = Part(kind="div", blocks=tuple(_show_to_do(study, words)))
+    beside = (to_do, _show_assumed(study, words))
+    yield Part(kind="div", look="two", blocks=beside)
+    yield Part(kind="div", blocks=tuple(_show_conditions(study, words)))
 
 
 def _show_title(study: Study, words: Words, *, is_verified: bool) -> Iterator[Block]:
@@ -130,15 +130,7 @@ def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
     if not study.rows:
         yield Paragraph(text=words("heading.no_rows"), look="none")
         return
-    keys = (*ANCHORS, "structure", "siting", "governing")
-    anchors = anchor_rows(study)
-    yield Table(
-        caption="",
-        columns=key_columns(words, "matrix.", ("row", *keys)),
-        rows=tuple(_list_row(row, anchors[row.id], words) for row in study.rows),
-        look="matrix cards",
-        symbols="headings",
-    )
+    yield build_matrix(study, words)
     key: Content = (
         Piece(words.show_fixed(_SHOWN[0], 2), "ratio"),
         Piece(f" {words('matrix.used')} "),
@@ -156,6 +148,20 @@ def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
     yield Paragraph(text=key, look="key")
 
 
+def build_matrix(study: Study, words: Words) -> Table:
+    """Utilisation of each group of anchors, structure, siting, and what governs."""
+    keys = ("row", *ANCHORS, "structure", "siting", "governing")
+    anchors = anchor_rows(study)
+    return Table(
+        caption="",
+        columns=key_columns(words, "matrix.", keys),
+        rows=tuple(_list_row(row, anchors[row.id], words) for row in study.rows),
+        empty=words("heading.no_rows"),
+        look="matrix cards",
+        symbols="headings",
+    )
+
+
 def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     name: Content = (
         sign(row.verdict, words),
@@ -165,8 +171,8 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     groups = (list_anchor(row, members) for members in ANCHORS.values())
     siting = row.scopes[Scope.SITING]
     return (
-        Cell(content=name),
-        *(Cell(content=show_rated(rate(group), words)) for group in groups),
+        Cell(text=show_text(row.id), content=name),
+        *(used_cell(rate(group), words) for group in groups),
         Cell(content=_show_structure(row, words)),
         Cell(content=(sign(siting.verdict, words),)),
         Cell(content=_tell_governing(row, words)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
@@ -14,15 +14,18 @@ from netdesign.report.blocks import (
     Items,
     Paragraph,
     Part,
+    Piece,
     Table,
+    fixed_cell,
     force_cell,
+    given_cell,
     key_columns,
     section,
     strong,
     symbols,
     text_cell,
 )
-from netdesign.report.sections.bars import show_answer
+from netdesign.report.sections.bars import show_answer, used_cell
 from netdesign.report.sections.rated import (
     ANCHOR_MEMBERS,
     Rated,
@@ -32,6 +35,7 @@ from netdesign.report.sections.rated import (
 )
 from netdesign.report.words import MISSING, Words, append_unit, show_member, show_text
 from netdesign.study.records import RowStudy, Study
+from netdesign.words.catalogue import round_force_up
 
 _FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
 _UPRIGHT_DEG = 90.0
@@ -175,25 +179,25 @@ def _tabulate(
 ) -> Table:
     keys = ("row", "anchor", "type", *_RIGHT[:3], "used", *_RIGHT[3:], "notes")
     rows, before = [], ""
-    for one in lines:
-        name = "" if one.row == before else show_text(one.row)
-        before = one.row
-        notes = " ".join(sorted(letters[key] for key in one.notes))
+    for line in lines:
+        name = show_text(line.row)
+        demand = force_cell(words, line.demand_kN)
         rows.append(
             (
-                Cell(text=name),
-                text_cell(show_member(words, one.member)),
-                text_cell(one.type_id),
-                _count_cell(one.count, words),
-                Cell(content=strong(words.show_number("demand_kN", one.demand_kN))),
-                force_cell(words, one.rated.check.resistance_kN),
-                Cell(content=show_answer(one.rated, words)),
-                text_cell(show_dips(one.dips_deg, words)),
-                text_cell(words.show_fixed(one.length_m, 1)),
-                text_cell(_show_proof(one, words)),
-                Cell(text=notes),
+                Cell(text=name, content=(Piece("" if line.row == before else name),)),
+                text_cell(show_member(words, line.member)),
+                text_cell(line.type_id),
+                _count_cell(line.count, words),
+                replace(demand, content=strong(demand.text)),
+                force_cell(words, line.rated.check.resistance_kN),
+                used_cell(line.rated, words, show_answer(line.rated, words)),
+                text_cell(show_dips(line.dips_deg, words)),
+                fixed_cell(words, line.length_m, 1),
+                _proof_cell(line, words),
+                Cell(text=" ".join(sorted(letters[key] for key in line.notes))),
             )
         )
+        before = line.row
     return Table(
         caption="",
         columns=key_columns(words, "anchors.", keys, numbers=_RIGHT),
@@ -205,7 +209,7 @@ def _tabulate(
 
 
 def _count_cell(count: int | None, words: Words) -> Cell:
-    return text_cell(MISSING if count is None else words.show_given(count))
+    return text_cell(MISSING) if count is None else given_cell(words, count)
 
 
 def show_dips(dips_deg: Sequence[float], words: Words) -> str:
@@ -217,15 +221,15 @@ def show_dips(dips_deg: Sequence[float], words: Words) -> str:
     return append_unit("–".join(dict.fromkeys(shown)), "°")
 
 
-def _show_proof(one: AnchorLine, words: Words) -> str:
+def _proof_cell(line: AnchorLine, words: Words) -> Cell:
     """Load of its test; none of an anchor that fails, and no more than a tendon has."""
-    if one.rated.verdict is Verdict.FAIL or one.proof_kN is None:
-        return MISSING
-    limit = one.proof_limit_kN
-    load = one.proof_kN if limit is None else min(one.proof_kN, limit)
-    if load < one.proof_kN:
-        return words.show_fixed(math.floor(load), 0)
-    return words.show_minimum(load)
+    if line.rated.verdict is Verdict.FAIL or line.proof_kN is None:
+        return text_cell(MISSING)
+    limit = line.proof_limit_kN
+    load = line.proof_kN if limit is None else min(line.proof_kN, limit)
+    if load < line.proof_kN:
+        return fixed_cell(words, math.floor(load), 0)
+    return Cell(text=words.show_minimum(load), number=round_force_up(load))
 
 
 def _tell_tests(check: Check | None, words: Words) -> str:
@@ -295,9 +299,9 @@ def _show_order(
         text_cell(kind),
         _count_cell(order.count, words),
         text_cell("–".join(dict.fromkeys(each))),
-        text_cell(words.show_fixed(total if is_known else None, 0)),
+        fixed_cell(words, total if is_known else None, 0),
         force_cell(words, max(demands, default=None)),
-        text_cell(_show_proof(worst, words)),
+        _proof_cell(worst, words),
         Cell(content=symbols(_tell_tests(tested, words))),
         text_cell(", ".join(rows)),
     )

@@ -18,6 +18,7 @@ from netdesign.calculation.steps import (
     translate,
 )
 from netdesign.checks.check import Check
+from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import Column
 from netdesign.report.sections.checks import (
@@ -35,24 +36,26 @@ from netdesign.report.words import (
 )
 from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import Study
+from netdesign.words.message import Message
 
 FIRST_LINE = 4  # of the first check, zero-based; the headings are one above
 _WIDTHS = {
-    "net_row": 9,
-    "check": 28,
-    "verdict": 14,
-    "symbol": 8,
-    "name": 32,
-    "formula": 24,
-    "low": 8,
-    "value": 8,
-    "high": 8,
-    "unit": 6,
-    "source": 24,
+    "net_row": 5,
+    "check": 35,
+    "verdict": 17,
+    "symbol": 6,
+    "name": 22,
+    "formula": 16,
+    "low": 6,
+    "value": 6,
+    "high": 6,
+    "unit": 5,
+    "source": 22,
 }
 _PLACES = {name: place for place, name in enumerate(_WIDTHS)}
 _ENDS = {-1: "low", 0: "value", 1: "high"}
-_REASON = ("symbol", "formula")  # first and last of the columns that it goes over
+_FORCES = {"E_d": ("symbol", "name"), "R_d": ("formula", "formula")}  # columns
+_REASON = ("check", "source")
 _FORMATS = {"kN": "0.00", "m": "0.000", "-": "0.0000"}
 _TYPED = "#2A4B6B"  # colour of numbers that somebody may type over
 
@@ -63,7 +66,7 @@ Cells = dict[tuple[str, int], str]
 def add_check_sheet(book: Book, study: Study) -> None:
     """Sheet "Checks": a line of each check, and folded below it those of its steps."""
     words, widths = book.words, tuple(_WIDTHS.values())
-    sheet = book.add_sheet("checks", words("heading.checks"))
+    sheet = book.add_sheet("checks", words("heading.checks"), is_wide=False)
     sheet.outline_settings(symbols_below=False)
     book.link_back(sheet)
     book.write_wide(sheet, (2, 0), words("caption.calculations"), widths, italic=True)
@@ -76,9 +79,15 @@ def add_check_sheet(book: Book, study: Study) -> None:
         sheet.set_column(place, place, width)
     line = FIRST_LINE
     for row in study.rows:
+        shown: set[Message | None] = {None}
         for check in row.checks:
-            cells = _write_steps(book, sheet, line + 1, check)
+            reason = _tell_reason(check, words)
+            is_hidden = check.verdict is Verdict.PASS or check.reason in shown
+            shown.add(check.reason)
+            cells = _write_steps(book, sheet, line + _ABOVE_STEPS, check)
             _write_check(book, sheet, line, row.id, check)
+            _write_reason(book, sheet, line + 1, reason, is_hidden=is_hidden)
+            _write_forces(book, sheet, line, check, cells)
             _write_used(book, sheet, line, check, cells)
             line += count_block(check)
     if line == FIRST_LINE:
@@ -86,38 +95,77 @@ def add_check_sheet(book: Book, study: Study) -> None:
     last, verdict = max(line - 1, FIRST_LINE), _PLACES["verdict"]
     book.colour_verdicts(sheet, (FIRST_LINE, verdict, last, verdict))
     sheet.autofilter(FIRST_LINE - 1, 0, last, len(_WIDTHS) - 1)
+    sheet.print_area(0, 0, max(line - 1, last), len(_WIDTHS) - 1)
     sheet.freeze_panes(FIRST_LINE, _PLACES["symbol"])
     sheet.repeat_rows(FIRST_LINE - 1)
 
 
+_ABOVE_STEPS = 2  # lines of a check: its numbers, its reason
+
+
 def count_block(check: Check) -> int:
-    """Lines of a check: its own and those of its steps."""
-    return 1 + len(check.steps)
+    """Lines of a check: its numbers, its reason, its steps."""
+    return _ABOVE_STEPS + len(check.steps)
 
 
 def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> None:
-    """Texts of a check: verdict, clause, case, reason and resistance."""
+    """Net row, check, verdict and resistance, on one line; a long text is smaller."""
     words = book.words
-    told = (check.clause, name_case(check, words), words.show(check.reason))
-    beside = (describe_resistance(check, words), describe_eased(check, words))
     texts = {
         "net_row": show_text(row),
         "check": show_check(words, check),
         "verdict": book.word(check.verdict),
-        "symbol": words.join(one for one in told if one not in ("", MISSING)),
-        "unit": "",
-        "source": words.join(one for one in beside if one not in ("", MISSING)),
+        "source": describe_resistance(check, words).removeprefix(MISSING),
     }
-    first, last = (_PLACES[name] for name in _REASON)
-    form = book.text(text_wrap=True, top=1)
-    sheet.merge_range(line, first, line, last, "", form)
     for name, text in texts.items():
-        is_bold = _PLACES[name] < first
-        look = book.text(text_wrap=True, top=1, bold=True) if is_bold else form
+        look = book.text(shrink=True, top=1, bold=name != "source")
         sheet.write_string(line, _PLACES[name], text, look)
-    widths = _WIDTHS | {"symbol": sum(list(_WIDTHS.values())[first : last + 1])}
-    lines = count_lines(list(texts.values()), [widths[name] for name in texts])
-    book.set_height(sheet, line, lines, collapsed=bool(check.steps))
+    sheet.write_blank(line, _PLACES["unit"], None, book.text(top=1))
+    book.set_height(sheet, line, 1)
+
+
+def _tell_reason(check: Check, words: Words) -> str:
+    """Clause, case and reason of a check; the worst come first."""
+    told = (
+        words.show(check.reason),
+        describe_eased(check, words),
+        check.clause,
+        name_case(check, words),
+    )
+    return words.join(one for one in told if one not in ("", MISSING))
+
+
+def _write_reason(
+    book: Book, sheet: Any, line: int, reason: str, *, is_hidden: bool
+) -> None:
+    """Reason of a check; folded away where it passes, and where a row has it again."""
+    first, last = (_PLACES[name] for name in _REASON)
+    form = book.text(text_wrap=True)
+    sheet.merge_range(line, first, line, last, "", form)
+    sheet.write_string(line, first, reason, form)
+    lines = count_lines([reason], [sum(list(_WIDTHS.values())[first : last + 1])])
+    fold = {"level": 1, "hidden": True} if is_hidden else {}
+    book.set_height(sheet, line, lines, collapsed=not is_hidden, **fold)
+
+
+def _write_forces(
+    book: Book, sheet: Any, line: int, check: Check, cells: Cells
+) -> None:
+    """E_d and R_d of a check [kN], as its steps work them out."""
+    numbers = {step.symbol: step.value for step in check.steps}
+    for symbol, (start, end) in _FORCES.items():
+        first, last = _PLACES[start], _PLACES[end]
+        number, form = numbers.get(symbol), book.text(top=1)
+        if number is not None:
+            shown = QUANTITIES["demand_kN"].number_format.split(";")
+            parts = [f'{x[: x.find("0")]}"{symbol} "{x[x.find("0") :]}' for x in shown]
+            form = book.text(top=1, num_format=";".join(parts))
+        if last > first:
+            sheet.merge_range(line, first, line, last, "", form)
+        if number is None:
+            sheet.write_blank(line, first, None, form)
+        else:
+            sheet.write_formula(line, first, f"={cells[symbol, 0]}", form, number)
 
 
 def _write_used(book: Book, sheet: Any, line: int, check: Check, cells: Cells) -> None:

@@ -12,17 +12,23 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.report.blocks import Cell, Column, Table
+from netdesign.report.blocks import Cell, Column, Table, write_plain
 from netdesign.report.words import Words, show_verdict
 
 # Widths are in digits of the default font.
 BOLD = 1.1  # width of bold letters over that of others
-_NARROWEST, _WIDEST, _ALONE = 6.0, 50.0, 130.0  # columns; one without others
+_NARROWEST, _WIDEST, _ALONE = 6.0, 75.0, 130.0  # columns; one without others
+_NAMES, _TEXTS = 24.0, 90.0  # columns of a sheet without tables
 _CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
 _WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
 _INDENT = 1.5  # of a text
 TABLE_TOP = 4  # line of a table below its caption and headings, zero-based
 BETWEEN_TABLES = 3  # lines from one table of a sheet to the next
+
+
+def read_cell(cell: Cell) -> str:
+    """Text of a cell, or that of its content."""
+    return cell.text or write_plain(cell.content)
 
 
 def count_lines(
@@ -81,6 +87,8 @@ def find_widths(tables: Sequence[Table]) -> list[float]:
 
     The last columns of all tables but the first do not count.
     """
+    if not tables:
+        return [_NAMES, _TEXTS]
     widths = [_NARROWEST] * max(len(table.columns) for table in tables)
     if len(widths) == 1:
         return [_ALONE]
@@ -88,40 +96,52 @@ def find_widths(tables: Sequence[Table]) -> list[float]:
         for index, column in enumerate(table.columns):
             if place and index == len(table.columns) - 1:
                 continue  # a last column may reach into empty cells beside it
-            wide = [_measure(row[index].text) for row in table.rows]
+            wide = [_measure(read_cell(row[index])) for row in table.rows]
             wide += [BOLD * _measure(word) for word in column.heading.split()]
             wanted = max(wide, default=0) + 2 * _INDENT
             widths[index] = min(max(widths[index], wanted), _WIDEST)
     return widths
 
 
-# Papers lie on their side; a sheet is made smaller until it is as wide as its pages.
+# A sheet is made smaller until it is as wide as its pages.
 A4, A3 = 9, 8  # paper numbers of the format
-_WIDTH_PT = {A4: 798.0, A3: 1147.0}  # between the margins
+_UPRIGHT_PT = 538.0  # between the margins of A4
+_WIDTH_PT = {A4: 784.0, A3: 1133.0}  # of papers that lie on their side
 _CHARACTER_PT = 5.56  # of a column, as LibreOffice prints it
 _EDGE = 0.72  # that both add to the width of a column, in characters
-_SMALLEST = 0.82  # of the size of the text, below which a sheet takes more paper
+_SMALLEST = 0.62  # of the size of the text, below which a sheet takes more paper
 NAMING = 2  # columns that name a line, repeated on a second page beside the first
 
 
-def choose_paper(widths: Sequence[float]) -> tuple[int, int]:
-    """Paper, and pages side by side, on which columns are read without a glass.
+def choose_paper(widths: Sequence[float]) -> tuple[int, int, bool]:
+    """Paper on which columns are read without a glass.
 
     Parameters
     ----------
     widths : sequence of float
         Of the columns, in characters of the default font [-].
+
+    Returns
+    -------
+    paper : int
+        Number of the format.
+    pages : int
+        Pages side by side.
+    is_wide : bool
+        The paper lies on its side.
     """
+    if _find_scale(widths, _UPRIGHT_PT, 1) >= _SMALLEST:
+        return A4, 1, False
     for paper, pages in ((A4, 1), (A3, 1), (A4, 2)):
-        if _find_scale(widths, paper, pages) >= _SMALLEST:
-            return paper, pages
-    return A3, 2
+        if _find_scale(widths, _WIDTH_PT[paper], pages) >= _SMALLEST:
+            return paper, pages, True
+    return A3, 2, True
 
 
-def _find_scale(widths: Sequence[float], paper: int, pages: int) -> float:
+def _find_scale(widths: Sequence[float], paper_pt: float, pages: int) -> float:
     wide, named = (sum(one) + _EDGE * len(one) for one in (widths, widths[:NAMING]))
     shown = _CHARACTER_PT * (wide + (pages - 1) * named)
-    return min(1.0, pages * _WIDTH_PT[paper] / shown)
+    return min(1.0, pages * paper_pt / shown)
 
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
@@ -136,7 +156,7 @@ _COLOURS = {
 # LibreOffice prints a sheet a third smaller that names one which it lacks.
 DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
 _DIGIT_PT = 5.56  # width of a digit
-_LINE_PT = 11.5  # height of a line of text
+_LINE_PT, _ROOM_PT = 11.3, 0.9  # height of a line of text, and room around a row
 # With the mark of any language: a sign, and a unit behind.
 _DECIMAL = re.compile(r"([-+\u2212]?)\d+(?:[.,](\d+))?( m²?)?")
 _LINK = "#2A4B6B"
@@ -179,16 +199,18 @@ class Book:
 
         ``fold`` says what folds the row or is folded below it.
         """
-        sheet.set_row(row, _LINE_PT * lines + 3, None, fold)
+        sheet.set_row(row, _LINE_PT * lines + _ROOM_PT, None, fold)
 
-    def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
+    def add_sheet(
+        self, name: str, title: str, *, paper: int = A4, is_wide: bool = True
+    ) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
         sheet = self.workbook.add_worksheet(self.name(name))
         sheet.hide_gridlines(2)
-        sheet.set_landscape()
+        sheet.set_landscape() if is_wide else sheet.set_portrait()
         sheet.set_paper(paper)
         sheet.fit_to_pages(1, 0)
-        sheet.set_margins(left=0.3, right=0.3, top=0.5, bottom=0.6)
+        sheet.set_margins(left=0.4, right=0.4, top=0.4, bottom=0.55)
         sheet.set_footer(f"&L&9 {self._footer}&C&9 &A&R&9 &P / &N")
         sheet.write_string(0, 0, title, self.text(bold=True, font_size=13))
         sheet.set_row(0, 22)
@@ -243,11 +265,18 @@ class Book:
         cell: Cell,
     ) -> None:
         """Write a number as a number with its format, all else as text."""
+        if cell.note:
+            sheet.write_comment(*place, cell.note[:_LONGEST_TEXT], {"x_scale": 3})
         if cell.number is None or not math.isfinite(cell.number):
             form = self.format(**_align(column), text_wrap=True)
-            sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
+            sheet.write_string(*place, read_cell(cell)[:_LONGEST_TEXT], form)
             return
-        form = self.format(**_align(column), **_find_look(column.quantity, cell.text))
+        look = _find_look(column.quantity, cell.text)
+        if cell.verdict is not None:
+            shown = self.verdicts[cell.verdict]
+            look["num_format"] = f'"{shown.symbol}"\\ {look["num_format"]}'
+            look["font_color"] = _COLOURS[shown.style][1]
+        form = self.format(**_align(column), **look)
         sheet.write_number(*place, cell.number, form)
 
     def write_table(
@@ -270,10 +299,10 @@ class Book:
                 zip(table.columns, cells, strict=True)
             ):
                 if index == last and cell.number is None:
-                    self.write_wide(sheet, (row, last), cell.text, widths)
+                    self.write_wide(sheet, (row, last), read_cell(cell), widths)
                 else:
                     self.write_cell(sheet, (row, index), column, cell)
-            self.set_height(sheet, row, count_lines([c.text for c in cells], own))
+            self.set_height(sheet, row, count_lines([*map(read_cell, cells)], own))
         return top + 3 + len(table.rows)
 
     def write_wide(
@@ -295,15 +324,22 @@ class Book:
         if column == 0:
             self.set_height(sheet, row, count_lines([text], [sum(room)]))
 
-    def add_table_sheet(self, name: str, title: str, tables: Sequence[Table]) -> Any:
+    def add_table_sheet(
+        self,
+        name: str,
+        title: str,
+        tables: Sequence[Table],
+        *,
+        has_more: bool = False,
+    ) -> Any:
         """Sheet of tables one below the other; a single one can be filtered.
 
-        Where there are several, no heading is repeated on each page of paper: it would
-        stand above columns of another table.
+        Where there are several, or other blocks follow, no heading is repeated on each
+        page of paper: it would stand above columns of another table.
         """
         widths = find_widths(tables)
-        paper, pages = choose_paper(widths)
-        sheet = self.add_sheet(name, title, paper=paper)
+        paper, pages, is_wide = choose_paper(widths)
+        sheet = self.add_sheet(name, title, paper=paper, is_wide=is_wide)
         if pages > 1:
             sheet.fit_to_pages(pages, 0)
             sheet.repeat_columns(0, NAMING - 1)
@@ -313,10 +349,10 @@ class Book:
             top = self.write_table(sheet, table, top, widths)
         for index, width in enumerate(widths):
             sheet.set_column(index, index, width)
-        first = tables[0]
-        if len(tables) == 1:
+        first = tables[0] if len(tables) == 1 and not has_more else None
+        if first is not None:
             sheet.repeat_rows(3)
-        if len(tables) == 1 and first.rows:
+        if first is not None and first.rows:
             sheet.autofilter(3, 0, 3 + len(first.rows), len(first.columns) - 1)
         sheet.freeze_panes(4, 1)
         return sheet

@@ -37,19 +37,50 @@ SLIP = InputEcho(
 FORMULA = "2.8417 m · (12.5 + (2.713 − 2.6728) / (2.8377 − 2.6728) · (16 − 12.5)), "
 
 
+def show_input(echo, words):
+    """Cell of an input of a row that has no other."""
+    (row,) = build_study(rows=1).rows
+    study = replace(build_study(rows=1), rows=[replace(row, inputs=[echo])])
+    *_, line = build_inputs(study, words).rows
+    assert line[0].text.startswith(words.show(echo.label))
+    return line[-1]
+
+
+def test_inputs_of_the_end_of_a_row_do_not_hide_those_inside():
+    """Both have the same name; what two rows share stands once, before the rows."""
+    study, words = build_study(), Words("en")
+    of_place = {
+        place: InputEcho(
+            label=say(f"column.{place}.foot_anchor"),
+            unit="",
+            text=text,
+            value=text,
+            cell="A1",
+        )
+        for place, text in (("Nets", "A28"), ("Ends", "A40"))
+    }
+    rows = [replace(row, inputs=[*of_place.values()]) for row in study.rows]
+    lines = build_inputs(replace(study, rows=rows), words).rows
+    shown = [[cell.text for cell in line[2:]] for line in lines[-2:]]
+    none = [""] * len(study.rows)
+    assert shown == [["A28", *none], ["A40", *none]]
+    assert lines[-1][0].text != lines[-2][0].text
+
+
 @pytest.mark.parametrize("language", ["en", "fr", "de"])
 def test_a_derived_input_shows_its_formula_with_numbers(language):
-    (row,) = build_inputs([SLIP], "", Words(language)).rows
-    assert set_marks(FORMULA.rstrip(", "), language) in row[1].text
-    assert row[1].text.endswith("boutillier-2004")
+    shown = show_input(SLIP, Words(language))
+    assert set_marks(FORMULA.rstrip(", "), language) in shown.note
+    assert shown.note.endswith("boutillier-2004")
+    assert set_marks(SLIP.text, "en") in shown.text
 
 
 def test_any_other_input_shows_what_was_typed():
     typed = InputEcho(
         label=say("column.Nets.slack"), unit="-", text="0,03", value=0.03, cell="A1"
     )
-    (row,) = build_inputs([typed], "", Words("en")).rows
-    assert row[1].text == "0,03"
+    assert show_input(typed, Words("en")).text == "0,03 → 0.03"
+    assert not show_input(typed, Words("en")).note
 
 
 WORDS = [
@@ -62,9 +93,9 @@ WORDS = [
 def test_a_word_of_a_column_is_shown_in_the_readers_language(field, word, language):
     echo = InputEcho(label=field.name, unit="", text="x", value=word, cell="A1")
     words = Words(language)
-    (row,) = build_inputs([echo], "", words).rows
+    shown = show_input(echo, words)
     named = field.name_word(word)
-    assert row[2].text == (named if isinstance(named, str) else words.show(named))
+    assert shown.text == (named if isinstance(named, str) else words.show(named))
 
 
 @each("language", LANGUAGES)
