@@ -20,16 +20,11 @@ from netdesign.study.scopes import BY_APPROVAL, SCOPES, Scope, ScopeRecord
 _BETWEEN = " · "
 
 
-def describe_scopes(row: RowStudy, words: Words) -> str:
-    """``anchors PASS 0.84 (6 assumed) · structure by approval X · siting PASS``."""
-    return _BETWEEN.join(
-        _describe(scope, record, _find_check(row, record), words)
-        for scope, record in row.scopes.items()
-    )
-
-
 def describe_study_scopes(study: Study, words: Words) -> str:
-    """The same of all net rows, each scope with the row that decides it."""
+    """``anchors FAIL 1.48 (6 assumed), A4 · structure by approval X · siting PASS``.
+
+    Each scope stands with the row that decides it, where there are several.
+    """
     rows = {row.id: row for row in study.rows}
     told = []
     for scope, record in study.scopes.items():

@@ -9,7 +9,6 @@ from netdesign.outcome import Verdict
 from netdesign.report.sections.open_points import list_open_points
 from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor, rate
 from netdesign.report.sections.scopes import (
-    describe_scopes,
     describe_study_scopes,
     list_exceeding,
     show_scope,
@@ -39,14 +38,16 @@ def approve(row):
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_document_of_an_approval_is_named(language):
     words, row = Words(language), approve(STUDY.rows[0])
-    assert f"{words('of_scope.structure')} " in describe_scopes(row, words)
-    assert DOCUMENT in describe_scopes(row, words)
+    told = describe_study_scopes(replace(STUDY, rows=[row]), words)
+    assert f"{words('of_scope.structure')} " in told
+    assert DOCUMENT in told
     assert show_scope(row, Scope.STRUCTURE, words) == (f"† {DOCUMENT}", "declared")
 
 
 def test_every_scope_stands_with_its_verdict_and_utilisation():
     for row in STUDY.rows:
-        told = describe_scopes(row, ENGLISH).split(" · ")
+        study = replace(STUDY, rows=[row])
+        told = describe_study_scopes(study, ENGLISH).split(" · ")
         assert len(told) == len(SCOPES)
         for scope, text in zip(SCOPES, told, strict=True):
             record = row.scopes[scope]
