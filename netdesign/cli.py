@@ -8,6 +8,7 @@ from __future__ import annotations
 import gc
 import logging
 import os
+import shlex
 import signal
 import sys
 import traceback
@@ -20,8 +21,7 @@ import click
 
 from netdesign import addon_table
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
-from netdesign.commands.usage import tell
-from netdesign.commands.version import print_version
+from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.input_files import explain_system, make_printable
 from netdesign.edge.streams import flush_streams, guard_streams
 from netdesign.outcome import (
@@ -70,19 +70,75 @@ def _load_command(name: str, place: str) -> click.Command:
     return found
 
 
-_OWN_MODULES = (
-    *("check", "completion", "doctor", "envelope", "glide", "report"),
-    *("solve", "standards", "table"),
-)
+# Commands as the help shows them: by those who use them.
+_GROUPS = {
+    "Office": (
+        *("init", "map", "check", "table", "report", "diff"),
+        *("verify", "standards", "doctor"),
+    ),
+    "Add-ons": ("winter", "terrain"),
+    "Research": ("solve", "envelope", "snowpack", "bench", "paper", "validate"),
+}
+_ELSEWHERE = {
+    "diff": "report.diff",
+    "init": "site_input.init",
+    "map": "site_input.map_headings",
+    **addon_table.COMMANDS,
+}
 _COMMANDS = CommandTable(
     {
-        **{name: f"{name}.{name}" for name in _OWN_MODULES},
-        "diff": "report.diff",
-        "init": "site_input.init",
-        "map": "site_input.map_headings",
-        **addon_table.COMMANDS,
+        name: _ELSEWHERE.get(name, f"{name}.{name}")
+        for names in _GROUPS.values()
+        for name in names
     }
 )
+_SITES = (".xlsx", ".xlsm", ".csv")
+
+
+class GroupedCommands(click.Group):
+    """Commands in groups; a site instead of a command is answered by what to type."""
+
+    def format_commands(
+        self, ctx: click.Context, formatter: click.HelpFormatter
+    ) -> None:
+        """Write the commands of each group, with what each does."""
+        width = max(map(len, self.commands))
+        for title, names in _GROUPS.items():
+            found = {name: self.get_command(ctx, name) for name in names}
+            room = formatter.width - width - 6
+            lines = [
+                (f"{name:{width}}", one.get_short_help_str(room))
+                for name, one in found.items()
+                if one and not one.hidden
+            ]
+            if lines:
+                with formatter.section(title):
+                    formatter.write_dl(lines)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that is asked for.
+
+        Raises
+        ------
+        click.UsageError
+            If there is none; of a site it names the command line that checks it.
+        """
+        if args[0] not in self.commands and args[0].lower().endswith(_SITES):
+            command = shlex.join(["netdesign", "check", *args])
+            raise UsageRefusal(say("usage.check_site", command=command))
+        return super().resolve_command(ctx, args)
+
+
+def _print_version(
+    context: click.Context, option: click.Parameter, asked: bool
+) -> None:
+    if asked:
+        from netdesign.commands.version import print_version
+
+        print_version(context, option, asked)
+
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 6 declared (nothing fails, but some checks rest on a declaration), \
@@ -91,6 +147,7 @@ none of them; a standard output that cannot be written to ends with 2."
 
 
 @click.group(
+    cls=GroupedCommands,
     commands=_COMMANDS,
     epilog=_EPILOG,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -100,7 +157,7 @@ none of them; a standard output that cannot be written to ends with 2."
     is_flag=True,
     is_eager=True,
     expose_value=False,
-    callback=print_version,
+    callback=_print_version,
     help="Show the version, the core and the limit profiles, and exit.",
 )
 def cli() -> None:
@@ -112,7 +169,7 @@ def cli() -> None:
     netdesign map site.xlsx            what the headings of your own workbook mean
     netdesign table site.xlsx          the guideline's forces on every anchor, at once
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
-    netdesign diff old.json new.json   what changed between two studies
+    netdesign diff old new             what changed between two studies
     """
 
 

@@ -70,7 +70,6 @@ def imported(*arguments, cwd, whole=False, code=0):
         ["terrain", "--help"],
         ["diff", "--help"],
         ["doctor", "--help"],
-        ["completion", "bash"],
     ],
 )
 def test_help_imports_nothing_heavy(tmp_path, arguments):

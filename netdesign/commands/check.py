@@ -12,10 +12,10 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
+    DEFAULT_FOLDER,
     DEFAULT_STANDARD,
     take_options,
 )
-from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.running import format_time
 from netdesign.commands.site_input import (
     choose_rows,

@@ -18,6 +18,7 @@ from typing import Any
 
 import click
 
+from netdesign.commands.options import ShortHelpCommand
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.input_files import explain, is_there, list_faults, read_toml
 from netdesign.outcome import ContentError
@@ -26,7 +27,7 @@ from netdesign.words.message import Message, say
 CONFIG_NAME = "netdesign.toml"
 
 
-class ConfiguredCommand(click.Command):
+class ConfiguredCommand(ShortHelpCommand):
     """A command whose defaults may come from a file beside its input."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:

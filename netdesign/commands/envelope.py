@@ -14,6 +14,7 @@ import click
 from netdesign.commands.options import (
     RANGE,
     GivenRange,
+    ShortHelpCommand,
     refuse_jobs,
     take_options,
 )
@@ -42,7 +43,7 @@ _MOST_GRID_CASES = 100_000
 _DOCUMENT = "envelope.json"
 
 
-@click.command()
+@click.command(cls=ShortHelpCommand)
 @click.argument("scene_file", type=click.Path(path_type=Path))
 @take_options("envelope")
 def envelope(scene_file: Path, **asked: Any) -> None:

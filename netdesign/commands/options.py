@@ -7,6 +7,7 @@ for; what is typed may not.
 from __future__ import annotations
 
 import math
+import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from click.core import ParameterSource
 from netdesign.commands.usage import UsageRefusal, ValueRefusal
 from netdesign.words.message import say
 
+DEFAULT_FOLDER = "netdesign-out"
 DEFAULT_STANDARD = "nf-p-95-304-style"
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
 
@@ -129,12 +131,34 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
         return GivenRange(low=low, high=high, count=count)
 
 
+class StudyType(click.Path):
+    """File of a study, or a folder with one."""
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Path:
+        """Find the study of a folder: study.json, else the only marked one."""
+        from netdesign.edge.input_files import is_there
+        from netdesign.edge.output import STUDY_FILE
+
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        if not (is_there(path) and path.is_dir()):
+            return path
+        usual, marked = path / STUDY_FILE, [*path.glob(f"*-{STUDY_FILE}")]
+        return marked[0] if len(marked) == 1 and not is_there(usual) else usual
+
+
 RANGE = RangeType()
+STUDY = StudyType(path_type=Path)
 _KINDS = {
     "file": click.Path(path_type=Path, dir_okay=False),
     "folder": click.Path(path_type=Path, file_okay=False),
     "path": click.Path(path_type=Path),
     "range": RANGE,
+    "study": STUDY,
 }
 _NUMBERS = {"number": click.FloatRange, "count": click.IntRange}
 _READERS = {
@@ -142,10 +166,53 @@ _READERS = {
 }
 
 
+class ShortHelpCommand(click.Command):
+    """A command whose help shows the options that are used most; another shows all."""
+
+    def format_options(
+        self, ctx: click.Context, formatter: click.HelpFormatter
+    ) -> None:
+        """Write those that ``options.toml`` names for the command, or all."""
+        shown = _load_tables()["help"].get(self.name)
+        records = [
+            record
+            for one in self.get_params(ctx)
+            if isinstance(one, click.Option)
+            and (ctx.meta.get(_HELP_ALL) or shown is None or _is_shown(one, shown))
+            and (record := one.get_help_record(ctx))
+        ]
+        with formatter.section("Options"):
+            formatter.write_dl(records)
+
+
+_HELP_ALL = "netdesign.help_all"  # where a context remembers that all are asked for
+
+
+def _is_shown(option: click.Option, shown: Sequence[str]) -> bool:
+    names = [one.removeprefix("--") for one in option.opts]
+    return any(name in (*shown, "help", "help-all") for name in names)
+
+
+def _show_all(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    if asked and not context.resilient_parsing:
+        context.meta[_HELP_ALL] = True
+        click.echo(context.get_help(), color=context.color)
+        context.exit()
+
+
 def take_options(command: str) -> Callable[[Any], Any]:
     """Decorator that gives a command the options that ``options.toml`` has for it."""
 
     def add(function: Any) -> Any:
+        if command in _load_tables()["help"]:
+            function = click.option(
+                "--help-all",
+                is_flag=True,
+                is_eager=True,
+                expose_value=False,
+                callback=_show_all,
+                help="Show all options and exit.",
+            )(function)
         for name, table in reversed([*_list_options(_load_tables()[command])]):
             function = _build_option(name, table)(function)
         return function

@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from netdesign.commands.options import (
-    take_options,
-)
+from netdesign.commands.options import STUDY, ShortHelpCommand, take_options
 from netdesign.commands.running import find_exit_code, print_document, report_places
 from netdesign.commands.stored_study import require_verified
 from netdesign.commands.usage import tell
@@ -25,7 +23,6 @@ if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
     from netdesign.study.records import Study
 
-DEFAULT_FOLDER = "netdesign-out"
 # Reports by the options that ask for them.
 _REPORTS = {
     "html": "report.html",
@@ -90,20 +87,22 @@ def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
     )
 
 
-@click.command()
-@click.argument("study_file", type=click.Path(path_type=Path))
+@click.command(cls=ShortHelpCommand)
+@click.argument("study_file", metavar="STUDY", type=STUDY)
 @take_options("report")
 def report(study_file: Path, **asked: Any) -> None:
     """Render the reports of a stored study again, without solving.
 
     They say that the study is not verified, unless --verify solves it again, as
-    `netdesign verify --study` does, and every value of it comes out.
+    `netdesign verify STUDY` does, and every value of it comes out.
 
     \b
-    netdesign report netdesign-out/study.json --out again
-    netdesign report netdesign-out/study.json --verify --out verified
-    netdesign report netdesign-out/study.json --language fr --out rapport
-    netdesign report netdesign-out/study.json --annexes --no-excel --force
+    netdesign report netdesign-out --out again
+    netdesign report netdesign-out --verify --out verified
+    netdesign report netdesign-out --language fr --out rapport
+    netdesign report netdesign-out --annexes --no-excel --force
+
+    STUDY, OLD and NEW of such commands are a study.json or the folder with it.
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import name_files, render_files
@@ -143,8 +142,8 @@ def _look_at(
 
 
 @click.command()
-@click.argument("old", type=click.Path(path_type=Path))
-@click.argument("new", type=click.Path(path_type=Path))
+@click.argument("old", type=STUDY)
+@click.argument("new", type=STUDY)
 @take_options("diff")
 def diff(old: Path, new: Path, **asked: Any) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
@@ -154,7 +153,7 @@ def diff(old: Path, new: Path, **asked: Any) -> None:
     solves both again.
 
     \b
-    netdesign diff rev-a/study.json rev-b/study.json
+    netdesign diff rev-a rev-b
     netdesign diff rev-a/study.json rev-b/study.json --json
     """
     from netdesign.report.difference import compare_studies, write_difference

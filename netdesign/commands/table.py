@@ -9,8 +9,11 @@ import click
 
 from netdesign.commands.check import find_profiles
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.options import refuse_delimiter, take_options
-from netdesign.commands.report import DEFAULT_FOLDER
+from netdesign.commands.options import (
+    DEFAULT_FOLDER,
+    refuse_delimiter,
+    take_options,
+)
 from netdesign.commands.running import print_document
 from netdesign.commands.site_input import choose_rows, read_asked_site
 from netdesign.commands.usage import UsageRefusal, speak, tell

@@ -21,8 +21,8 @@ def refuse(call, *words):
     [
         (("bench", "--jobs", "2"), "--stress or --errors"),
         (("snowpack", "heights.csv", "--layers"), "--json"),
-        (("verify", "--jobs", "2"), "--study"),
-        (("verify", "--site", "site.xlsx"), "--study"),
+        (("verify", "--jobs", "2"), "STUDY"),
+        (("verify", "--site", "site.xlsx"), "STUDY"),
     ],
 )
 def test_options_that_belong_to_another_one(call, words, needed):

@@ -68,7 +68,7 @@ def test_a_reader_who_stops_leaves_the_verdict(sites, tmp_path, code, json_optio
 @pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
 @pytest.mark.parametrize(
     "arguments",
-    [["standards", "list"], ["--help"], ["--version"], ["completion", "bash"]],
+    [["standards", "list"], ["--help"], ["--version"]],
 )
 def test_a_full_disk_behind_standard_output_is_the_user_s(tmp_path, arguments):
     with FULL.open("w") as full:

@@ -525,9 +525,9 @@ def try_options(words: list[str]) -> None:
     assert not [name for name in made if name.endswith((".html", ".json.tmp"))]
 
 
-QUICK = ("check", "solve", "envelope", "report", "diff", "standards", "completion")
+QUICK = ("check", "solve", "envelope", "report", "diff", "standards")
 # Those that calculate or write on their own: only their options are read.
-SLOW = ("bench", "doctor", "glide", "paper", "verify", "init")
+SLOW = ("bench", "doctor", "paper", "verify", "init")
 
 
 @st.composite

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import (
+    STUDY,
     refuse_without,
     take_options,
 )
@@ -38,8 +39,9 @@ _SHOWN = 20  # differences at most
 
 
 @click.command()
+@click.argument("study", required=False, type=STUDY)
 @take_options("verify")
-def verify(**asked: Any) -> None:
+def verify(study: Path | None, **asked: Any) -> None:
     """Run the verification pack, or verify a stored study.
 
     The pack: closed forms, invariants, other codes. Of a study: its hashes, and every
@@ -50,14 +52,15 @@ def verify(**asked: Any) -> None:
     \b
     netdesign verify
     netdesign verify --json
-    netdesign verify --study reports/study.json --site site.xlsx
+    netdesign verify reports --site site.xlsx
     """
-    if asked["study_file"] is None:
-        refuse_without(("site_file", "standard", "jobs"), "--study")
+    study = study or asked["study_file"]
+    if study is None:
+        refuse_without(("site_file", "standard", "jobs"), "STUDY")
         sys.exit(_run_pack(asked))
     if asked["as_json"]:
         raise UsageRefusal(say("usage.json_not_with_study"))
-    sys.exit(_verify_study(asked["study_file"], asked))
+    sys.exit(_verify_study(study, asked))
 
 
 def _run_pack(asked: Mapping[str, Any]) -> int:
