@@ -384,7 +384,8 @@ def _ask_for_length(row: Row, findings: list[Finding]) -> None:
     law, length = row["ground_law"], row["upslope_length"]
     if law.word == "free" and length.state == "blank":
         rule = say("nets.free_without_length", name=length.field.name)
-        refuse(law, rule, say("nets.other_law_or_length"), findings)
+        at = law if length.cell is None else length
+        refuse(at, rule, say("nets.other_law_or_length"), findings)
 
 
 def _build_sliding_ground(

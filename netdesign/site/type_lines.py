@@ -108,7 +108,7 @@ def _resolve(
     chosen = _choose(bare, by_id[whole[1]], ground, made, findings)
     if chosen.state == "faulty" or chosen.word == named.word:
         return chosen
-    rule = say("nets.other_ground", id=quote(whole[1]), ground=chosen.word)
+    rule = say("nets.other_ground", ground=chosen.word)
     refuse(named, rule, quote(chosen.word), findings)
     return replace(named, state="faulty")
 
@@ -133,9 +133,9 @@ def _choose(
     if not others and (word in ("", line["ground"].word) or not line["ground"].word):
         return named
     known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
-    rule = say("nets.no_ground", id=quote(named.word))
+    rule = say("nets.no_ground")
     if ground and word:
-        rule = say("nets.other_ground", id=quote(named.word), ground=ground.text)
+        rule = say("nets.other_ground", ground=ground.text)
     refuse(named, rule, say("nets.grounds", grounds=known), findings)
     return replace(named, state="faulty")
 

@@ -22,6 +22,8 @@ from netdesign.study.row_to_check import Basis
 from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.words.message import Message, say
 
+_SLIDING = "sliding"
+
 
 def check_limits(basis: Basis) -> list[Check]:
     """Check of a row against its approval's limits; none without an approval."""
@@ -89,11 +91,13 @@ def _leave_structure_open(mode: str, lack: Message | None) -> Check:
 def _is_given(check: Check) -> bool:
     """Something is given that a check of the structure rests on.
 
-    The type of a chain is that of its anchor, which is none of the structure.
+    The type of a chain is that of its anchor, which is none of the structure. Friction
+    under a base of no type is assumed.
     """
-    has_type = bool(check.resistance_type) and check.mode != CONNECTION
+    if check.resistance_type:
+        return check.mode != CONNECTION
     is_rated = check.resistance_kN is not None or check.is_unbounded
-    return has_type or is_rated
+    return is_rated and check.mode != _SLIDING
 
 
 def _has_result(check: Check) -> bool:

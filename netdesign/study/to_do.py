@@ -19,6 +19,7 @@ from netdesign.words.names import as_given, name_check, name_member, name_mode
 Who = Literal["office", "supplier", "ground", "site"]
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10
+_LOWERS = "check.assumed_lowers"  # neither end of a range passes
 _SHORT = ("post_bending.too_much_shortly",)
 
 # Who answers for what a member can fail by.
@@ -105,7 +106,9 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
     for check in row.checks:
         is_spanning = check.verdict is Verdict.NOT_PROVEN and not check.open
         if check.verdict is Verdict.FAIL or is_spanning:
-            key = ("fails", check.member, check.resistance_type)
+            key = ("fails", check.verdict, check.mode)
+            if not check.is_of_force:
+                key = ("open", check.told.key)
             yield _Point(who="office", key=key, row=row.id, check=check, point=None)
         elif check.verdict is not Verdict.PASS:
             yield from _list_open(row.id, check)
@@ -118,13 +121,15 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
         key: tuple[str, ...]
         if point.kind is OpenKind.ASSUMED_DECIDES:
             key = ("decides", _name_deciding(point.message))
+            if point.message.key == _LOWERS:
+                key = ("lowers",)
             yield _Point(who="supplier", key=key, row=row, check=check, point=point)
         elif point.kind is OpenKind.RESISTANCE_MISSING and check.mode == "connection":
             yield _Point(
                 who="supplier", key=("links",), row=row, check=check, point=point
             )
         elif point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
-            key = ("needs", check.resistance_type or check.member, check.mode)
+            key = ("needs",)
             named = who if check.resistance_type else "office"
             yield _Point(who=named, key=key, row=row, check=check, point=point)
         elif point.proof is not None:
@@ -133,7 +138,8 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
         else:
             asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
             named = "office" if asked else who
-            key = ("open", str(point.message))
+            of_force = check.is_of_force
+            key = ("open", str(point.message) if of_force else point.message.key)
             yield _Point(who=named, key=key, row=row, check=check, point=point)
 
 
@@ -159,21 +165,26 @@ def _find_demand(one: _Point) -> float:
 
 def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     check, kind = worst.check, worst.key[0]
-    title = name_check(check.member, check.mode)
+    checks = _name_checks(one.check for one in group)
     if kind == "fails" and check.verdict is Verdict.FAIL:
-        return _describe_failed(check, title)
+        return _describe_failed(check, checks)
     if kind == "needs":
-        return _describe_needed(check)
+        return _describe_needed([one.check for one in group])
     if kind == "links":
         types = dict.fromkeys(one.check.resistance_type for one in group)
         named = tuple(as_given(one) for one in types if one)
         return say("to_do.links", types=named or (name_member(check.member),))
     if kind == "proof":
-        checks, proof = _name_checks(one.check for one in group), worst.key[1]
-        return say("to_do.proof", checks=checks, proof=proof)
+        return say("to_do.proof", checks=checks, proof=worst.key[1])
     if worst.point is None:
-        return say("to_do.spans", check=title)
-    checks = _name_checks(one.check for one in group)
+        if check.is_of_force:
+            return say("to_do.spans", checks=checks)
+        return say("to_do.open", checks=checks, reason=shorten_reason(check.told))
+    if kind == "lowers":
+        names = [one.point.message.arguments["name"] for one in group if one.point]
+        named = tuple(dict.fromkeys(names))
+        if len(named) > 1:
+            return say("to_do.lowers", names=named, reason=worst.point.message)
     return say("to_do.open", checks=checks, reason=worst.point.message)
 
 
@@ -183,26 +194,33 @@ def shorten_reason(reason: Message) -> Message:
     return say(short) if short in _SHORT else reason
 
 
-def _describe_failed(check: Check, title: Message) -> Message:
+def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
     """Force beside resistance, and the type that does, where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
         reason = shorten_reason(check.told)
-        return say("to_do.open", checks=(title,), reason=reason)
-    told = say("to_do.fails", check=title, demand=demand, resistance=resistance)
+        return say("to_do.open", checks=checks, reason=reason)
+    told = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
     other = next((one for one in check.changes if one.sense == "has"), None)
     return say("to_do.with_type", what=told, type=other.quantity) if other else told
 
 
-def _describe_needed(check: Check) -> Message:
-    """Least characteristic resistance of a type, or of a member without one."""
-    needed = check.needed_kN
-    what = name_mode(check.mode)
-    of = check.resistance_type
-    named = as_given(of) if of else name_member(check.member)
-    if needed is None:
-        return say("to_do.state", what=what, of=named)
-    return say("to_do.needs", what=what, of=named, least=needed)
+def _describe_needed(checks: Sequence[Check]) -> Message:
+    """What types, or members without one, do not say; the least that each needs."""
+    needed: dict[str, float] = {}
+    for one in checks:
+        name = one.resistance_type or one.member
+        needed[name] = max(needed.get(name, 0.0), one.needed_kN or 0.0)
+    members = {one.member for one in checks if not one.resistance_type}
+    named = {
+        one: name_member(one) if one in members else as_given(one) for one in needed
+    }
+    of = (
+        say("to_do.least", of=named[one], least=least) if least else named[one]
+        for one, least in needed.items()
+    )
+    modes = dict.fromkeys(name_mode(one.mode) for one in checks)
+    return say("to_do.needs", what=tuple(modes), of=tuple(of))
 
 
 _FEW = 2  # checks that a line names

@@ -55,12 +55,16 @@ def test_a_line_has_the_number_of_the_worst_row():
     assert line.rows == ("N1", failing.id)
 
 
-def test_a_missing_resistance_says_how_much_is_needed():
+@pytest.mark.parametrize("bound", [None, 17.3, 1240.9])
+def test_a_missing_resistance_says_how_much_is_needed(bound):
     study = build_study()
-    lines = list_to_do(replace(study, rows=study.rows[2:]))
-    needed = [one for one in lines if one.text.key == "to_do.needs"]
-    (check,) = [
-        one for one in study.rows[2].checks if one.has_open(OpenKind.RESISTANCE_MISSING)
-    ]
-    wanted = [one.bound for one in check.changes if one.sense == "at least"]
-    assert [one.text.arguments["least"] for one in needed] == wanted[:1]
+    row = study.rows[2]
+    (check,) = [one for one in row.checks if one.has_open(OpenKind.RESISTANCE_MISSING)]
+    (change, *others) = check.changes
+    least = replace(change, sense="at least", unit="kN", bound=bound)
+    changed = replace(check, changes=[*([least] if bound else []), *others])
+    checks = [changed if one is check else one for one in row.checks]
+    lines = list_to_do(replace(study, rows=[replace(row, checks=checks)]))
+    needed = [one.text for one in lines if one.text.key == "to_do.needs"]
+    of = [each for one in needed for each in one.arguments["of"]]
+    assert [one.arguments.get("least") for one in of] == [bound]
