@@ -313,37 +313,24 @@ def measure_distance(first: Bore, second: Bore) -> float:
     -----------
     tests/verification/test_anchor_distance.py
     """
-    ways = (first.direction, second.direction)
-    lengths = [
-        _LONG if bore.length is None else bore.length for bore in (first, second)
-    ]
-    x, y, z = (a - b for a, b in zip(first.start, second.start, strict=True))
-    gap = (x, y, z)
-    cosine = _dot(*ways)
-    along = (_dot(ways[0], gap), _dot(ways[1], gap))
+    (a, b, c), (d, e, f) = first.direction, second.direction
+    x, y, z = (u - v for u, v in zip(first.start, second.start, strict=True))
+    ends = [_LONG if bore.length is None else bore.length for bore in (first, second)]
+    cosine = a * d + b * e + c * f
+    along, beside = a * x + b * y + c * z, d * x + e * y + f * z
+    tried = [(end, beside + end * cosine) for end in (0.0, ends[0])]
+    tried += [(end * cosine - along, end) for end in (0.0, ends[1])]
     sine = 1.0 - cosine**2
-    tried = [(end, along[1] + end * cosine) for end in (0.0, lengths[0])]
-    tried += [(end * cosine - along[0], end) for end in (0.0, lengths[1])]
     if sine > 1e-12:
-        nearest = (cosine * along[1] - along[0]) / sine
-        tried.append((nearest, along[1] + nearest * cosine))
-    return min(
-        math.dist(_go(first, s, lengths[0]), _go(second, t, lengths[1]))
-        for s, t in tried
-    )
-
-
-def _dot(first: Place, second: Place) -> float:
-    return sum(a * b for a, b in zip(first, second, strict=True))
-
-
-def _go(bore: Bore, way: float, length: float) -> Place:
-    """Place on an anchor, so far along it, or at the nearer end."""
-    x, y, z = (
-        start + min(max(way, 0.0), length) * slope
-        for start, slope in zip(bore.start, bore.direction, strict=True)
-    )
-    return x, y, z
+        nearest = (cosine * beside - along) / sine
+        tried.append((nearest, beside + nearest * cosine))
+    least = math.inf
+    for on_first, on_second in tried:
+        s = min(max(on_first, 0.0), ends[0])
+        t = min(max(on_second, 0.0), ends[1])
+        gap = (x + s * a - t * d, y + s * b - t * e, z + s * c - t * f)
+        least = min(least, math.hypot(*gap))
+    return least
 
 
 def find_dip(axis: float, slope: float, anchor: str) -> float:
