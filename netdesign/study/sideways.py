@@ -8,10 +8,8 @@ the report can work them out again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-
-import numpy as np
 
 from netdesign.checks import Band, Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -257,50 +255,21 @@ def find_rope_factors(
     """Pull of the guideline's load on lower and ridge rope over that of the cases [-].
 
     At least 1. Sizes of the pulls at foot and head, each its own largest; of several
-    panels that may be built each has its own, and the rope that then pulls most counts,
-    over the largest pull of all. Theory: panel/THEORY.md, (P12).
+    panels that may be built the one that is pulled least counts. Theory:
+    panel/THEORY.md, (P12).
     """
     solved = [one.panel for one in results if isinstance(one.panel, PanelForces)]
     foot = floor.find(Member.FOOT_ANCHOR)
     if not solved or floor.head is None or foot is None:
         return 1.0, 1.0
-    variants = list(zip(*(one.variants for one in solved), strict=True))
-    return (
-        _raise_ropes(variants, foot.force, _measure_feet, _LOWER),
-        _raise_ropes(variants, floor.head.pull, _measure_heads, _UPPER),
-    )
-
-
-_LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
-_UPPER = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
-_Panels = Sequence[PanelForces]
-
-
-def _measure_feet(panels: _Panels) -> float:
-    """Largest pull of a bay on its lower rope [N]."""
-    found = (one.solution for one in panels)
-    return max(math.hypot(*np.add(one.foot, one.mid_foot)) for one in found)
-
-
-def _measure_heads(panels: _Panels) -> float:
-    """Largest pull of a bay on its ridge rope [N]."""
-    return max(math.hypot(*one.solution.head) for one in panels)
-
-
-def _raise_ropes(
-    variants: Sequence[_Panels],
-    load: float,
-    measure: Callable[[_Panels], float],
-    ropes: Sequence[RopeForce],
-) -> float:
-    """Factor on the largest pulls of a rope by a load on it of its own [N]."""
-    factors = [max(1.0, load / measure(panels)) for panels in variants]
-    found = []
-    for rope in ropes:
-        pulls = [max(one.bands[rope].value for one in of) for of in variants]
-        raised = (pull * factor for pull, factor in zip(pulls, factors, strict=True))
-        found.append(max(raised) / max(pulls))
-    return max(found)
+    least = []
+    for variant in zip(*(one.variants for one in solved), strict=True):
+        found = [one.solution for one in variant]
+        feet = [(a.foot[0] + a.mid_foot[0], a.foot[1] + a.mid_foot[1]) for a in found]
+        pulls = (feet, [one.head for one in found])
+        least.append(tuple(max(math.hypot(*one) for one in of) for of in pulls))
+    lower, ridge = (min(one) for one in zip(*least, strict=True))
+    return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
 
 
 def check_sideways(

@@ -13,6 +13,7 @@ from typing import Literal
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name_check, name_member, name_mode
 
@@ -101,12 +102,17 @@ def _rank(group: Sequence[_Point]) -> tuple[int, float]:
 def _list_points(row: RowStudy) -> Iterator[_Point]:
     """Open points of the checks of a row that do not pass.
 
-    One of each that fails, or whose interval spans the limit.
+    One of each that fails, or whose interval spans the limit. Of a structure of which
+    nothing is given, that is the point.
     """
+    is_bare = any(one.member == STRUCTURE and one.open for one in row.checks)
     for check in row.checks:
+        is_part = check.member != STRUCTURE and is_of_structure(check)
+        if is_bare and is_part and check.verdict is Verdict.NOT_PROVEN:
+            continue
         is_spanning = check.verdict is Verdict.NOT_PROVEN and not check.open
         if check.verdict is Verdict.FAIL or is_spanning:
-            key = ("fails", check.verdict, check.mode)
+            key = ("fails", check.verdict, check.member)
             if not check.is_of_force:
                 key = ("open", check.told.key)
             yield _Point(who="office", key=key, row=row.id, check=check, point=None)
