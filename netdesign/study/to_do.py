@@ -112,7 +112,7 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
             continue
         is_spanning = check.verdict is Verdict.NOT_PROVEN and not check.open
         if check.verdict is Verdict.FAIL or is_spanning:
-            key = ("fails", check.verdict, check.member)
+            key: tuple[str, ...] = ("fails", check.verdict, check.member)
             if not check.is_of_force:
                 key = ("open", check.told.key)
             yield _Point(who="office", key=key, row=row.id, check=check, point=None)
@@ -187,7 +187,8 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
             return say("to_do.spans", checks=checks)
         return say("to_do.open", checks=checks, reason=shorten_reason(check.told))
     if kind == "lowers":
-        names = [one.point.message.arguments["name"] for one in group if one.point]
+        told = (x.point.message.arguments["name"] for x in group if x.point)
+        names = (name for name in told if isinstance(name, Message))
         named = tuple(dict.fromkeys(names))
         if len(named) > 1:
             return say("to_do.lowers", names=named, reason=worst.point.message)
