@@ -23,7 +23,7 @@ from netdesign import addon_table
 from netdesign.commands.running import EXIT_CODES, own_command, print_faults
 from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.edge.input_files import explain_system, make_printable
-from netdesign.edge.streams import flush_streams, guard_streams
+from netdesign.edge.output import flush_streams, guard_streams
 from netdesign.outcome import (
     NetDesignError,
     OutputError,

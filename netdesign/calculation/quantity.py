@@ -1,9 +1,8 @@
-"""Numbers of a check that know their unit, their band and where they come from.
+"""Quantities of a check: value, band, unit, origin, and the operation that made them.
 
-A quantity is given, solved or worked out. Arithmetic makes the third kind by itself
-and keeps the way: what is computed is also what is shown, stored, put into a
-spreadsheet and evaluated again (`steps`). What unit a product has, and which may be
-added, stands first. Theory: THEORY.md.
+A quantity is given, solved or worked out. Arithmetic on quantities checks the unit,
+carries the band and keeps the operands: `steps` writes them as a formula, in a file, in
+a spreadsheet. Dimensions and the table of operations stand first. Theory: THEORY.md.
 """
 
 from __future__ import annotations

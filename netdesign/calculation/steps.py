@@ -1,8 +1,8 @@
-"""A calculation as text: formulas of quantities, and the list of its steps.
+"""Formulas of quantities as text, and the steps of a calculation in their order.
 
-``b_e / b * (g * E_s + A)`` is the text of a file. It is read by Python's own grammar,
-of which nothing counts but names, numbers and the operations of a quantity. The list,
-each quantity after those it is made of, is what a file holds and a reader follows.
+A file holds ``b_e / b * (g * E_s + A)``. Python's grammar parses it; only names,
+numbers and the operations of a quantity are accepted. Each step stands after its
+operands.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
-from netdesign.checks.approval import Approval, StatedValue
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.checks.comparison import check_member, find_resistance
-from netdesign.checks.geometry import RowGeometry, check_geometry
+from netdesign.checks.geometry import Approval, RowGeometry, StatedValue, check_geometry
 from netdesign.checks.loader import (
     Standard,
     StandardValue,

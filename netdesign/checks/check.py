@@ -1,4 +1,4 @@
-"""A check: its calculation, what is open of it, and the verdict that follows."""
+"""A check: its calculation, its open points, and the verdict from both."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class OpenKind(StrEnum):
     UNSOLVED = "unsolved"  # the force is not known, or not in every case
     RESISTANCE_MISSING = "resistance_missing"
     RESISTANCE_IN_DOUBT = "resistance_in_doubt"  # it may not last, or not hold there
-    VALUE_ASKED = "value_asked"  # a value that somebody has to confirm
+    VALUE_ASKED = "value_asked"  # a value that the engineer has to confirm
     ASSUMED_DECIDES = "assumed_decides"  # met at the best ends of what is assumed
     PROVEN_ELSEWHERE = "proven_elsewhere"  # by a document
 
@@ -201,7 +201,7 @@ class Check:
         *("demand_kN", "resistance_kN", "utilisation"),
         *("utilisation_by_model", "utilisation_by_guideline"),
         *("verdict", "reason", "governs"),
-    )  # also in the document, where nobody reads them back
+    )  # also in the document, which is not read back from them
 
     id: str  # "foot_anchor.tendon", "foot_anchor.tendon.end", "geometry.inclination"
     clause: str

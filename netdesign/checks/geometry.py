@@ -1,14 +1,15 @@
-"""Geometry of a net row against the limits of a profile."""
+"""Geometry of a net row against the limits of a profile, and of its type approval."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from netdesign.checks.check import Check, OpenKind, judge
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.loader import Standard, StandardValue
+from netdesign.checks.result import Proof
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,
@@ -21,9 +22,9 @@ from netdesign.checks.schema import (
     MOST_PLAUSIBLE_SLOPE,
     SPACING_CAP,
 )
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 # Sentences by verdict, or by whether a limit is kept.
 _INCLINATIONS = {
@@ -118,7 +119,7 @@ def check_slope(slope_angle: float, standard: Standard) -> Check:
     """Check the slope angle [rad] against limits, and whether it can be one at all.
 
     Outside the profile's limits it fails. Outside the plausible range it is not proven:
-    it may be a percentage that somebody gave as degrees, and all forces follow from it.
+    it may be a percentage given as degrees, and all forces follow from it.
     """
     low, high = standard.find(MIN_SLOPE), standard.find(MAX_SLOPE)
     limits = _judge_slope(slope_angle, low, high)
@@ -247,7 +248,7 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
 def check_gap(gap: float, standard: Standard) -> Check | None:
     """Check the gap beside a row [m]; None where the profile has no limit of it.
 
-    Nor of a free end, beside which nobody says that there is a work: a condition.
+    None, too, of a free end without a stated neighbour, which is a condition.
     """
     most = standard.find(MAX_GAP)
     if most is None or gap == math.inf:
@@ -255,3 +256,103 @@ def check_gap(gap: float, standard: Standard) -> Check | None:
     met = judge(gap, gap, least=0.0, most=most.value)
     finding = say(_GAPS[met is Verdict.PASS], gap=gap, most=most.value)
     return compare("gap", met, finding, most)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatedValue:
+    """A number of an approval or of its maker, with its cell; SI."""
+
+    value: float
+    cell: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Approval:
+    """Limits of a type approval, and what the maker states beside them.
+
+    A limit that it does not state is None: it proves nothing then. So is a force.
+
+    Attributes
+    ----------
+    document, cell : str
+        What approves the net, and where that stands; "" where only the maker's forces
+        are given.
+    height : StatedValue or None
+        Largest D_K, normal to the slope [m].
+    glide_factor : StatedValue or None
+        Largest N [-].
+    altitude_factor : StatedValue or None
+        Largest f_c [-].
+    spacing : StatedValue or None
+        Largest distance of the posts [m].
+    foot_force, uphill_force, downhill_force : StatedValue or None
+        Characteristic force on the anchor, as the maker states it [N].
+    """
+
+    document: str = ""
+    cell: str = ""
+    height: StatedValue | None = None
+    glide_factor: StatedValue | None = None
+    altitude_factor: StatedValue | None = None
+    spacing: StatedValue | None = None
+    foot_force: StatedValue | None = None
+    uphill_force: StatedValue | None = None
+    downhill_force: StatedValue | None = None
+
+    def prove(self) -> Proof:
+        """Document as the proof of what it approves."""
+        return Proof(document=self.document, author="", date="", cell=self.cell)
+
+
+MODE = "approval"
+# What an approval limits, with its name and unit.
+_LIMITS = {
+    "height": ("approval.height", " m"),
+    "glide_factor": ("approval.glide_factor", ""),
+    "altitude_factor": ("approval.altitude_factor", ""),
+    "spacing": ("approval.spacing", " m"),
+}
+_ROUNDING = 1e-9  # relative, of a factor that is worked out
+
+
+def check_approval(
+    approval: Approval, actual: Mapping[str, tuple[float, float]]
+) -> Check:
+    """Check of a row against the limits of the approval of its net type.
+
+    Parameters
+    ----------
+    approval : Approval
+        With a document.
+    actual : mapping of str to tuple of float
+        Least and largest value of the row by the limits' names in `Approval`, SI.
+
+    Returns
+    -------
+    Check
+        It fails where a value surely exceeds its limit. A limit that the approval does
+        not state is not proven, and neither is a value that may exceed its own.
+    """
+    beyond: dict[Verdict, list[Message]] = {}
+    for of, (text, unit) in _LIMITS.items():
+        limit: StatedValue | None = getattr(approval, of)
+        name, (low, high) = say(text), actual[of]
+        if limit is None:
+            message = say("approval.unstated", name=name)
+            beyond.setdefault(Verdict.NOT_PROVEN, []).append(message)
+            continue
+        most = limit.value * (1.0 + _ROUNDING)
+        met = judge(low, high, least=0.0, most=most)
+        key = "approval.beyond" if low == high else "approval.may_be_beyond"
+        if met is Verdict.PASS:
+            key = "approval.within"
+        message = say(key, name=name, low=low, high=high, limit=limit.value, unit=unit)
+        beyond.setdefault(met, []).append(message)
+    met = next(verdict for verdict in SEVERITY if verdict in beyond)
+    by_verdict = {Verdict.PASS: "approval.inside", Verdict.FAIL: "approval.outside"}
+    finding = say(
+        by_verdict.get(met, "approval.open"),
+        values=tuple(beyond[met]),
+        document=approval.document,
+    )
+    return compare(MODE, met, finding)

@@ -145,14 +145,14 @@ class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
     ``choice`` names the set of factors taken from ``choices.toml``, ``choice_text`` is
-    what it says of itself; "" for none.
-    ``floor`` is what no demand lies below: the guideline's load, unless the profile
-    says "none"; ``is_floor_overruled`` tells that somebody chose the other one,
-    ``has_maker_floor`` that no anchor's demand lies below what the net's maker states,
-    ``is_by_guideline`` that the guideline's load decides even where it is the smaller,
-    ``shared_sum`` how the pulls of two guys on one anchor are added,
-    ``is_default`` that nobody named the profile; ``not_checked`` names the topics that
-    others must check.
+    its description; "" for none.
+    ``floor`` names the least demand: the guideline's load, or "none".
+    ``is_floor_overruled``: an option of the run replaced the profile's floor.
+    ``has_maker_floor``: an anchor's demand is at least what the net's maker states.
+    ``is_by_guideline``: the guideline's load decides even where it is the smaller.
+    ``shared_sum``: how the pulls of two guys on one anchor are added.
+    ``is_default``: the profile was not named, and the default is taken.
+    ``not_checked``: topics that others must check.
     """
 
     id: str

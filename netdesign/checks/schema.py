@@ -1,4 +1,4 @@
-"""Shape of the files of a limit profile; refuses what it does not know."""
+"""Shape of the files of a limit profile; unknown keys and values are refused."""
 
 from __future__ import annotations
 

@@ -20,8 +20,13 @@ from netdesign.commands.running import (
     report_places,
 )
 from netdesign.commands.usage import speak, tell
-from netdesign.edge.output import PROFILES_FILE, STUDY_FILE, WHAT_IF_MARK, write_files
-from netdesign.edge.streams import print_json
+from netdesign.edge.output import (
+    PROFILES_FILE,
+    STUDY_FILE,
+    WHAT_IF_MARK,
+    print_json,
+    write_files,
+)
 from netdesign.site.statements import list_missing
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.input_files import make_printable
-from netdesign.edge.streams import print_json
+from netdesign.edge.output import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
 from netdesign.words.message import Message, say
 

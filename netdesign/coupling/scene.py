@@ -130,7 +130,7 @@ class Scene:
     creep_law : CreepLaw
         Set of a(D), b(D), n.
     fluidity : float or None
-        B [Pa^-n s^-1], of layers without a temperature; None where nobody gave one.
+        B [Pa^-n s^-1], of layers without a temperature; None without a value.
     ground_contact, net_contact : str
         ``two-sided`` (the paper) or ``one-sided`` (cannot pull on the snow).
     """

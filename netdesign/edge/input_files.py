@@ -202,7 +202,7 @@ def is_held(error: OSError, path: Path) -> bool:
     error : OSError
         As the system raised it.
     path : Path
-        The file that somebody may have open.
+        The file, which another program may hold open.
     """
     if getattr(error, "winerror", None) in _SHARING:
         return True

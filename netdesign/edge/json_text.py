@@ -1,4 +1,4 @@
-"""JSON text that harms nobody: written without control signs, read with bounds."""
+"""JSON of documents: written without control signs, read within bounds of size."""
 
 from __future__ import annotations
 

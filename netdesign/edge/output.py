@@ -1,12 +1,21 @@
-"""Writes outputs whole or not at all, and over no file but its own unasked."""
+"""Writes output files whole or not at all, and replaces only files of earlier runs.
+
+Then: standard output and standard error that outlive a closed pipe or a full disk. A
+reader may stop (``netdesign check site.xlsx | head``), a code page lack the signs of a
+table. The run goes on to its end; ``fault`` holds why the output is incomplete.
+"""
 
 from __future__ import annotations
 
+import codecs
 import hashlib
+import io
 import json
 import os
 import re
+import sys
 import tempfile
+import unicodedata
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -82,7 +91,7 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
 
 
 def _read_own(folder: Path) -> dict[str, str]:
-    """Hashes of the files that an earlier run wrote there, and nobody changed since."""
+    """Hashes of the files that an earlier run wrote there, unchanged since."""
     try:
         record = json.loads((folder / RECORD_FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -130,7 +139,7 @@ def write_files(
     overwrite : bool
         Whether files of others may be replaced.
     is_recorded : bool
-        Whether the next run may replace these files, as long as nobody changes them.
+        Whether the next run may replace these files as long as they are unchanged.
 
     Raises
     ------
@@ -158,7 +167,7 @@ def write_files(
 
 
 def _remove_leftovers(paths: Iterable[Path]) -> None:
-    """Delete temporary files of runs that were killed; nobody else writes now."""
+    """Delete temporary files of runs that were killed; the folder is locked."""
     for path in paths:
         start = f".{path.name}"
         for sibling in path.parent.iterdir():
@@ -211,3 +220,130 @@ def _usual_mode() -> int:
     umask = os.umask(0o077)
     os.umask(umask)
     return 0o666 & ~umask
+
+
+_PLAIN = "netdesign.plain"  # the handler of signs that a code page lacks
+_SPELLED = {
+    **{"α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "η": "eta"},
+    **{"λ": "lambda", "⁻": "-"},
+    **{"θ": "theta", "μ": "mu", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau"},
+    **{"φ": "phi", "ψ": "psi", "Δ": "Delta", "Σ": "Sigma"},
+    **{"·": "*", "×": "x", "−": "-", "–": "-", "—": "-", "→": "->", "›": ">"},
+    **{"‹": "<", "«": '"', "»": '"', "„": '"', "“": '"', "”": '"', "’": "'"},
+    **{
+        "‘": "'",
+        "≤": "<=",
+        "≥": ">=",
+        "≈": "~",
+        "±": "+/-",
+        "°": " deg",
+        "√": "sqrt",
+        "∞": "inf",
+    },
+    **{"…": "...", "•": "*", "ß": "ss", "Æ": "AE", "æ": "ae", "Ø": "O", "ø": "o"},
+    **{"œ": "oe", "Œ": "OE", "✓": "(v)", "✗": "(x)", "†": "(+)", "‡": "(++)"},
+}
+
+
+class _Lasting(io.RawIOBase):
+    """A stream that goes on in silence once it can no longer be written to.
+
+    ``fault`` is the reason why it is not complete; a reader who stopped is none.
+    """
+
+    def __init__(self, raw: io.RawIOBase) -> None:
+        self._raw = raw
+        self._is_lost = False
+        self.fault: OSError | None = None
+
+    def write(self, data: object, /) -> int | None:
+        """Write the text, or drop it once a write has failed."""
+        if not self._is_lost:
+            try:
+                return self._raw.write(data)  # type: ignore[arg-type]
+            except BrokenPipeError:
+                self._is_lost = True  # whoever read has seen enough
+            except OSError as error:
+                self._is_lost, self.fault = True, error
+        return memoryview(data).nbytes  # type: ignore[arg-type]
+
+    def writable(self) -> bool:
+        """True, as for every output."""
+        return True
+
+    def fileno(self) -> int:
+        """Descriptor of the stream below."""
+        return self._raw.fileno()
+
+    def isatty(self) -> bool:
+        """True where the stream below is a terminal."""
+        return self._raw.isatty()
+
+
+def guard_streams() -> _Lasting | None:
+    """Put lasting streams in the place of this process's own.
+
+    Returns
+    -------
+    _Lasting or None
+        Standard output; None where the caller made the stream.
+    """
+    codecs.register_error(_PLAIN, _spell)
+    _guard("stderr")
+    return _guard("stdout")
+
+
+def flush_streams() -> None:
+    """Write what is left; afterwards the fault of a lasting stream is final."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+
+
+def _guard(name: str) -> _Lasting | None:
+    stream = getattr(sys, name)
+    if stream is not getattr(sys, f"__{name}__") or not isinstance(
+        stream, io.TextIOWrapper
+    ):
+        return None
+    buffer = stream.buffer
+    raw: io.RawIOBase = getattr(buffer, "raw", buffer)  # type: ignore[assignment]
+    lasting = _Lasting(raw)
+    guarded = io.TextIOWrapper(
+        io.BufferedWriter(lasting),
+        encoding=stream.encoding,
+        errors=_PLAIN,
+        line_buffering=stream.line_buffering or name == "stderr",
+        write_through=stream.write_through,
+    )
+    setattr(sys, name, guarded)
+    return lasting
+
+
+def _spell(error: UnicodeError) -> tuple[str, int]:
+    """Spell in ASCII what an encoding lacks: ``φ`` as phi, ``é`` as e."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    text = error.object[error.start : error.end]
+    return "".join(map(_spell_sign, text)), error.end
+
+
+def _spell_sign(sign: str) -> str:
+    if sign in _SPELLED:
+        return _SPELLED[sign]
+    decomposed = unicodedata.normalize("NFKD", sign)
+    return "".join(letter for letter in decomposed if letter.isascii()) or "?"
+
+
+def print_json(text: str) -> None:
+    """Print a document in UTF-8, whatever the code page: its texts are data."""
+    stream = sys.stdout
+    if stream is None:
+        return
+    stream.flush()
+    buffer = getattr(stream, "buffer", None)
+    if buffer is None:
+        stream.write(f"{text}\n")
+    else:
+        buffer.write(f"{text}\n".encode())
+    stream.flush()

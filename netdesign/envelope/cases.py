@@ -1,10 +1,10 @@
-"""Cases of a row on their way from being asked for to their results.
+"""Cases of a row, from their points in the ranges to their results.
 
-Those that friction cannot change are not solved: where the snow slips nowhere on the
-net, or by its very foot only, more friction leaves the solution (nearly) as it is. The
-first such cases are solved all the same, and one that disagrees ends the skipping.
-Cases of a search's first design are solved roughly first, then again where they may
-matter. Theory: envelope/THEORY.md.
+More friction leaves a solution (nearly) as it is where the snow slips nowhere on the
+net, or at its foot only. Such cases take the result of the case with less friction. The
+first of them are solved as a test; a difference ends the skipping. Cases of the first
+design are solved on the coarsest meshes, then again near a largest force. Theory:
+envelope/THEORY.md.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Forces of a row of panels in one solved case, beside those of its section.
 
-What they are named by, how they follow, and their bands: envelope/THEORY.md. First: the
-forces on any support from the pulls on its ends, with the band of the pulls' error.
+First: forces on any support from the pulls on its ends, with the band of the pulls'
+error. Names, equations and bands of the panel's forces: envelope/THEORY.md.
 """
 
 from __future__ import annotations
@@ -321,7 +321,7 @@ def resolve_panels(
     return replace(first, others=tuple(others))
 
 
-# Panels that nobody builds: what they press on the ground would not be known.
+# Panels that are not built like this: their pressure on the ground would be unknown.
 _NOT_BUILT = ("panel.lies_on_ground", "panel.no_net_left")
 _HALVINGS = 4  # of the sags between a panel that hangs free and one that does not
 

@@ -1,6 +1,6 @@
-"""Ranges of the uncertain quantities, and cases in them.
+"""Ranges of the uncertain quantities of a row, and the cases in them.
 
-The quantities that can range, and how each enters a scene, stand first.
+First: the quantities that may range, and how each enters a scene.
 """
 
 from __future__ import annotations

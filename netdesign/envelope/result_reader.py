@@ -1,8 +1,9 @@
 """From the results of a row to the quantities that a search follows, and back.
 
-Those are the signed forces of `signed.py` beside the members. A post pulls only where
-the net pulls its head away from the slope: that direction is bounded first, which tells
-nearly always that none does. Theory: structure/THEORY.md, eq. (S4a).
+The search follows the signed forces of `signed_forces.py` beside the members. A post
+pulls only where the net pulls its head away from the slope. So that direction is
+bounded first, and in nearly all rows no post pulls. Theory: structure/THEORY.md, eq.
+(S4a).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""From cases to member forces; no failed case is ever lost."""
+"""Member forces of a case; a failed case is a result with its reason."""
 
 from __future__ import annotations
 

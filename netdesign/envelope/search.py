@@ -1,7 +1,7 @@
-"""Searches of net rows: the cases that each wants next, until its envelope is known.
+"""Searches of net rows: which cases each solves next, until its envelope is known.
 
-A ``RowSearch`` solves nothing: it asks for batches of cases and is told their ends.
-Theory: envelope/THEORY.md.
+A ``RowSearch`` solves no case. `ask` gives the batches to solve, `tell` takes their
+ends. Theory: envelope/THEORY.md.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Signed forces of a case: what a search follows in the place of a support's members.
+"""Signed forces of a case, which a search follows in place of the members' forces.
 
-Where a guy goes slack its force and that of the post have a kink, which a model of
-the forces would pay for with many cases. The forces that post and one guy would need,
-signs allowed, have none: a guy carries the signed tension where that is positive, and
-the post the larger of its two signed compressions. So these are what is searched, and
-what the members can carry at most follows. Theory: structure/THEORY.md, eq. (S2).
+The forces of guy and post have a kink where a guy goes slack, and a model of them would
+need many cases. The forces that the post and one guy need for equilibrium, tension
+positive and compression negative, have no kink. A guy carries its signed tension where
+that is positive, the post the larger of its two signed compressions: bounds of the
+signed forces bound the members. Theory: structure/THEORY.md, eq. (S2).
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
-"""Documents of solved cases: ``netdesign envelope --json``, a scene's support.
+"""Documents of solved cases: ``netdesign envelope --json``, and a scene's support.
 
-The same functions that a site's cases go through make the forces of a support, bands
-included.
+A scene's support has its forces and bands from the functions that a site's cases use.
 """
 
 from __future__ import annotations

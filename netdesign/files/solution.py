@@ -210,7 +210,7 @@ def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[M
 def _find_missed_accuracy(
     solution: Solution | WallSolution, settings: Settings
 ) -> Message | None:
-    """Accuracy that was asked for and not reached, or that nobody asked for."""
+    """Accuracy that was not reached, or control of it that was switched off."""
     if settings.accuracy is None:
         return say("solution.staggered_error")
     if isinstance(solution, WallSolution):

@@ -1,4 +1,4 @@
-"""Floor of the demand: the largest forces that the guideline's load cases bring."""
+"""Least demand: the largest member forces under the guideline's load cases."""
 
 from __future__ import annotations
 
@@ -227,7 +227,7 @@ def find_anchor_forces(
 ) -> list[dict[str, float]] | Message:
     """Forces on the anchors, and pull on the head, on each of some layouts [N].
 
-    Those of `find_floor` at all corners of what nobody gives, of one search: the pulls
+    Those of `find_floor` at all corners of the assumed ranges, by one search: the pulls
     of the net are the same.
 
     Parameters

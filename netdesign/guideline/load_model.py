@@ -1,8 +1,7 @@
-"""Snow pressure of a guideline, and what a net under it pulls on its ends.
+"""Snow pressure of a guideline, and the pulls of a net under it on its two ends.
 
-Closed forms with numbers read from a profile. The guideline says how large the load
-is, not how hard a slack or tight net pulls on its ends; here the net's own stiffness
-and slack say it: a shallow elastic cable.
+Closed forms with the numbers of a profile. The guideline gives the load; the pulls
+follow from stiffness and slack of the net as a shallow elastic cable.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """Strips and ropes of a panel as one set of equations, with their derivatives.
 
-The unknowns are what each strip pulls with on the lower rope, mid-panel's too, and the
-ropes' forces along the row. A point is these pulls over the load, (2, K + 1), then
-log H of the lower and of the upper rope, all in one row. First: a border rope under
-the pulls of the strips that hang on it. Theory: panel/THEORY.md, section 3, (P1) to
-(P3).
+The unknowns are the pulls of the strips on the lower rope, mid-panel's included, and
+the forces of both ropes along the row. A point holds these pulls over the load, (2, K +
+1), then log H of the lower and of the upper rope. First: a border rope under the pulls
+of the strips that hang on it. Theory: panel/THEORY.md, section 3, (P1) to (P3).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Inputs of a panel: its ropes, how its net is cut; panels as they are built.
+"""Inputs of a panel: its ropes, the cut of its net, and the panels in use.
 
-For a row whose own panel is not given in full the worst of a few counts, at the ends of
-what is built. Which of them is the worst for which member: panel/THEORY.md, section 6.
+A row whose panel is not given in full is calculated with a few panels at the ends of
+what is built; the worst counts. Which is worst for which member: panel/THEORY.md, 6.
 """
 
 from __future__ import annotations

@@ -163,11 +163,11 @@ class PostSection:
     at_head, at_foot : float
         Eccentricities of the compression at both ends [m].
     efficiency : float or None
-        eta, where somebody gives it [-].
+        eta, where it is given [-].
     efficiency_place : str
         Cell that gives it.
     assumed : tuple of str
-        Columns of the last three that nobody fills.
+        Columns of the last three that are empty.
     """
 
     width: float

@@ -1,7 +1,7 @@
-"""Sections, bars and ropes as norms and makers have them, found by a type's name.
+"""Sections, bars and ropes of norms and makers, found by the name of a type.
 
-A name that holds no product gives None, and so does one that holds two, or one several
-times: a false hit is worse than a miss. Data and patterns: products.toml.
+A name that matches no product, two products, or one product twice gives None: a false
+hit is worse than a miss. Data and patterns: products.toml.
 """
 
 from __future__ import annotations

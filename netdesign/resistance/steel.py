@@ -1,7 +1,6 @@
-"""Steel of anchors and guys: bars, wire ropes, their ends and links, and what it loses.
+"""Steel of anchors and guys: bars, wire ropes, rope ends, links, and loss by corrosion.
 
-Of the links between a rope and its anchor the weakest bears the force. In the ground
-steel is lost over the design life.
+The weakest link between a rope and its anchor bears the force.
 """
 
 from __future__ import annotations
@@ -165,7 +164,7 @@ def compute_bent_bar_resistance(
 
 
 # Ground that yields at a bore's mouth: by its kind, bar diameters that it adds to the
-# lever. What is none of these, and what nobody knows, is soil.
+# lever. Any other kind of ground, and an unknown one, is soil.
 ROCK = ("slate", "limestone", "sandstone", "granite", "gneiss", "rock")
 IN_SOIL, IN_ROCK = 3.0, 1.0
 # M beta / V at the most, where a force V bends a beam at its end on elastic ground.
@@ -186,7 +185,7 @@ def find_ground_lever(
         Kind of the ground, as in sheet Anchors; "" where it is not known: soil.
     modulus : float or None
         E_s, measured: force for each length and deflection of the bar [Pa]. None where
-        nobody measured it: then that with which a solid bar yields over ``IN_SOIL`` or
+        it was not measured: then that with which a solid bar yields over ``IN_SOIL`` or
         ``IN_ROCK`` of its diameter.
 
     Returns
@@ -351,7 +350,7 @@ def resist_link(
 
 
 # Protections under which the steel itself corrodes, and is counted with what is left.
-# Ground by its corrosion where nobody gives its class: undisturbed, a condition.
+# Ground by its corrosion where its class is not given: undisturbed, a condition.
 USUAL_SOIL = "natural"
 BARE = ("none", "sacrificial")
 
@@ -369,7 +368,7 @@ class Wear:
     soil : str
         Class of the ground by its corrosion; "" where none is given.
     protected_years : int or None
-        Years for which somebody declares the protection; None where nobody does.
+        Years for which the protection is declared; None without a declaration.
     outer, inner : float or None
         Diameters of bar or tube [m]; None where they are not given.
     """

@@ -1,9 +1,8 @@
-"""The largest values of several quantities over a box, with what may still hide.
+"""The largest values of several quantities over a box, with a bound between the cases.
 
-Knows no solver: it asks for values at points of the unit cube. Coarse to fine: a
-first design, then cases where a quantity could still exceed its maximum under the
-model of ``surrogate.py``; once none can, cases that put that very bound to the test.
-Theory: search/THEORY.md.
+The search knows no solver: it asks for values at points of the unit cube. First a
+coarse design; then cases where the model of ``surrogate.py`` lets a quantity exceed its
+maximum; at last cases that test this bound. Theory: search/THEORY.md.
 """
 
 from __future__ import annotations
@@ -93,8 +92,7 @@ class Watched:
     Attributes
     ----------
     resolution : float
-        Closest gap that is worth a case: nobody bounds a quantity closer than its
-        cases are accurate.
+        Smallest gap that is worth a case: the numerical accuracy of the cases.
     floor : float
         Below it the quantity does not matter, since another one is as large already.
     is_deciding : bool

@@ -1,9 +1,9 @@
-"""A model of the responses between the solved cases, and how far to trust it.
+"""A model of the responses between the solved cases, with its standard error.
 
 Universal kriging: a quadratic trend plus a residual whose correlation falls with
-distance. Every solved case is also predicted from all the others; these held-out
-errors set the scale of the standard error, more so nearby, so that a kink in one
-corner of the ranges raises it there. Theory: search/THEORY.md, eq. (M1) to (M5a).
+distance. Each solved case is also predicted from all others. These held-out errors
+scale the standard error, more so nearby: a kink in one corner of the ranges raises it
+there. Theory: search/THEORY.md, eq. (M1) to (M5a).
 """
 
 from __future__ import annotations

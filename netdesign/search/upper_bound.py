@@ -1,7 +1,7 @@
-"""Upper bounds: the most that quantities could reach; where a search asks next.
+"""Upper bounds of the quantities over the box, and the points to solve next.
 
-The bound is the model's mean and some of its standard errors, wider around cases that
-exceeded it. It is looked at on a lattice and around the best cases, then followed
+The bound is the model's mean plus some standard errors, more of them around cases that
+exceeded it. It is evaluated on a lattice and around the best cases, then followed
 uphill. Theory: search/THEORY.md, "First design", "Questions", eq. (M6) and (M7).
 """
 

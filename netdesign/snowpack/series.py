@@ -62,7 +62,7 @@ class HeightSeries:
 
     @property
     def starts_in_snow(self) -> bool:
-        """Snow lies on the first day: nobody knows what fell before."""
+        """Snow lies on the first day, and what fell before it is unknown."""
         return self.heights[0] > 0.0
 
 

@@ -1,4 +1,4 @@
-"""Ends of jobs: from the store where they are known, from workers where not."""
+"""Ends of cases: from the store where it has them, else from the workers."""
 
 from __future__ import annotations
 

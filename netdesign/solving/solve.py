@@ -1,6 +1,6 @@
-"""One entry for every kind of scene and every method, and the kept part of a case.
+"""Solves any scene by any method, and keeps of the solution what a row needs.
 
-Kept are end pulls, balances and shape, which have a stored form.
+Kept are end pulls, balances and the net's shape; they have a stored form.
 """
 
 from __future__ import annotations

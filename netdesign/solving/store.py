@@ -1,9 +1,12 @@
-"""Finished cases and net rows on disk: used by every later run.
+"""Finished cases and net rows on disk, for every later run.
 
-One SQLite file. A case is known by its scene, its settings and the solver's own code, a
-net row by all that decides its record, so that another version never answers for this
-one. Each is one transaction in a write-ahead log: a killed run loses what its workers
-had in hand, nothing else.
+One SQLite file. The key of a case is its scene, its settings and the solver's code,
+that of a net row all that decides its record: another version never reads them. Each is
+one transaction in a write-ahead log, so a killed run loses only the cases in its
+workers.
+
+First: names of solver, program and installation. The solver's name is the digest of its
+code without docstrings, comments and blank lines; a changed constant changes it.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Workers that solve cases: this process, a pool, or a Dask cluster.
 
-Each gives the same ends for the same batches; only the order of arrival differs. A
-worker that dies costs the one case that kills it, by name.
+All give the same ends for the same batches, in an order of their own. A worker that
+dies costs only the case that killed it, which is named.
 """
 
 from __future__ import annotations
@@ -280,7 +280,7 @@ class DaskCluster:
         Raises
         ------
         ClusterError
-            If the extra is not installed, nobody answers there, or the workers
+            If the extra is not installed, no scheduler answers there, or the workers
             have another version of the solver.
         """
         try:
@@ -402,7 +402,7 @@ def build_workers(executor: str, processes: int) -> Workers:
 
 
 def _require_answer(address: str) -> None:
-    """Refuse at once where nobody listens; Dask would try again and again."""
+    """Refuse at once an address without a scheduler; Dask would retry for minutes."""
     host, _, port = address.removeprefix("tcp://").rpartition(":")
     if not (host and port.isascii() and port.isdecimal() and int(port) < _PORTS):
         raise ClusterError(say("cluster.accepted", executor=f"dask://{address}"))

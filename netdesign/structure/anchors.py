@@ -1,6 +1,6 @@
-"""Forces that one support of the net does to the ground.
+"""Forces of one support on the ground, per anchor.
 
-Directions of the pulls on an anchor, and their angles to its axis, stand first.
+First: directions of the pulls on an anchor, and their angles to its axis.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Equilibrium of the post head: who pushes, who pulls, who is slack."""
+"""Equilibrium of the post head: forces in the guys and in the post."""
 
 from __future__ import annotations
 

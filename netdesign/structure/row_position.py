@@ -1,4 +1,4 @@
-"""Place of a support in its row: end effect, load across the section, its bores."""
+"""Place of a support in its row: end effect, load across, distance of anchors."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def list_supports(
     edge : LoadedWidth or None
         Of the row's first or last support; None where the row has no end.
     post_count : int or None
-        Posts of the row, at least 2; None where nobody gives it.
+        Posts of the row, at least 2; None where their number is not given.
     """
     inside = LoadedWidth(position="intermediate", width=post_spacing)
     if edge is None:

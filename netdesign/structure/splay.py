@@ -1,7 +1,7 @@
-"""Post head that a load along the row acts on too: splayed guys, and the end guy.
+"""Post head under a load along the row: splayed guys, and the guy of the row's end.
 
-The section's equilibrium (head.py) stays as it is; what the sideways load adds to it
-is found here. Theory: structure/THEORY.md, eqs. (S15) to (S19) and (S24) to (S26).
+The section's equilibrium is that of head.py; the forces by the load along the row are
+added here. Theory: structure/THEORY.md, eqs. (S15) to (S19) and (S24) to (S26).
 """
 
 from __future__ import annotations

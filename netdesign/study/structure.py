@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.checks import Check, Open, OpenKind
-from netdesign.checks.approval import MODE, check_approval
 from netdesign.checks.comparison import leave_open
+from netdesign.checks.geometry import MODE, check_approval
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.edge.streams import _Lasting
+from netdesign.edge.output import _Lasting
 from netdesign.words.catalogue import load_texts
 from tests.each import each
 from tests.program import QUICK, start_program

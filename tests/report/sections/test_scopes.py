@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks.approval import Approval
+from netdesign.checks.geometry import Approval
 from netdesign.outcome import Verdict
 from netdesign.report.sections.open_points import list_open_points
 from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor, rate
