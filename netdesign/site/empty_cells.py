@@ -22,8 +22,8 @@ from netdesign.site.readings import Reading, Row
 from netdesign.site.statements import has_panel, list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
+from netdesign.snow.heights import find_model_code_density
 from netdesign.snow.snowpack import Layer, compute_mean_density
-from netdesign.snowpack.model_code import find_model_code_density
 from netdesign.words.message import say
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what

@@ -21,13 +21,13 @@ from netdesign.site.bearing import name_column
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.snow.heights import HeightSeries
 from netdesign.snow.snowpack import (
     Layer,
     compute_mean_density,
     compute_thickness,
     scale_layers,
 )
-from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position

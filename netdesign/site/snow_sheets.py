@@ -16,8 +16,7 @@ from netdesign.site.model import InputEcho, NetRow, StationWinter
 from netdesign.site.readings import Reading, Row, choose_given, refuse
 from netdesign.site.tables import read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
-from netdesign.snow.snowpack import THINNEST_LAYER, Layer
-from netdesign.snowpack.series import (
+from netdesign.snow.heights import (
     LONGEST_GAP,
     HeightSeries,
     build_series,
@@ -25,6 +24,7 @@ from netdesign.snowpack.series import (
     find_spikes,
     find_stills,
 )
+from netdesign.snow.snowpack import THINNEST_LAYER, Layer
 from netdesign.words.message import Message, say
 
 LayersByRow = Mapping[str, Sequence[Row]]  # lines from the ground up, by net row

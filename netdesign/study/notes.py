@@ -17,7 +17,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
-from netdesign.snowpack.model_code import find_model_code_density
+from netdesign.snow.heights import find_model_code_density
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP

@@ -8,7 +8,6 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
-from netdesign.envelope.cases import FirstCases, FrictionSkip
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.result_reader import (
     ResultReader,
@@ -16,7 +15,7 @@ from netdesign.envelope.result_reader import (
     read_signed_errors,
 )
 from netdesign.envelope.rows import RowTask, build_point_task
-from netdesign.envelope.search import search_rows
+from netdesign.envelope.search import FirstCases, FrictionSkip, search_rows
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner

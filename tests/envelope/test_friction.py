@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.solution import EndPull, FailedSolution
-from netdesign.envelope.cases import FrictionSkip
+from netdesign.envelope.search import FrictionSkip
 from netdesign.outcome import Outcome
 from netdesign.solving.workers import solve_job
 from netdesign.words.message import say

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.site.further_sheets import MonitoringSeries
 from netdesign.site.model import StationWinter
-from netdesign.snowpack.series import HeightSeries
+from netdesign.snow.heights import HeightSeries
 from netdesign.study.notes import list_site_notes
 from netdesign.study.record_monitoring import record_monitoring
 from tests import small_site

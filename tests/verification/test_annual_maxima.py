@@ -12,7 +12,7 @@ from scipy.integrate import quad
 from scipy.stats import gumbel_r
 
 from netdesign.addons.winter.statistics import Gumbel, fit_gumbel
-from netdesign.snowpack.model_code import find_model_code_density
+from netdesign.snow.heights import find_model_code_density
 
 VARIATION = 0.30  # of the maxima, whose mean is 1
 SCALE = VARIATION * math.sqrt(6.0) / math.pi

@@ -17,7 +17,7 @@ from netdesign.addons.evidence.verification.winters import (
 )
 from netdesign.addons.winter.command import snowpack
 from netdesign.addons.winter.settling.models import HS2SWE, MODELS, follow_heights
-from netdesign.snowpack.series import name_winter
+from netdesign.snow.heights import name_winter
 
 FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series
 

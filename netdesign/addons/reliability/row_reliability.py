@@ -41,7 +41,7 @@ from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.site.model import Site
-from netdesign.snowpack.model_code import compare_densities
+from netdesign.snow.heights import compare_densities
 from netdesign.study.governing import find_worst
 from netdesign.study.member_force import RowForces
 from netdesign.study.record_envelope import record_point

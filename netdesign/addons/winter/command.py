@@ -115,7 +115,7 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
         complete_by_sheet,
         read_height_file,
     )
-    from netdesign.snowpack.series import smooth
+    from netdesign.snow.heights import smooth
 
     station = site.winter
     if asked["heights"] is not None:
@@ -261,7 +261,7 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     from netdesign.addons.winter.season import FIRST_DENSITY
     from netdesign.addons.winter.settling.models import MODELS as KNOWN
     from netdesign.addons.winter.settling.models import follow_heights
-    from netdesign.snowpack.series import smooth
+    from netdesign.snow.heights import smooth
 
     refuse_delimiter(height_file)
     if not asked["as_json"]:

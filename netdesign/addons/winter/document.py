@@ -30,7 +30,7 @@ from netdesign.addons.winter.statistics import (
     fit_gumbel,
 )
 from netdesign.site.model import Site, StationWinter
-from netdesign.snowpack.series import HeightSeries
+from netdesign.snow.heights import HeightSeries
 from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,

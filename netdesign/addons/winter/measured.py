@@ -20,7 +20,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats
 from netdesign.site.further_sheets import MonitoringSeries
 from netdesign.site.model import Site
-from netdesign.snowpack.series import HeightSeries, name_winter
+from netdesign.snow.heights import HeightSeries, name_winter
 from netdesign.words.message import Message, say
 
 

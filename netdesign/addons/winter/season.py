@@ -25,7 +25,7 @@ from netdesign.addons.winter.settling.models import SettlingModel, follow_height
 from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.addons.winter.statistics import Sample, choose_sample
 from netdesign.addons.winter.uniform_table import UniformTable
-from netdesign.snowpack.series import HeightSeries, split_winters
+from netdesign.snow.heights import HeightSeries, split_winters
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
 CURVE_STEP = 4  # days between those of the curve

@@ -15,7 +15,7 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
-from netdesign.snowpack.model_code import compare_densities
+from netdesign.snow.heights import compare_densities
 from netdesign.structure.members import ROPE_OF, RopeForce
 from netdesign.study import worst_checks
 from netdesign.study.cases import search_site

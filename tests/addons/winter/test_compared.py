@@ -10,7 +10,7 @@ from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import MeasuredPulls, compare_season, find_swing
 from netdesign.addons.winter.season import Season
 from netdesign.checks.result import Band
-from netdesign.snowpack.series import HeightSeries
+from netdesign.snow.heights import HeightSeries
 from tests.addons.winter.made_up_row import a_solver
 
 ROW = a_solver().row

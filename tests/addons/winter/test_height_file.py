@@ -10,7 +10,7 @@ from netdesign.addons.winter.season import follow_station, list_complete
 from netdesign.addons.winter.settling.models import MODELS
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
-from netdesign.snowpack.series import smooth, split_winters
+from netdesign.snow.heights import smooth, split_winters
 from tests.each import each
 
 # Each way of a publisher: how a day is written, separator, unit, words for no reading.

@@ -10,7 +10,7 @@ from netdesign.addons.winter.measured import (
     name_measured_winters,
 )
 from netdesign.site.further_sheets import MonitoringSeries
-from netdesign.snowpack.series import HeightSeries
+from netdesign.snow.heights import HeightSeries
 from tests import small_site
 
 HOUR = 3600.0

@@ -11,7 +11,7 @@ from netdesign.addons.winter.season import (
     split_packs,
 )
 from netdesign.addons.winter.settling.models import HS2SWE, MODELS
-from netdesign.snowpack.series import HeightSeries
+from netdesign.snow.heights import HeightSeries
 from tests.addons.winter.made_up_row import a_formula_solver
 
 

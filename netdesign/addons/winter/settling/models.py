@@ -20,7 +20,7 @@ from netdesign.addons.winter.settling.pack import (
     sum_overlying,
 )
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snowpack.model_code import GRAVITY
+from netdesign.snow.snowpack import GRAVITY
 
 # A layer this close to its largest density is no longer pressed by new snow, and one
 # this far beyond it hands mass on [kg/m3].

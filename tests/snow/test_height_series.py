@@ -4,7 +4,7 @@ from datetime import date
 
 import pytest
 
-from netdesign.snowpack.series import (
+from netdesign.snow.heights import (
     HeightSeries,
     build_series,
     find_gaps,

@@ -1,1 +1,0 @@
-"""Series of daily snow heights: gaps, winters; densities of a model code."""
