@@ -230,15 +230,19 @@ def _describe_needed(checks: Sequence[Check]) -> Message:
     return say("to_do.needs", what=tuple(modes), of=tuple(of))
 
 
-_FEW = 2  # checks that a line names
+_FEW = 2  # checks or members that a line names
 
 
 def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
-    """Titles of the first checks of a line, each once, and how many more there are."""
-    titles = list(dict.fromkeys(name_check(one.member, one.mode) for one in checks))
-    if len(titles) <= _FEW + 1:
+    """Titles of one or two checks of a line; of more their members, each once."""
+    every = list(checks)
+    titles = list(dict.fromkeys(name_check(one.member, one.mode) for one in every))
+    if len(titles) <= _FEW:
         return tuple(titles)
-    return (*titles[:_FEW], say("to_do.more_checks", count=len(titles) - _FEW))
+    members = list(dict.fromkeys(name_member(check.member) for check in every))
+    if len(members) <= _FEW + 1:
+        return tuple(members)
+    return (*members[:_FEW], say("to_do.more_checks", count=len(titles) - _FEW))
 
 
 def _list_unmet(study: Study) -> dict[Message, list[str]]:

@@ -18,6 +18,7 @@ from netdesign.report.blocks import (
     STRONG,
     Block,
     Cell,
+    Content,
     Figure,
     Figures,
     Heading,
@@ -27,6 +28,7 @@ from netdesign.report.blocks import (
     Part,
     Piece,
     Table,
+    write_plain,
 )
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
@@ -209,15 +211,17 @@ class Writer:
         self._add(write_paragraph(runs, self._ids[style]))
 
     def _write_table(self, table: Table) -> None:
-        if table.rows:
+        if table.look == "ranges" and table.rows:  # short lines would fill the page
+            self._write_text(Paragraph(text=_join_lines(table), look="small"))
+        elif table.rows:
             of_headings = table.symbols == "headings"
             caption = list_runs(table.caption, has_symbols=of_headings)
             self._add_grid(caption, _list_cells(table))
-            return
-        told = table.empty
-        if table.symbols:
-            told = self.words("show.label", label=table.caption, text=told)
-        self._write_text(Paragraph(text=told, look="none"))
+        else:
+            told = table.empty
+            if table.symbols:
+                told = self.words("show.label", label=table.caption, text=told)
+            self._write_text(Paragraph(text=told, look="none"))
 
     def _write_figure(self, block: Figure) -> None:
         self._write_figures(Figures(figures=(block,)))
@@ -263,6 +267,15 @@ def _list_pairs(block: Pairs) -> Grid:
             ((Piece(pair.name, STRONG),), list_runs(pair.text)) for pair in block.pairs
         ),
     )
+
+
+def _join_lines(table: Table) -> Content:
+    """Lines of a table of names and values, one after the other."""
+    joined: list[Piece] = []
+    for name, value in table.rows:
+        joined += [Piece(name.text, STRONG), Piece(f" {write_plain(value.content)}")]
+        joined.append(Piece(" · "))
+    return tuple(joined[:-1])
 
 
 def _list_cells(table: Table) -> Grid:

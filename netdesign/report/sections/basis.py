@@ -9,6 +9,7 @@ from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
     Cell,
+    Items,
     Pair,
     Pairs,
     Paragraph,
@@ -175,6 +176,11 @@ _FEW_ROWS, _TWO = 8, 2
 
 def show_basis(study: Study, words: Words) -> Part:
     """Statements that hold for all rows: limits of the report, profile, tests."""
+    evidence = (one for one in study.notes if one.key.startswith(_EVIDENCE))
+    notes = (
+        *(words.show(note) for note in evidence),
+        *label_rows(share_notes(study, words), study, words),
+    )
     blocks: tuple[Block, ...] = (
         Paragraph(text=words("scope.decision"), look="small"),
         Pairs(
@@ -187,6 +193,7 @@ def show_basis(study: Study, words: Words) -> Part:
             look="keys",
         ),
         *show_tests(study, words),
+        Items(items=tuple(map(symbols, notes))),
     )
     return section("basis", words("heading.basis"), *blocks, level=3, look="basis")
 
@@ -289,6 +296,15 @@ def _count_by_floor(study: Study, words: Words) -> str:
 def name_law(study: Study) -> str:
     """Creep law of a study; "" of one that does not say."""
     return study.provenance.settings.get("creep_law", "").partition(" ")[0]
+
+
+_EVIDENCE = "evidence."  # keys of notes that say what supports a creep law
+
+
+def list_limits(study: Study, words: Words) -> list[str]:
+    """Notes on the whole study for the first page: where its creep law was used."""
+    notes = (one for one in study.notes if not one.key.startswith(_EVIDENCE))
+    return [words.show(note) for note in notes]
 
 
 def list_notes(study: Study, words: Words) -> list[str]:

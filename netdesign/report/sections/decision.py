@@ -33,7 +33,7 @@ from netdesign.report.sections.basis import (
     count_assumed,
     describe_floor,
     has_other_floor,
-    list_notes,
+    list_limits,
     name_profile,
     name_rows,
 )
@@ -249,7 +249,7 @@ def _show_to_do(study: Study, words: Words) -> Iterator[Block]:
 
 
 def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
-    """What the engineer on site sees to, and notes on all rows or several."""
+    """What the engineer on site sees to, and what holds of the whole study."""
     floor = [describe_floor(study, words)] if has_other_floor(study) else []
     assumed, count = count_assumed(study)
     if assumed:
@@ -258,7 +258,7 @@ def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
         *floor,
         *list_conditions(study, words),
         *list_exceeding(study, words),
-        *list_notes(study, words),
+        *filter(None, [words.join(list_limits(study, words))]),
     )
     if told:
         yield Heading(text=words("heading.conditions"), level=3)

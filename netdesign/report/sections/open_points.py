@@ -123,13 +123,17 @@ def show_line(line: ToDo, study: Study, words: Words) -> str:
 
 
 def list_conditions(study: Study, words: Words) -> list[str]:
-    """What has to hold beside the checks, with who sees to it, and for which rows."""
+    """What has to hold beside the checks, by who sees to it and for which rows."""
+    shared: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for condition in study.conditions:
+        key = (condition.who, tuple(condition.rows))
+        shared.setdefault(key, []).append(words.show(condition.message))
     return [
         words(
             "condition.line",
-            who=words.show(name("who", one.who)),
-            rows=show_text(name_rows(one.rows, study, words)),
-            text=words.show(one.message),
+            who=words.show(name("who", who)),
+            rows=show_text(name_rows(rows, study, words)),
+            text=words.join(texts),
         )
-        for one in study.conditions
+        for (who, rows), texts in shared.items()
     ]

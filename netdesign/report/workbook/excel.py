@@ -26,7 +26,7 @@ from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
     is_of_row,
-    list_notes,
+    list_limits,
     name_cases,
     share_notes,
     show_basis,
@@ -214,7 +214,7 @@ def _add_part(book: Book, name: str, blocks: Sequence[Block]) -> None:
 def _add_notes(book: Book, study: Study) -> None:
     """Sheet of what the report rests on: limits, documents, tests, notes, origin."""
     words, shared = book.words, share_notes(study, book.words)
-    notes = list_notes(study, words)
+    notes = list_limits(study, words)
     notes += [
         words("show.label", label=show_text(row.id), text=text)
         for row in study.rows
