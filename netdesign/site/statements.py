@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
 
 from netdesign.panel.inputs import (
     CUTS,
@@ -20,10 +19,11 @@ from netdesign.panel.inputs import (
     list_panels,
 )
 from netdesign.resistance.catalogue import load_catalogue
+from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
 from netdesign.site.assumed import Assumed, assume
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ANCHORS, NETS, POSTS, ROPES
+from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.lines import Types
 from netdesign.site.model import InputEcho, NetRow, Resistance
@@ -322,12 +322,16 @@ def _list_fixed_of_types(row: Row, end: Row, types: Types) -> Iterator[str]:
 
 
 _SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
+_COLUMN_BY_MODE = {"bending": "bar_diameter", "direction": "kind"}
 
 
 def list_missing(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> tuple[Message, ...]:
     """Names of columns and sheets that a verdict on a net row lacks, each once.
+
+    What an approval proves is not asked for, and of a structure of which nothing is
+    given that alone.
 
     Parameters
     ----------
@@ -336,33 +340,75 @@ def list_missing(
     links : mapping of str to tuple of Link
         Chains of sheet Links, by type.
     """
-    found = chain(
-        row.panel_assumed,
-        _list_of_types(row),
-        _list_chains(row, links),
-    )
+    found = [name for one in find_lacking(row) for name in _name_lacking(one)]
+    if _is_structure_asked(row):
+        found += _list_chains(row, links)
+    elif row.approval is None or not row.approval.document:
+        found.append(say("approval.nothing_given"))
     return tuple(dict.fromkeys(found))
 
 
-def _list_of_types(row: NetRow) -> Iterator[Message]:
-    """Types that no column names, and what those that are named do not say."""
-    for one in (*row.resistances, *row.net_parts):
-        if one.mode == "mesh":
-            yield from () if one.basis else (_name(NETS, "mesh_strength"),)
-        elif not one.type_id:
-            is_own = one.member not in NAMED_BY
-            yield _name(NETS, one.member if is_own else NAMED_BY[Member(one.member)])
-        elif (one.member, one.mode) == LIFTED_MODE:
-            pass  # asked for once some case lifts a post
-        elif one.value is None and not (one.tests or one.dimensions):
-            yield from _list_lacking(one)
+def find_lacking(row: NetRow) -> tuple[Resistance, ...]:
+    """Resistances of a net row that nobody gives, and that no approval proves."""
+    is_structure_asked = _is_structure_asked(row)
+    return tuple(
+        one
+        for one in _list_resistances(row)
+        if (one.member in _ANCHORS or is_structure_asked) and _is_lacking(one)
+    )
+
+
+_ANCHORS = (
+    *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
+    *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR),
+)
+
+
+def _list_resistances(row: NetRow) -> tuple[Resistance, ...]:
+    return (*row.resistances, *row.net_parts, *_list_at_end(row))
+
+
+def _is_structure_asked(row: NetRow) -> bool:
+    """Something of the structure is given, and no approval."""
+    if row.approval is not None and row.approval.document:
+        return False
+    parts = (x for x in _list_resistances(row) if x.member not in _ANCHORS)
+    return any(x.basis if x.mode == "mesh" else x.type_id for x in parts)
+
+
+def _is_lacking(one: Resistance) -> bool:
+    if one.mode == "mesh":
+        return not one.basis
+    if (one.member, one.mode) == LIFTED_MODE:
+        return False  # asked for once some case lifts a post
+    if one.mode == "direction" and not one.type_id:
+        return False  # asked for once a type is named
+    if isinstance(one.dimensions, AnchorType):
+        is_bent = one.mode == "bending" and one.dimensions.kind != "rope anchor"
+        known = one.dimensions.section if is_bent else one.dimensions.kind
+        return one.value is None and not known
+    has_value = one.value is not None or one.tests or one.dimensions
+    return not (one.type_id and has_value)
+
+
+def _name_lacking(one: Resistance) -> Iterator[Message]:
+    """Column of a type that nobody names; else what its type does not say."""
+    if one.mode == "mesh":
+        yield _name(NETS, "mesh_strength")
+    elif one.type_id:
+        yield from _list_lacking(one)
+    elif isinstance(one.member, EndMember):
+        yield _name(ENDS, one.member)
+    else:
+        is_own = one.member not in NAMED_BY
+        yield _name(NETS, one.member if is_own else NAMED_BY[Member(one.member)])
 
 
 def _list_chains(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> Iterator[Message]:
     """Types of ropes and anchors whose links nobody gives."""
-    for one in (*row.resistances, *row.net_parts, *_list_at_end(row)):
+    for one in _list_resistances(row):
         is_rope = one.mode in ("rope", "tendon") and one.member in CONNECTED
         if is_rope and one.type_id and one.type_id not in links:
             yield say("links.of_type", type=one.type_id)
@@ -373,7 +419,8 @@ def _list_lacking(one: Resistance) -> Iterator[Message]:
     if isinstance(names, tuple) and names:
         yield from (one for one in names if isinstance(one, Message))
     else:
-        yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), one.mode)
+        column = _COLUMN_BY_MODE.get(one.mode, one.mode)
+        yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), column)
 
 
 def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
