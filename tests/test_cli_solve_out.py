@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from netdesign import cli
-from netdesign.addons.history.followed import write_moments
+from netdesign.addons.history.moments import write_moments
 from tests.digits import write_force
 
 SCENE = """

@@ -12,7 +12,6 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from netdesign.addons.reliability.form import NotAvailable, find_design_points
 from netdesign.addons.reliability.limit_state import (
     LimitState,
     Variable,
@@ -20,7 +19,9 @@ from netdesign.addons.reliability.limit_state import (
 )
 from netdesign.addons.reliability.reliability import (
     LARGEST_ERROR,
+    NotAvailable,
     estimate_betas,
+    find_design_points,
     find_reliability,
 )
 from netdesign.checks import load_standard

@@ -310,8 +310,8 @@ def _walk_along(line: Floats, fractions: Floats) -> Floats:
     return _interpolate(fractions, lengths / lengths[-1], line)
 
 
-def _interpolate(wanted: Floats, known: Floats, points: Floats) -> Floats:
-    return np.array([np.interp(wanted, known, axis) for axis in points])
+def _interpolate(wanted: Floats, places: Floats, points: Floats) -> Floats:
+    return np.array([np.interp(wanted, places, axis) for axis in points])
 
 
 def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Floats:

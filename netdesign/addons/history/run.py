@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign.addons.history.body import largest_density
-from netdesign.addons.history.followed import History
 from netdesign.addons.history.instant import Instant
 from netdesign.addons.history.moments import (
+    History,
     HistoryPoint,
     Plateau,
     largest_pull,
@@ -201,7 +201,7 @@ def build_solution(
         If a balance is not met.
     """
     run = runs[-1]
-    foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in pulls)
+    foot, head = (EndPull.of_estimate(pull, scene.force_scale) for pull in pulls)
     thickness, body = scene.snowpack.thickness, run.state.body
     template = body.topology.template
     vertices = body.vertices
@@ -215,8 +215,10 @@ def build_solution(
         method=method,
         foot=foot,
         head=head,
-        tension_min=min(one.tension_min for one in run.counted) * scene.force_scale,
-        tension_max=max(one.tension_max for one in run.counted) * scene.force_scale,
+        tension_min=min(moment.tension_min for moment in run.counted)
+        * scene.force_scale,
+        tension_max=max(moment.tension_max for moment in run.counted)
+        * scene.force_scale,
         sag=float((along[1] * points[0] - along[0] * points[1]).max()) * thickness,
         net_curve=points * thickness,
         net_forces=_list_forces(run) * scene.force_scale,

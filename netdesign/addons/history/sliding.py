@@ -152,9 +152,9 @@ def _solve_part(problem: _Problem, max_iterations: int) -> _Part:
 def _slacken(problem: _Problem) -> _Part:
     """All tensions 0; what segments lack is drawn from the others' surplus."""
     surplus = np.maximum(problem.old - problem.final, 0.0)
-    lack = np.maximum(problem.final - problem.old, 0.0)
-    drawn = float(lack.sum() / surplus.sum()) if lack.any() else 0.0
-    lengths = np.maximum(problem.old + lack - drawn * surplus, problem.final)
+    shortage = np.maximum(problem.final - problem.old, 0.0)
+    drawn = float(shortage.sum() / surplus.sum()) if shortage.any() else 0.0
+    lengths = np.maximum(problem.old + shortage - drawn * surplus, problem.final)
     return _Part(
         outcome=Outcome.CONVERGED,
         lengths=lengths,

@@ -21,7 +21,6 @@ from netdesign.addons.history.incremental import (
 )
 from netdesign.addons.history.instant import Instant, advance_under
 from netdesign.addons.history.moments import HistoryPoint, find_plateau, judge_plateau
-from netdesign.addons.history.net_start import build_start, find_start
 from netdesign.addons.history.response import (
     NetResponse,
     keep_lengths,
@@ -42,6 +41,8 @@ from netdesign.addons.history.state import (
     TransientProblem,
     TransientState,
     build_problem,
+    build_start,
+    find_start,
 )
 from netdesign.cable.net import compute_turning_angles
 from netdesign.coupling.interface import ErrorModel, Estimate
@@ -191,7 +192,7 @@ def measure_drag(run: Run) -> tuple[float, float]:
     """
     kept = float(run.state.body.mass.sum())
     weight = kept / (1.0 - run.fallen) * float(run.problem.snow.gravity[0])
-    held = min(float((one.foot + one.head)[0]) for one in run.counted)
+    held = min(float((moment.foot + moment.head)[0]) for moment in run.counted)
     return max(0.0, weight - held), held
 
 

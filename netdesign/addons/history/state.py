@@ -1,4 +1,4 @@
-"""Snow and net that move: the scene that stays the same, and their state at one time.
+"""Snow and net that move: the scene, their state at one time, and the start.
 
 Dimensionless as in ``steady``; times in d over the velocity scale.
 """
@@ -8,12 +8,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from netdesign.addons.history.body import Settling, SnowBody
+import numpy as np
+
+from netdesign.addons.history.body import Settling, SnowBody, build_body
+from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.settings import Start
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.steady.net import guess_pressure, locate_nodes
+from netdesign.coupling.steady.solve import find_net_equilibrium
 from netdesign.numerics.arrays import Floats, Ints, Signs
-from netdesign.outcome import ModelError
+from netdesign.numerics.curve import interpolate_curve
+from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.law import FlowProblem
+from netdesign.snow.mesh import MeshSize, MeshTemplate
 from netdesign.words.message import say
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
@@ -147,3 +155,241 @@ def build_problem(
         stiffness=net.stiffness_per_m / scene.force_scale,
         base_drag=base_drag,
     )
+
+
+_BISECTIONS = 60
+_LARGEST_SAG = 0.6  # over the chord
+
+_ROUNDS = 5  # for the sag of a polygon; each gains some two digits
+
+
+def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
+    """Start in the form that ``build_start`` takes.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the history's mesh.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+
+    Returns
+    -------
+    str or NetAtRest
+        Of a steady start the net as it hangs at rest.
+
+    Raises
+    ------
+    SolveError
+        If there is no steady state.
+    """
+    if start != "steady":
+        return start
+    try:
+        return find_net_at_rest(scene, size)
+    except SolveError as failure:
+        raise SolveError(
+            failure.outcome,
+            say("history.no_start", reason=failure.reason),
+        ) from None
+
+
+def build_start(
+    problem: TransientProblem, template: MeshTemplate, start: Start | NetAtRest
+) -> TransientState:
+    """Snow and net at time 0.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        Scene.
+    template : MeshTemplate
+        Reference mesh.
+    start : str or NetAtRest
+        ``straight``: the net has no tension, a straight line or, if it has slack, the
+        parabola that takes up the slack. ``sagged``: it hangs under the snow's mean
+        pressure. The net of a steady state: it hangs as it does there. The snow,
+        undeformed, lies against it.
+
+    Returns
+    -------
+    TransientState
+        At rest.
+
+    Raises
+    ------
+    SolveError
+        If the net would lie on the ground.
+    """
+    fractions = template.net_fractions
+    if isinstance(start, NetAtRest):
+        curve, lengths = hang_polygon(start, problem, fractions)
+    else:
+        curve = _hang_parabola(problem, template, start)
+        lengths = _spread_length(problem, curve)
+    if not curve[1, 1:].min() > 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("net.touches_ground"))
+    body = build_body(problem.snow, template, curve)
+    return TransientState(
+        time=0.0,
+        body=body,
+        lengths=lengths,
+        slide_signs=np.zeros(lengths.size - 1, dtype=np.int8),
+        top="on-net" if problem.has_freeboard else "held",
+        velocity=np.zeros((2, template.nodes.shape[1])),
+        moved=np.zeros_like(body.vertices),
+    )
+
+
+def _hang_parabola(
+    problem: TransientProblem, template: MeshTemplate, start: Start
+) -> Floats:
+    """Nodes (2, n) of a net whose shape is guessed."""
+    fractions = template.net_fractions / problem.head[1]
+    if not problem.has_freeboard:
+        fractions = fractions / fractions[-1]
+    pressure = 0.0
+    if start == "sagged":
+        pressure = guess_pressure(problem.snow, template.aspect)
+    return _parabola(problem.head, _find_sag(problem, pressure), fractions)
+
+
+def _spread_length(problem: TransientProblem, curve: Floats) -> Floats:
+    """Unstressed lengths of the segments on a curve: the same strain in all."""
+    points = curve[:, ::2]
+    if problem.has_freeboard:
+        points = np.column_stack([points, problem.head])
+    arcs = measure_arcs(points)
+    return np.asarray(arcs * (problem.length / arcs.sum()))
+
+
+def _find_sag(problem: TransientProblem, pressure: float) -> float:
+    """Sag over the chord of a parabola as long as the net is under the pressure."""
+    chord = float(np.hypot(*problem.head))
+    slack = problem.length / chord - 1.0
+    low, high = 0.0, _LARGEST_SAG
+    for _ in range(_BISECTIONS):
+        sag = (low + high) / 2.0
+        strain = 0.0
+        if pressure > 0.0:
+            tension = pressure * chord * np.hypot(1.0 / (8.0 * sag), 0.25)
+            strain = tension / problem.stiffness
+        if _parabola_length(sag) < (1.0 + slack) * (1.0 + strain):
+            low = sag
+        else:
+            high = sag
+    return low
+
+
+def _parabola_length(sag: float) -> float:
+    """Length over the chord."""
+    slope = 4.0 * sag
+    if slope < 1e-4:
+        return 1.0 + slope**2 / 6.0
+    return float((np.hypot(1.0, slope) + np.arcsinh(slope) / slope) / 2.0)
+
+
+def _parabola(head: Floats, sag: float, fractions: Floats) -> Floats:
+    """Curve (2, n) at fractions of the chord; the sag is downslope, over the chord."""
+    outward = np.array([head[1], -head[0]])
+    return np.outer(head, fractions) + np.outer(
+        outward, 4.0 * sag * fractions * (1.0 - fractions)
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NetAtRest:
+    """The net of a steady state, dimensionless.
+
+    Attributes
+    ----------
+    places : ndarray, shape (2 n + 1,)
+        Shares of the net's length in the snow at its nodes, 0 to 1.
+    curve : ndarray, shape (2, 2 n + 1)
+        Their positions.
+    strain : ndarray, shape (n,)
+        Of the elements in the snow [-].
+    free_strain : float
+        Of the segment above the snow, if there is one [-].
+    """
+
+    places: Floats
+    curve: Floats
+    strain: Floats
+    free_strain: float
+
+
+def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
+    """The net of the steady state on one mesh.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+
+    Raises
+    ------
+    SolveError
+        If there is no steady state.
+    """
+    problem, net = find_net_equilibrium(scene, size, SolverSettings())
+    places = locate_nodes(problem.template, net)
+    strain = net.cable.tension.mean(axis=0) / problem.stiffness
+    return NetAtRest(
+        places=places,
+        curve=net.cable.curve[:, : places.size],
+        strain=strain[: places.size // 2],
+        free_strain=float(strain[-1]),
+    )
+
+
+def hang_polygon(
+    rest: NetAtRest, problem: TransientProblem, fractions: Floats
+) -> tuple[Floats, Floats]:
+    """The net at rest as the polygon that a history has for it.
+
+    Its segments have the tensions of the net at rest; it sags by a trifle more, so
+    that chords instead of arcs take up the net's unstressed length.
+
+    Parameters
+    ----------
+    rest : NetAtRest
+        With the tensions.
+    problem : TransientProblem
+        With the net's unstressed length.
+    fractions : ndarray, shape (2 m + 1,)
+        Shares of the net's length in the snow at the history's nodes.
+
+    Returns
+    -------
+    ndarray, ndarray
+        Positions (2, 2 m + 1) of the nodes; unstressed lengths (m,) of the segments
+        in the snow and, where the net stands above it, of the one there.
+    """
+    middles = (fractions[:-2:2] + fractions[2::2]) / 2.0
+    middles_at_rest = (rest.places[:-2:2] + rest.places[2::2]) / 2.0
+    stretch = 1.0 + np.interp(middles, middles_at_rest, rest.strain)
+    curve = interpolate_curve(rest.places, rest.curve, fractions)
+    end = problem.head[:, None]
+    if problem.has_freeboard:
+        stretch = np.append(stretch, 1.0 + rest.free_strain)
+    else:  # a head that hardly stands above the snow counts as level with it
+        curve = curve + np.outer(problem.head - curve[:, -1], fractions)
+        end = end[:, :0]
+    # from foot to head: where the net stands above thin snow it is the fold at the
+    # surface that takes up the slack, and the top moves with the sag
+    chord = np.outer(problem.head, problem.head @ curve / (problem.head**2).sum())
+
+    def unstress(sag: float) -> Floats:
+        points = (chord + sag * (curve - chord))[:, ::2]
+        return measure_arcs(np.column_stack([points, end])) / stretch
+
+    sag, taut = 1.0, float(unstress(0.0).sum())
+    for _ in range(_ROUNDS):  # what exceeds the chord goes with the square of the sag
+        sag *= ((problem.length - taut) / (float(unstress(sag).sum()) - taut)) ** 0.5
+    lengths = unstress(sag)
+    return chord + sag * (curve - chord), lengths * (problem.length / lengths.sum())

@@ -13,13 +13,14 @@ from typing import NamedTuple
 import numpy as np
 
 from netdesign.addons.history.body import SnowBody, build_material
-from netdesign.addons.history.compiled import CompiledSnow, prepare_snow
 from netdesign.addons.history.snow import (
     BodyLoad,
+    CompiledSnow,
     Condense,
     Condensed,
     PlainSnow,
     SnowIterate,
+    prepare_snow,
 )
 from netdesign.addons.history.state import TransientProblem, TransientState
 from netdesign.numerics.arrays import Floats, Ints, Mask, freeze, gather

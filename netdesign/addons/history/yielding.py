@@ -119,7 +119,7 @@ class NetGuess:
         return cls(place=place, slides=np.zeros(signs.size), slide_signs=signs)
 
 
-class _Given(NamedTuple):
+class _Problem(NamedTuple):
     """Data that stay the same in one solve."""
 
     nodes: YieldingNodes
@@ -200,12 +200,12 @@ def settle_net(
     -----------
     tests/addons/history/test_yielding.py
     """
-    given = _Given(nodes, head, old_lengths, friction, stiffness)
+    problem = _Problem(nodes, head, old_lengths, friction, stiffness)
     if not nodes.forces.any():
-        net = _place_net(given, guess.place, guess.slides)
-        guess = replace(guess, place=_take_up(given, net, guess.slides).place)
+        net = _place_net(problem, guess.place, guess.slides)
+        guess = replace(guess, place=_take_up(problem, net, guess.slides).place)
     settle = _settle if find_core() is None else _settle_compiled
-    end, lengths, tensions = settle(given, guess)
+    end, lengths, tensions = settle(problem, guess)
     sliding = SlidingStep(
         outcome=Outcome.CONVERGED, lengths=lengths, tensions=tensions, slides=end.slides
     )
@@ -216,18 +216,18 @@ def settle_net(
 _Settled = tuple[NetGuess, Floats, Floats]
 
 
-def _settle(given: _Given, guess: NetGuess) -> _Settled:
-    net = _place_net(given, guess.place, guess.slides)
+def _settle(problem: _Problem, guess: NetGuess) -> _Settled:
+    net = _place_net(problem, guess.place, guess.slides)
     if net.tensions.min() < 0.0:
-        guess = _loosen(given, guess)
-        net = _place_net(given, guess.place, guess.slides)
+        guess = _loosen(problem, guess)
+        net = _place_net(problem, guess.place, guess.slides)
     slides, signs = guess.slides, guess.slide_signs
-    chord = float(np.hypot(*given.head))
+    chord = float(np.hypot(*problem.head))
     for _ in range(_MOST_ITERATIONS):
-        linear = _linearise(given, net)
+        linear = _linearise(problem, net)
         wanted, signs = _choose(net, linear, slides, signs)
         way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
-        part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
+        part, net = _go(problem, net, way.reshape(2, -1), slides, wanted)
         moved = max(np.linalg.norm(way), np.linalg.norm(wanted - slides))
         slides = wanted if part == 1.0 else slides + part * (wanted - slides)
         is_last = part == 1.0 and moved <= _LAST_WAY * chord
@@ -237,11 +237,11 @@ def _settle(given: _Given, guess: NetGuess) -> _Settled:
     raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
-def _settle_compiled(given: _Given, guess: NetGuess) -> _Settled:
+def _settle_compiled(problem: _Problem, guess: NetGuess) -> _Settled:
     """The same in the compiled core."""
-    code, end = _call_core(given, guess, may_push=False)
+    code, end = _call_core(problem, guess, may_push=False)
     if code == _LOOSE:
-        code, end = _call_core(given, _loosen(given, guess), may_push=True)
+        code, end = _call_core(problem, _loosen(problem, guess), may_push=True)
     if code in _FAULTS:
         outcome, key = _FAULTS[code]
         raise SolveError(outcome, say(key))
@@ -249,13 +249,15 @@ def _settle_compiled(given: _Given, guess: NetGuess) -> _Settled:
 
 
 def _call_core(
-    given: _Given, guess: NetGuess, *, may_push: bool
+    problem: _Problem, guess: NetGuess, *, may_push: bool
 ) -> tuple[int, _Settled]:
     """Outcome, and where it ended; ``may_push``: segments, at the start."""
-    nodes, count = given.nodes, guess.slides.size
+    nodes, count = problem.nodes, guess.slides.size
     shapes = ((2, count), (2, count), (2 * count, 2 * count), (count + 1,))
-    arrays = (nodes.positions, nodes.forces, nodes.compliance, given.old_lengths)
-    read = [to_floats(one, shape) for one, shape in zip(arrays, shapes, strict=True)]
+    arrays = (nodes.positions, nodes.forces, nodes.compliance, problem.old_lengths)
+    read = [
+        to_floats(array, shape) for array, shape in zip(arrays, shapes, strict=True)
+    ]
     end = NetGuess(
         place=to_floats(guess.place.copy(), (2, count)),
         slides=guess.slides.copy(),
@@ -263,7 +265,7 @@ def _call_core(
     )
     lengths, tensions = np.empty((2, count + 1))
     argument = YieldingArgument(
-        *(count, given.friction, given.stiffness, tuple(given.head)),
+        *(count, problem.friction, problem.stiffness, tuple(problem.head)),
         *locate_all(*read),
         *(_LAST_WAY, _LEAST_SHARE, _SHORTEST_PART, _BREACH, _BACKWARD, LARGEST_BEND),
         *(_MOST_ITERATIONS, _FREE_ROUNDS, _MOST_ROUNDS),
@@ -275,17 +277,20 @@ def _call_core(
     return code, (end, lengths, tensions)
 
 
-def _loosen(given: _Given, guess: NetGuess) -> NetGuess:
+def _loosen(problem: _Problem, guess: NetGuess) -> NetGuess:
     """The net as it slides on nodes that stay, where a segment would push."""
-    points = join_points(guess.place, given.head)
+    points = join_points(guess.place, problem.head)
     loose = respond(
-        points, given.old_lengths, friction=given.friction, stiffness=given.stiffness
+        points,
+        problem.old_lengths,
+        friction=problem.friction,
+        stiffness=problem.stiffness,
     ).sliding
     return replace(guess, slides=loose.slides, slide_signs=loose.slide_signs)
 
 
-def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
-    points = join_points(place, given.head)
+def _place_net(problem: _Problem, place: Floats, slides: Floats) -> _Net:
+    points = join_points(place, problem.head)
     steps = np.diff(points)
     chords = np.hypot(*steps)
     if not chords.min() > 0.0:
@@ -295,10 +300,10 @@ def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
     angles = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
     bends = bend_segments(chords, angles)
     arcs = chords * (1.0 + bends / 24.0)
-    lengths = given.old_lengths + _difference(slides.size) @ slides
-    hold = given.friction * np.tan(np.maximum(angles, 0.0) / 2.0)
+    lengths = problem.old_lengths + _difference(slides.size) @ slides
+    hold = problem.friction * np.tan(np.maximum(angles, 0.0) / 2.0)
     share = np.maximum(1.0 - hold, 0.0) / (1.0 + hold)
-    tensions = given.stiffness * (arcs - lengths) / lengths
+    tensions = problem.stiffness * (arcs - lengths) / lengths
     tensions[_find_slack(arcs - lengths, share)] = 0.0
     return _Net(
         points=points,
@@ -325,18 +330,18 @@ def _find_slack(stretch: Floats, share: Floats) -> Mask:
     return np.asarray((np.bincount(parts, stretch) <= 0.0)[parts])
 
 
-def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
+def _take_up(problem: _Problem, net: _Net, slides: Floats) -> _Net:
     """Place where a net without tension first holds the snow: part of its way.
 
     A straight net has no stiffness across itself, so Newton's method has no direction
     there.
     """
-    way = given.nodes.positions - net.place
+    way = problem.nodes.positions - net.place
     low, high = _LEAST_WAY, 0.0
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2.0
-        there = _place_net(given, net.place + np.exp(middle) * way, slides)
-        onward = given.nodes.place(there.forces) - there.place
+        there = _place_net(problem, net.place + np.exp(middle) * way, slides)
+        onward = problem.nodes.place(there.forces) - there.place
         if (onward * way).sum() > 0.0:
             low = middle
         else:
@@ -344,7 +349,7 @@ def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
     return there
 
 
-def _linearise(given: _Given, net: _Net) -> _Linear:
+def _linearise(problem: _Problem, net: _Net) -> _Linear:
     """Equations (C24) and (C25) about the net as it is, the nodes' way eliminated."""
     count = net.angles.size
     (tx, ty), difference = net.directions[:, :, None], _difference(count)
@@ -355,27 +360,27 @@ def _linearise(given: _Given, net: _Net) -> _Linear:
     d_arcs = (1.0 + net.bends / 24.0)[:, None] * np.hstack(
         [tx * difference, ty * difference]
     ) + (net.chords**2 * signed / 12.0)[:, None] * average_at_segments(curvature)
-    per_length = np.where(net.tensions != 0.0, given.stiffness / net.lengths, 0.0)
+    per_length = np.where(net.tensions != 0.0, problem.stiffness / net.lengths, 0.0)
     d_tensions = per_length[:, None] * d_arcs
     by_slides = -(per_length * net.arcs / net.lengths)[:, None] * difference
     turn = net.tensions[:, None] * d_headings
-    jacobian = -given.nodes.compliance @ np.vstack(
+    jacobian = -problem.nodes.compliance @ np.vstack(
         [
             np.diff(tx * d_tensions - ty * turn, axis=0),
             np.diff(ty * d_tensions + tx * turn, axis=0),
         ]
     )
     jacobian[np.diag_indices(2 * count)] += 1.0
-    missing = (given.nodes.place(net.forces) - net.place).ravel()
+    missing = (problem.nodes.place(net.forces) - net.place).ravel()
     pushes = np.vstack(
         [np.diff(tx * by_slides, axis=0), np.diff(ty * by_slides, axis=0)]
     )
-    rhs = np.column_stack([missing, given.nodes.compliance @ pushes])
+    rhs = np.column_stack([missing, problem.nodes.compliance @ pushes])
     way = _solve(jacobian, rhs)
     tensions = d_tensions @ way
     tensions[:, 0] += net.tensions
     tensions[:, 1:] += by_slides
-    shares = _differentiate_share(given.friction, net)[:, None] * (d_angles @ way)
+    shares = _differentiate_share(problem.friction, net)[:, None] * (d_angles @ way)
     below, above = tensions[:-1], tensions[1:]
     share = net.share[:, None]
     to_foot = above - share * below - net.tensions[:-1, None] * shares
@@ -411,20 +416,20 @@ def _choose(
     signs = np.where(fixed, 0, np.where(loose, 1, signs)).astype(np.int8)
     least = -_BREACH * float(np.abs(net.tensions).max())
     for number in range(_MOST_ROUNDS):
-        found = np.zeros(signs.size)
+        slides_of_signs = np.zeros(signs.size)
         active = np.flatnonzero(signs)
         if active.size:
             side = np.where(signs[active] > 0, 0, 1)
-            found[active] = _solve(
+            slides_of_signs[active] = _solve(
                 per_slide[side[:, None], active[:, None], active], -spare[side, active]
             )
-        to_foot, to_head = spare + per_slide @ found < least
+        to_foot, to_head = spare + per_slide @ slides_of_signs < least
         released = np.where(to_foot, 1, np.where(to_head, -1, 0))
-        backward = (signs * found < -_BACKWARD) & ~loose
+        backward = (signs * slides_of_signs < -_BACKWARD) & ~loose
         wanted = np.where(signs == 0, released, np.where(backward, 0, signs))
         changes = np.flatnonzero((wanted != signs) & ~fixed)
         if changes.size == 0:
-            return found, signs
+            return slides_of_signs, signs
         if number >= _FREE_ROUNDS:
             changes = changes[:1]
         signs[changes] = wanted[changes]
@@ -432,13 +437,13 @@ def _choose(
 
 
 def _go(
-    given: _Given, net: _Net, way: Floats, slides: Floats, wanted: Floats
+    problem: _Problem, net: _Net, way: Floats, slides: Floats, wanted: Floats
 ) -> tuple[float, _Net]:
     """The largest part of a step that leaves every segment its tension."""
     part = 1.0
     while True:
         there = _place_net(
-            given, net.place + part * way, slides + part * (wanted - slides)
+            problem, net.place + part * way, slides + part * (wanted - slides)
         )
         left = there.tensions >= _LEAST_SHARE * net.tensions
         if left.all() or part < _SHORTEST_PART:

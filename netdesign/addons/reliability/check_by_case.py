@@ -97,7 +97,7 @@ class CheckByCase:
     @cached_property
     def largest(self) -> float:
         """Largest force of the member over the solved cases [N]."""
-        return max(self.force(one) for one in self.results if self.has_result(one))
+        return max(self.force(case) for case in self.results if self.has_result(case))
 
     @cached_property
     def _names(self) -> tuple[str, ...]:
@@ -139,7 +139,10 @@ class CheckByCase:
 
 
 def find_check_by_case(
-    task: RowToCheck, known: RowForces, one: MemberCheck, judged: Iterable[MemberCheck]
+    task: RowToCheck,
+    forces: RowForces,
+    check: MemberCheck,
+    judged: Iterable[MemberCheck],
 ) -> CheckByCase | None:
     """The check as a function of a solved case; None of one that no solve may turn.
 
@@ -147,35 +150,42 @@ def find_check_by_case(
     """
     if task.solver is None or task.solved.gap or task.row.is_overtopped:
         return None
-    is_followed = _follows_cases(one) and is_worst(one, judged)
-    return _build_check(task, known, one) if is_followed else None
+    is_followed = _follows_cases(check) and is_worst(check, judged)
+    return _build_check(task, forces, check) if is_followed else None
 
 
-def _follows_cases(one: MemberCheck) -> bool:
+def _follows_cases(check: MemberCheck) -> bool:
     """The check follows from the member's force by numbers that stay as they are.
 
     A resistance that follows the snow does not, nor what is added to no force at all,
     nor an anchor of two guys, nor a post beside the end, nor the truss: what these add
     may grow while its own force falls.
     """
-    force = one.force
+    force = check.force
     if force is not None and (force.on.load.across is not None or force.is_by_truss):
         return False
     if force is not None and force.is_post_beside:
         return False
-    if force is None or one.given.dimensions or one.use is None or one.ratio <= 0.0:
+    if (
+        force is None
+        or check.given.dimensions
+        or check.use is None
+        or check.ratio <= 0.0
+    ):
         return False
-    if one.is_of_end and one.check.has_open(OpenKind.UNSOLVED):
+    if check.is_of_end and check.check.has_open(OpenKind.UNSOLVED):
         return False
     return force.largest.high_kN > 0.0 or force.added_high == 0.0
 
 
-def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckByCase:
+def _build_check(
+    task: RowToCheck, forces: RowForces, check: MemberCheck
+) -> CheckByCase:
     """The check as a function of a solved case and of the row.
 
     Of section and panel that one which is larger is followed, the other beside it.
     """
-    force, use = one.force, one.use
+    force, use = check.force, check.use
     if force is None or use is None:
         raise ValueError("a check without a force has no target")
     results = task.solved.results
@@ -194,17 +204,17 @@ def _build_check(task: RowToCheck, known: RowForces, one: MemberCheck) -> CheckB
         rise=use * force.rise,
         governing=task.extremes[followed].governing.case,
         results=results,
-        widen=cache(partial(_find_load, known, one, force)),
-        push=_find_push(task, one, force),
+        widen=cache(partial(_find_load, forces, check, force)),
+        push=_find_push(task, check, force),
     )
 
 
-def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push | None:
+def _find_push(task: RowToCheck, check: MemberCheck, force: MemberForce) -> Push | None:
     """Part of the force that a rope brings; None of a member that none pulls."""
     on, results = force.on, task.solved.results
     if on.push is None or not on.push.high:
         return None
-    is_foot = one.given.member == Member.FOOT_ANCHOR
+    is_foot = check.given.member == Member.FOOT_ANCHOR
     rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
     inside = force.on_support * force.share
@@ -217,8 +227,8 @@ def _find_push(task: RowToCheck, one: MemberCheck, force: MemberForce) -> Push |
 
 
 def _find_load(
-    known: RowForces,
-    one: MemberCheck,
+    forces: RowForces,
+    check: MemberCheck,
     now: MemberForce,
     ranges: Ranges,
 ) -> float:
@@ -227,13 +237,13 @@ def _find_load(
     Where a base would slide, times the tangent of its post's tilt, which is largest at
     an end of the inclinations.
     """
-    effects = find_effects(known.row, known.standard, ranges)
-    width = effects.find_support(one.width.position)
-    moved = find_force(known, one.given, width) or now
+    effects = find_effects(forces.row, forces.standard, ranges)
+    width = effects.find_support(check.width.position)
+    moved = find_force(forces, check.given, width) or now
     load, span = moved.compare_load(now), ranges["inclination"]
-    if one.given.mode != "sliding":
+    if check.given.mode != "sliding":
         return load
-    return load * find_tilt(known.row, (span.low, span.high))
+    return load * find_tilt(forces.row, (span.low, span.high))
 
 
 def _widen(force: LargestForce, results: Sequence[CaseResult]) -> float:
@@ -242,7 +252,7 @@ def _widen(force: LargestForce, results: Sequence[CaseResult]) -> float:
     return force.high_kN / at_cases if at_cases else 1.0
 
 
-def is_worst(one: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
+def is_worst(check: MemberCheck, judged: Iterable[MemberCheck]) -> bool:
     """No other support uses the member more."""
-    rivals = [other for other in judged if other.name == one.name]
-    return one is max(rivals, key=lambda other: other.ratio)
+    rivals = [other for other in judged if other.name == check.name]
+    return check is max(rivals, key=lambda other: other.ratio)

@@ -61,8 +61,8 @@ class Variable:
 
         scale = math.sqrt(6.0) / math.pi * self.deviation
         mode = self.mean - np.euler_gamma * scale
-        found: Floats = mode - scale * np.log(-log_ndtr(u))
-        return found
+        largest: Floats = mode - scale * np.log(-log_ndtr(u))
+        return largest
 
     def find_place(self, value: float) -> float:
         """Standard normal place of a value, the inverse of ``place``."""
@@ -159,11 +159,13 @@ class LimitState:
     @property
     def caps(self) -> Floats:
         """Standard normal places of the caps, shape (variables,)."""
-        return np.array([one.find_place(one.cap) for one in self.variables])
+        return np.array(
+            [variable.find_place(variable.cap) for variable in self.variables]
+        )
 
     def place(self, u: Floats) -> Floats:
         """Values at standard normal places, both of shape (n, variables)."""
-        columns = [one.place(u[:, k]) for k, one in enumerate(self.variables)]
+        columns = [variable.place(u[:, k]) for k, variable in enumerate(self.variables)]
         return np.column_stack(columns)
 
     def evaluate(self, u: Floats) -> Floats:

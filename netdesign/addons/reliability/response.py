@@ -117,7 +117,9 @@ class Response:
 
     def find_at(self, values: Mapping[str, float]) -> float:
         """Value of ln mu at one place."""
-        return float(self.find({k: np.array([one]) for k, one in values.items()})[0])
+        return float(
+            self.find({k: np.array([value]) for k, value in values.items()})[0]
+        )
 
     def _find_over_axes(self, values: Values) -> Floats:
         """Mean of the search's model; beyond the ranges along its tangent."""
@@ -130,9 +132,9 @@ class Response:
         far = sizes > 0.0
         back = inside[far] - _INWARDS * beyond[far] / sizes[far, None]
         (both,) = self.model.evaluate(np.vstack([inside, back]), 0)
-        found, before = both[: len(at)], both[len(at) :]
-        found[far] += (found[far] - before) / _INWARDS * sizes[far]
-        return found
+        mean, before = both[: len(at)], both[len(at) :]
+        mean[far] += (mean[far] - before) / _INWARDS * sizes[far]
+        return mean
 
     def _place(self, values: Values) -> Floats:
         columns = [
@@ -145,7 +147,7 @@ class Response:
         """Standard error of the search's model at one place [-, of ln mu]."""
         if self.model is None:
             return 0.0
-        at = self._place({name: np.array([one]) for name, one in values.items()})
+        at = self._place({name: np.array([value]) for name, value in values.items()})
         return float(self.model.predict(np.clip(at, *self.ends)).standard_error[0, 0])
 
     def find_beyond(self, values: Mapping[str, float]) -> str | None:
@@ -198,7 +200,7 @@ class Rater:
         if self.check.row.ground.kind != "sliding":
             return 1.0
         now = self._find_width({})
-        moved = {name: one for name, one in moved.items() if name in _WIDENING}
+        moved = {name: value for name, value in moved.items() if name in _WIDENING}
         return self._find_width(moved) / now if now else 1.0
 
     def _find_width(self, moved: Mapping[str, float]) -> float:
@@ -215,11 +217,12 @@ class Rater:
 
         None of a case without a result.
         """
-        cases = [move(case, one) for one in moved]
-        wanted = [(self.check.row, one, self.solver.law) for one in cases]
+        cases = [move(case, change) for change in moved]
+        wanted = [(self.check.row, change, self.solver.law) for change in cases]
         results = self.solver.solve_all(wanted)
         return [
-            self.rate(result, one) for result, one in zip(results, moved, strict=True)
+            self.rate(result, change)
+            for result, change in zip(results, moved, strict=True)
         ]
 
 
@@ -249,8 +252,8 @@ def build_response(rater: Rater, lines: Sequence[Line]) -> Response:
     axes = tuple(
         (name, span) for name, span in check.ranges.intervals if span.low < span.high
     )
-    known = [(one, rater.rate(one, {})) for one in check.results]
-    rated = {one.case: rate for one, rate in known if rate is not None}
+    rates = [(result, rater.rate(result, {})) for result in check.results]
+    rated = {result.case: rate for result, rate in rates if rate is not None}
     if check.governing not in rated:
         raise ModelError(say("reliability.no_case"))
     base = rated[check.governing]
@@ -275,16 +278,16 @@ def _solve_beside(rater: Rater, lines: Sequence[Line]) -> list[tuple[float, floa
     ModelError
         If it has none nearby either.
     """
-    values = [one.solved for one in lines]
+    values = [line.solved for line in lines]
     for _ in range(_TRIES):
-        moved = [{one.name: value} for one, value in zip(lines, values, strict=True)]
-        found = rater.solve(rater.check.governing, moved)
-        rates = [rate for rate in found if rate is not None]
+        moved = [{line.name: value} for line, value in zip(lines, values, strict=True)]
+        rated = rater.solve(rater.check.governing, moved)
+        rates = [rate for rate in rated if rate is not None]
         if len(rates) == len(values):
             return list(zip(values, rates, strict=True))
         values = [
-            value if rate is not None else math.sqrt(value * one.centre)
-            for one, value, rate in zip(lines, values, found, strict=True)
+            value if rate is not None else math.sqrt(value * line.centre)
+            for line, value, rate in zip(lines, values, rated, strict=True)
         ]
     raise ModelError(say("reliability.no_solve"))
 
@@ -295,7 +298,10 @@ def _fit(
     """Model over the coordinates of the axes, and the ends of what was solved."""
     values = [case.values for case in rated]
     columns = [
-        [(one[name] - span.low) / (span.high - span.low) for one in values]
+        [
+            (values_of_case[name] - span.low) / (span.high - span.low)
+            for values_of_case in values
+        ]
         for name, span in axes
     ]
     places = np.array(columns).T

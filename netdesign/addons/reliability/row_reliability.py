@@ -14,13 +14,14 @@ from functools import partial
 import numpy as np
 
 from netdesign.addons.reliability.check_by_case import CheckByCase, find_check_by_case
-from netdesign.addons.reliability.form import (
+from netdesign.addons.reliability.limit_state import LimitState
+from netdesign.addons.reliability.reliability import (
     DesignPoint,
     NotAvailable,
+    Reliability,
+    find_reliability,
     follow_design_point,
 )
-from netdesign.addons.reliability.limit_state import LimitState
-from netdesign.addons.reliability.reliability import Reliability, find_reliability
 from netdesign.addons.reliability.response import (
     Rater,
     Response,
@@ -32,7 +33,7 @@ from netdesign.addons.reliability.row_variables import (
     HEIGHT,
     MODEL,
     RESISTANCE,
-    KnownVariable,
+    RowVariable,
     list_lines,
     list_variables,
 )
@@ -59,7 +60,7 @@ _HEIGHTS = ("thickness", "snow_height")
 
 
 def record_reliability(
-    task: RowToCheck, known: RowForces, found: RowChecks, solver: CaseSolver
+    task: RowToCheck, forces: RowForces, row_checks: RowChecks, solver: CaseSolver
 ) -> ReliabilityRecord:
     """Reliability of a row's governing check, or the reason why there is none.
 
@@ -67,16 +68,16 @@ def record_reliability(
 
     Parameters
     ----------
-    task, known, found : RowToCheck, RowForces, RowChecks
+    task, forces, row_checks : RowToCheck, RowForces, RowChecks
         The row, its forces and its checks.
     solver : CaseSolver
         One of its own: what fails here is no fault of the checks.
     """
-    check, by_case = find_worst(found.checks), None
-    judged = found.judged.get(check.id) if check else None
+    check, by_case = find_worst(row_checks.checks), None
+    judged = row_checks.judged.get(check.id) if check else None
     if judged is not None:
-        by_case = find_check_by_case(task, known, judged, found.judged.values())
-    return rate_reliability(task.site, found.checks, check, by_case, solver)
+        by_case = find_check_by_case(task, forces, judged, row_checks.judged.values())
+    return rate_reliability(task.site, row_checks.checks, check, by_case, solver)
 
 
 def rate_reliability(
@@ -92,21 +93,23 @@ def rate_reliability(
         return ReliabilityRecord(check=check.id if check else "", reason=reason)
     analysis = partial(_analyse, site, check, by_case, solver)
     try:
-        found = catch_fault(analysis, check.id)
-    except ModelError as lack:
-        found = ReliabilityRecord(check=check.id, reason=lack.message)
-    if isinstance(found, Fault):
-        told = say("reliability.fault", kind=found.kind)
-        found = ReliabilityRecord(check=check.id, reason=told)
-    return replace(found, solves=solver.count)
+        record = catch_fault(analysis, check.id)
+    except ModelError as refusal:
+        record = ReliabilityRecord(check=check.id, reason=refusal.message)
+    if isinstance(record, Fault):
+        reason_of_fault = say("reliability.fault", kind=record.kind)
+        record = ReliabilityRecord(check=check.id, reason=reason_of_fault)
+    return replace(record, solves=solver.count)
 
 
 def _find_open(checks: Sequence[Check]) -> Message | None:
     """First check that is not proven by its numbers, nor fails by them."""
-    for one in checks:
-        is_met = one.verdict is Verdict.PASS
-        if not is_met and (one.verdict is not Verdict.FAIL or one.utilisation is None):
-            named = name_check(one.member, one.mode, one.position)
+    for check in checks:
+        is_met = check.verdict is Verdict.PASS
+        if not is_met and (
+            check.verdict is not Verdict.FAIL or check.utilisation is None
+        ):
+            named = name_check(check.member, check.mode, check.position)
             return say("reliability.open_check", check=named)
     return None
 
@@ -128,30 +131,30 @@ def _find_lack(check: Check | None, by_case: CheckByCase | None) -> Message | No
 def _analyse(
     site: Site, check: Check, by_case: CheckByCase, solver: CaseSolver
 ) -> ReliabilityRecord:
-    known = list_variables(site, by_case, check)
+    variables = list_variables(site, by_case, check)
     used = check.utilisation or math.nan
     governing = next(
-        one
-        for one in by_case.results
-        if one.case == by_case.governing and by_case.has_result(one)
+        result
+        for result in by_case.results
+        if result.case == by_case.governing and by_case.has_result(result)
     )
     scale = used / (by_case.utilisation(governing) or math.nan)
     rater = Rater(check=by_case, solver=solver, scale=scale)
-    response = build_response(rater, list_lines(by_case, known))
+    response = build_response(rater, list_lines(by_case, variables))
     factors = (check.read("γ_E") or math.nan, check.read("γ_R") or math.nan)
     state = _State(
-        known=known,
+        variables=variables,
         response=response,
         factor=math.log(factors[0] * factors[1]),
         slope_cosine=math.cos(by_case.row.slope_angle),
         height=by_case.row.snow_thickness / math.cos(by_case.row.slope_angle),
     )
     state, miss = _meet_design_point(state, rater)
-    found = find_reliability(state.build(), math.log(used))
-    if isinstance(found, NotAvailable):
-        raise ModelError(found.reason)
-    state.require_within(found.design_point)
-    return _record(check, state, found, miss, by_case.governing)
+    reliability = find_reliability(state.build(), math.log(used))
+    if isinstance(reliability, NotAvailable):
+        raise ModelError(reliability.reason)
+    state.require_within(reliability.design_point)
+    return _record(check, state, reliability, miss, by_case.governing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -162,7 +165,7 @@ class _State:
     row's vertical snow height [m], to which the density refers.
     """
 
-    known: tuple[KnownVariable, ...]
+    variables: tuple[RowVariable, ...]
     response: Response
     factor: float
     slope_cosine: float
@@ -170,10 +173,10 @@ class _State:
 
     @property
     def names(self) -> list[str]:
-        return [one.name for one in self.known]
+        return [variable.name for variable in self.variables]
 
     def build(self) -> LimitState:
-        variables = tuple(one.variable for one in self.known)
+        variables = tuple(entry.variable for entry in self.variables)
         return LimitState(variables=variables, margin=self._find_margin)
 
     def _find_margin(self, values: Floats) -> Floats:
@@ -189,20 +192,22 @@ class _State:
 
     def _name_solved(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """Quantities as they are solved: thickness of a height, density by (U5a)."""
-        found = dict(columns)
-        heights = np.maximum(found.pop(HEIGHT), _LEAST_HEIGHT)
-        found["thickness"] = heights * self.slope_cosine
-        found["density"] = found["density"] * compare_densities(heights, self.height)
-        return found
+        solved = dict(columns)
+        heights = np.maximum(solved.pop(HEIGHT), _LEAST_HEIGHT)
+        solved["thickness"] = heights * self.slope_cosine
+        solved["density"] = solved["density"] * compare_densities(heights, self.height)
+        return solved
 
     def read_point(self, values: Sequence[float]) -> dict[str, float]:
         """Quantities of a design point as they are solved [SI]."""
         named = dict(zip(self.names, values, strict=True))
-        height = next(one for one in self.known if one.name == HEIGHT)
+        height = next(
+            variable for variable in self.variables if variable.name == HEIGHT
+        )
         named[HEIGHT] = min(named[HEIGHT], height.variable.cap)
         arrays = {
-            name: np.array([one])
-            for name, one in named.items()
+            name: np.array([value])
+            for name, value in named.items()
             if name not in (MODEL, RESISTANCE)
         }
         return {k: float(v[0]) for k, v in self._name_solved(arrays).items()}
@@ -216,14 +221,14 @@ class _State:
 
     def with_error(self, error: float) -> _State:
         """State whose model factor has another error beside its own, (U8)."""
-        known = []
-        for one in self.known:
-            variable = one.variable
-            if one.name == MODEL:
+        variables = []
+        for entry in self.variables:
+            variable = entry.variable
+            if entry.name == MODEL:
                 deviation = math.hypot(variable.deviation, error * variable.mean)
-                one = replace(one, variable=replace(variable, deviation=deviation))
-            known.append(one)
-        return replace(self, known=tuple(known))
+                entry = replace(entry, variable=replace(variable, deviation=deviation))
+            variables.append(entry)
+        return replace(self, variables=tuple(variables))
 
 
 def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, _Miss]:
@@ -271,22 +276,22 @@ def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
 def _record(
     check: Check,
     state: _State,
-    found: Reliability,
+    reliability: Reliability,
     miss: _Miss,
     governing: Case,
 ) -> ReliabilityRecord:
-    values = dict(zip(state.names, found.design_point, strict=True))
+    values = dict(zip(state.names, reliability.design_point, strict=True))
     used = math.log(check.utilisation or math.nan)
-    point = state.read_point(found.design_point)
+    point = state.read_point(reliability.design_point)
     ratio = math.exp(state.response.find_at(point) - used)
     return ReliabilityRecord(
         check=check.id,
         reason=None,
-        variables=_record_variables(state, found, point),
-        beta=found.beta,
-        standard_error=found.standard_error,
-        beta_by_form=found.beta_by_form,
-        beta_at_full=found.beta_shifted,
+        variables=_record_variables(state, reliability, point),
+        beta=reliability.beta,
+        standard_error=reliability.standard_error,
+        beta_by_form=reliability.beta_by_form,
+        beta_at_full=reliability.beta_shifted,
         action_factor=ratio * values[MODEL],
         resistance_factor=1.0 / values[RESISTANCE],
         profile_action_factor=check.read("γ_E"),
@@ -294,7 +299,7 @@ def _record(
         design_point=record_point(move(governing, _order(point))),
         force_ratio=math.exp(miss.solved - used),
         force_ratio_by_model=math.exp(miss.by_model - used),
-        samples=found.samples,
+        samples=reliability.samples,
     )
 
 
@@ -304,26 +309,29 @@ def _order(values: Mapping[str, float]) -> dict[str, float]:
 
 
 def _record_variables(
-    state: _State, found: Reliability, point: Mapping[str, float]
+    state: _State, reliability: Reliability, point: Mapping[str, float]
 ) -> list[VariableRecord]:
     """Variables, with the values that were solved at the design point."""
     records = []
-    for one, share, value in zip(
-        state.known, found.alpha_squared, found.design_point, strict=True
+    for entry, share, value in zip(
+        state.variables,
+        reliability.alpha_squared,
+        reliability.design_point,
+        strict=True,
     ):
-        variable, parameter = one.variable, PARAMETERS.get(one.name)
+        variable, parameter = entry.variable, PARAMETERS.get(entry.name)
         show = parameter.show if parameter else float
         records.append(
             VariableRecord(
-                name=one.name,
+                name=entry.name,
                 key=parameter.key if parameter else "",
                 distribution=variable.kind,
                 mean=show(variable.mean),
                 variation=variable.deviation / variable.mean,
-                source=one.source,
-                is_assumed=one.is_assumed,
+                source=entry.source,
+                is_assumed=entry.is_assumed,
                 alpha_squared=share,
-                at_design_point=show(point.get(one.name, min(value, variable.cap))),
+                at_design_point=show(point.get(entry.name, min(value, variable.cap))),
             )
         )
     return records

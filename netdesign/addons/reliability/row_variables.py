@@ -87,7 +87,7 @@ _TOO_NEAR = 0.1  # to the row's value, in logarithms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class KnownVariable:
+class RowVariable:
     """A random variable, and where its distribution is from."""
 
     variable: Variable
@@ -106,7 +106,7 @@ _Find = Callable[[str], UncertainQuantity | None]
 
 def list_variables(
     site: Site, check: CheckByCase, record: Check
-) -> tuple[KnownVariable, ...]:
+) -> tuple[RowVariable, ...]:
     """Random variables of a check; those of its case are in SI units.
 
     Raises
@@ -115,20 +115,20 @@ def list_variables(
         If one has no distribution, neither typed nor assumed.
     """
     find, case = partial(site.find_uncertain, check.row.id), check.governing
-    found = [_find_height(find, check.row)]
+    variables = [_find_height(find, check.row)]
     for name, span in check.ranges.intervals:
         if span.low < span.high:
-            found.append(_find_ranged(find, name, span.low, span.high))
+            variables.append(_find_ranged(find, name, span.low, span.high))
         elif name in _SHARES and case.values[name] > 0.0:
-            found.append(_find_single(find, name, case.values[name]))
+            variables.append(_find_single(find, name, case.values[name]))
     if not set(_GLIDES) & set(check.ranges.axes):
-        found += _list_glide(find, check.row)
-    found.append(_find_single(find, MODEL, 1.0))
-    found.append(_find_resistance(find, record))
-    return tuple(found)
+        variables += _list_glide(find, check.row)
+    variables.append(_find_single(find, MODEL, 1.0))
+    variables.append(_find_resistance(find, record))
+    return tuple(variables)
 
 
-def _list_glide(find: _Find, row: NetRow) -> list[KnownVariable]:
+def _list_glide(find: _Find, row: NetRow) -> list[RowVariable]:
     """Glide of a row whose ground slides, by the quantity that was typed."""
     if row.glide_factor is not None:
         return [_find_single(find, "glide_factor", row.glide_factor)]
@@ -137,7 +137,7 @@ def _list_glide(find: _Find, row: NetRow) -> list[KnownVariable]:
     return []
 
 
-def _find_height(find: _Find, row: NetRow) -> KnownVariable:
+def _find_height(find: _Find, row: NetRow) -> RowVariable:
     """Annual maximum of the vertical snow height, capped by the net."""
     typed, assumed = find(HEIGHT), load_assumed()[HEIGHT]
     variation = typed.variation if typed else assumed.variation
@@ -154,22 +154,22 @@ def _find_height(find: _Find, row: NetRow) -> KnownVariable:
 
 def _tell(
     variable: Variable, typed: UncertainQuantity | None, assumed: Message
-) -> KnownVariable:
-    return KnownVariable(
+) -> RowVariable:
+    return RowVariable(
         variable=variable,
         source=say("source.typed", text=typed.source) if typed else assumed,
         is_assumed=typed is None,
     )
 
 
-def _find_single(find: _Find, name: str, value: float) -> KnownVariable:
+def _find_single(find: _Find, name: str, value: float) -> RowVariable:
     """Variable whose mean is a single value of the workbook, or in a ratio to it."""
     typed, assumed = find(name), load_assumed().get(name)
     if typed is not None:
         return _tell(_build_typed(typed, name, value), typed, say("source.range"))
     if assumed is None:
-        told = say("reliability.no_distribution", name=PARAMETERS[name].label)
-        raise ModelError(told)
+        refusal = say("reliability.no_distribution", name=PARAMETERS[name].label)
+        raise ModelError(refusal)
     variable = _build(name, assumed.distribution, value, assumed.variation)
     return _tell(variable, None, assumed.told)
 
@@ -188,7 +188,7 @@ def _build(
     return Variable(name=name, kind=kind, mean=mean, deviation=deviation, cap=cap)
 
 
-def _find_ranged(find: _Find, name: str, low: float, high: float) -> KnownVariable:
+def _find_ranged(find: _Find, name: str, low: float, high: float) -> RowVariable:
     """Variable of a range of the workbook: its middle nine tenths, unless typed."""
     typed, middle = find(name), 0.5 * (low + high)
     if typed is not None:
@@ -203,7 +203,7 @@ def _find_ranged(find: _Find, name: str, low: float, high: float) -> KnownVariab
     return _tell(variable, typed, say("source.range"))
 
 
-def _find_resistance(find: _Find, check: Check) -> KnownVariable:
+def _find_resistance(find: _Find, check: Check) -> RowVariable:
     """Resistance over its characteristic value."""
     typed = find(RESISTANCE)
     assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]
@@ -223,13 +223,16 @@ def _find_resistance(find: _Find, check: Check) -> KnownVariable:
     return _tell(variable, typed, assumed.told)
 
 
-def list_lines(check: CheckByCase, known: tuple[KnownVariable, ...]) -> list[Line]:
+def list_lines(check: CheckByCase, variables: tuple[RowVariable, ...]) -> list[Line]:
     """Lines to be solved.
 
     That is every variable but those over which the search went.
     """
     row = check.row
-    names = {"thickness" if one.name == HEIGHT else one.name for one in known}
+    names = {
+        "thickness" if variable.name == HEIGHT else variable.name
+        for variable in variables
+    }
     values = {"thickness": row.snow_thickness, "slip_length": row.ground.slip_length}
     values |= check.governing.values
     if row.glide_factor is not None:

@@ -59,7 +59,7 @@ def draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -
     words : Words
         Of the language.
     """
-    ranked = sorted(shares, key=lambda one: -one[1])
+    ranked = sorted(shares, key=lambda pair: -pair[1])
     left = max(measure_words(label, TEXT_PT) for label, _ in ranked) + _BETWEEN_BARS
     room = 0.6 * WIDTH - left - _NUMBER
     sketch, texts = Chart(language=words.language), []
@@ -71,8 +71,8 @@ def draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -
         sketch.rectangle(left, top, max(0.5, room * share), _BAR, ACCENT)
         sketch.text(left + room * share + _BETWEEN_BARS, base, shown)
         texts.append(words("show.label", label=label, text=shown))
-    told = words("drawing.with_values", what=title, values=tuple(texts))
-    return sketch.write(len(ranked) * _LINE + 2.0, told)
+    description = words("drawing.with_values", what=title, values=tuple(texts))
+    return sketch.write(len(ranked) * _LINE + 2.0, description)
 
 
 # Annual indices of the JCSS Probabilistic Model Code where safety is expensive, for
@@ -100,9 +100,9 @@ def show_reliability(study: Study, words: Words) -> Iterator[Part]:
             tabulate_indices(study, words),
             *_list_reasons(study, words),
             *(
-                one
+                block
                 for row, record in records
-                for one in _show_shares(row, record, words)
+                for block in _show_shares(row, record, words)
             ),
             tabulate_variables(study, words),
         )
@@ -111,15 +111,17 @@ def show_reliability(study: Study, words: Words) -> Iterator[Part]:
 def list_reliability(study: Study, words: Words) -> Iterator[str]:
     """Lines for a terminal: indices of the rows, then why some have none."""
     records = list_records(study)
-    known = [
+    indices = [
         words(
-            "reliability.of_row", row=show_text(row.id), index=_show_index(one, words)
+            "reliability.of_row",
+            row=show_text(row.id),
+            index=_show_index(record, words),
         )
-        for row, one in records
-        if one.beta is not None
+        for row, record in records
+        if record.beta is not None
     ]
-    if known:
-        yield words("reliability.line", rows=tuple(known))
+    if indices:
+        yield words("reliability.line", rows=tuple(indices))
     yield from _list_lacking(study, words)
 
 
@@ -132,9 +134,9 @@ def _list_reasons(study: Study, words: Words) -> Iterator[Items]:
 def _list_lacking(study: Study, words: Words) -> Iterator[str]:
     """Reasons why rows have no index, each with its rows."""
     lacking: dict[str, list[str]] = {}
-    for row, one in list_records(study):
-        if one.beta is None:
-            lacking.setdefault(words.show(one.reason), []).append(show_text(row.id))
+    for row, record in list_records(study):
+        if record.beta is None:
+            lacking.setdefault(words.show(record.reason), []).append(show_text(row.id))
     for reason, rows in lacking.items():
         yield words("reliability.lacking", rows=tuple(rows), reason=reason)
 
@@ -155,7 +157,7 @@ def _show_index(record: ReliabilityRecord, words: Words) -> str:
 def tabulate_indices(study: Study, words: Words) -> Table:
     """Index of each row beside those of the model code, with its implied factors."""
     names = ("index", "by_form", "over_full", "action", "resistance", "solved")
-    rows = [_list_row(row, one, words) for row, one in list_records(study)]
+    rows = [_list_row(row, record, words) for row, record in list_records(study)]
     rows += [
         (
             text_cell(MISSING),
@@ -180,11 +182,11 @@ def tabulate_indices(study: Study, words: Words) -> Table:
 def _list_row(
     row: RowStudy, record: ReliabilityRecord, words: Words
 ) -> tuple[Cell, ...]:
-    check = next((one for one in row.checks if one.id == record.check), None)
+    check = next((check for check in row.checks if check.id == record.check), None)
     named = show_check(words, check) if check else MISSING
     if record.beta is None:
-        told = text_cell(words("reliability.not_available"))
-        return (text_cell(row.id), text_cell(named), told, *_NONE)
+        refusal = text_cell(words("reliability.not_available"))
+        return (text_cell(row.id), text_cell(named), refusal, *_NONE)
     over = None if record.beta_at_full is None else record.beta - record.beta_at_full
     return (
         text_cell(row.id),
@@ -222,9 +224,9 @@ def _show_shares(
 ) -> Iterator[Block]:
     """Bars of alpha squared of one row, above the case of its design point."""
     shares = [
-        (_name(one, words), one.alpha_squared)
-        for one in record.variables
-        if one.alpha_squared is not None
+        (_name(variable, words), variable.alpha_squared)
+        for variable in record.variables
+        if variable.alpha_squared is not None
     ]
     title = words("reliability.shares", row=show_text(row.id))
     point = words.name_case(record.design_point)
@@ -251,12 +253,12 @@ def tabulate_shares(study: Study, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(row.id),
-                text_cell(_name(one, words)),
-                fixed_cell(words, one.alpha_squared, 2),
-                text_cell(_show_value(one, one.at_design_point, words)),
+                text_cell(_name(variable, words)),
+                fixed_cell(words, variable.alpha_squared, 2),
+                text_cell(_show_value(variable, variable.at_design_point, words)),
             )
             for row, record in list_records(study)
-            for one in record.variables
+            for variable in record.variables
         ),
         empty=words("show.none"),
     )
@@ -266,14 +268,16 @@ def tabulate_variables(study: Study, words: Words) -> Table:
     """Distributions of all rows, with what each is from; equal lines are one."""
     names = ("distribution", "mean", "variation")
     lines: dict[tuple[str, ...], list[str]] = {}
-    known = [
-        (one, show_text(row.id))
+    variables = [
+        (variable, show_text(row.id))
         for row, record in list_records(study)
-        for one in record.variables
+        for variable in record.variables
     ]
-    places = list(dict.fromkeys(one.name for one, _ in known))
-    for one, row_id in sorted(known, key=lambda pair: places.index(pair[0].name)):
-        lines.setdefault(_list_texts(one, words), []).append(row_id)
+    places = list(dict.fromkeys(variable.name for variable, _ in variables))
+    for variable, row_id in sorted(
+        variables, key=lambda pair: places.index(pair[0].name)
+    ):
+        lines.setdefault(_list_texts(variable, words), []).append(row_id)
     return Table(
         caption=words("reliability.variables"),
         columns=(
@@ -317,8 +321,12 @@ def add_sheet(book: Book, study: Study) -> None:
     words = book.words
     indices, shares = tabulate_indices(study, words), tabulate_shares(study, words)
     note = words("reliability.is_not")
-    told = words("reliability.captioned", caption=indices.caption, note=note)
-    tables = [replace(indices, caption=told), shares, tabulate_variables(study, words)]
+    caption = words("reliability.captioned", caption=indices.caption, note=note)
+    tables = [
+        replace(indices, caption=caption),
+        shares,
+        tabulate_variables(study, words),
+    ]
     sheet = book.add_table_sheet(NAME, words("heading.reliability"), tables)
     first = TABLE_TOP + len(indices.rows) + BETWEEN_TABLES
     if shares.rows:

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from netdesign.addons.history.followed import History
 from netdesign.addons.history.moments import (
     COUNTED_STRAIN,
     PULL_DRIFT,
     REST_SHARE,
     START_STRAIN,
+    History,
     HistoryPoint,
     find_plateau,
     judge_plateau,

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.history import net_start
-from netdesign.addons.history.net_start import (
+from netdesign.addons.history import state
+from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.settings import TRANSIENT_LEVELS
+from netdesign.addons.history.state import (
+    build_problem,
     build_start,
     find_net_at_rest,
     find_start,
 )
-from netdesign.addons.history.response import measure_arcs
-from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import build_template
@@ -95,7 +95,7 @@ def test_a_scene_without_a_steady_state_says_what_to_choose(a_scene, monkeypatch
     def fail(*_, **__):
         raise SolveError(Outcome.NO_EQUILIBRIUM, "the net has none.")
 
-    monkeypatch.setattr(net_start, "find_net_at_rest", fail)
+    monkeypatch.setattr(state, "find_net_at_rest", fail)
     scene = a_scene()
     with pytest.raises(SolveError, match=r"none\): choose the start sagged") as failure:
         find_start(scene, SIZE, "steady")

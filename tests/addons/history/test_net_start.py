@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.net_start import build_start
 from netdesign.addons.history.response import measure_arcs, respond
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem
+from netdesign.addons.history.state import build_problem, build_start
 from netdesign.coupling.steady.net import guess_pressure
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template

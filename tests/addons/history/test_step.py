@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sparse
 
-from netdesign.addons.history.net_start import build_start
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.snow import PlainSnow, SnowIterate, take_linear
-from netdesign.addons.history.state import build_problem
+from netdesign.addons.history.state import build_problem, build_start
 from netdesign.addons.history.step import assemble_step, condense_step
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
 from netdesign.snow import forms

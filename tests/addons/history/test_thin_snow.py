@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history.instant import advance
-from netdesign.addons.history.net_start import build_start, find_start
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem
+from netdesign.addons.history.state import build_problem, build_start, find_start
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw

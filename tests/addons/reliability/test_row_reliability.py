@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.reliability.check_by_case import find_check_by_case
-from netdesign.addons.reliability.form import follow_design_point
+from netdesign.addons.reliability.reliability import follow_design_point
 from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import rate_reliability
 from netdesign.checks import load_standard

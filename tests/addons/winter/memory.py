@@ -9,11 +9,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from netdesign.addons.history.body import build_body
-from netdesign.addons.history.follow import follow
 from netdesign.addons.history.instant import advance
-from netdesign.addons.history.net_start import build_start, find_start
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem
+from netdesign.addons.history.state import build_problem, build_start, find_start
+from netdesign.addons.history.transient import follow
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.mesh import build_template

@@ -10,7 +10,7 @@ import numpy as np
 
 from netdesign.addons.evidence.runner import spread
 from netdesign.addons.evidence.scene import build_scene
-from netdesign.addons.history.followed import History
+from netdesign.addons.history.moments import History
 from netdesign.addons.history.run import scale_history
 from netdesign.addons.history.settings import (
     TRANSIENT_LEVELS,
