@@ -43,28 +43,28 @@ def bench(**asked: Any) -> None:
     netdesign bench --against netdesign-0.1.0-py3-none-any.whl
     """
     wanted = (*_RANDOM, "--against")
-    given = [name for name in wanted if asked[name.strip("-")] is not None]
-    _refuse_mixtures(given, asked)
-    if not given:
+    options = [name for name in wanted if asked[name.strip("-")] is not None]
+    _refuse_mixtures(options, asked)
+    if not options:
         document = _run_named(asked)
-    elif given == ["--against"]:
+    elif options == ["--against"]:
         document = _run_against(asked)
     else:
-        document = _run_random(given[0], asked)
+        document = _run_random(options[0], asked)
     if asked["as_json"]:
         print_document(document)
     else:
-        _show(document, is_named=not given)
+        _show(document, is_named=not options)
     sys.exit(0 if document.get("pass", True) else _EXIT_FAIL)
 
 
-def _refuse_mixtures(given: Sequence[str], asked: Mapping[str, Any]) -> None:
+def _refuse_mixtures(options: Sequence[str], asked: Mapping[str, Any]) -> None:
     """Refuse options that do not go together."""
-    if len(given) > 1:
-        raise UsageRefusal(say("bench.one_of", given=tuple(given)))
-    if given and (asked["scenes"] or asked["plot"]):
+    if len(options) > 1:
+        raise UsageRefusal(say("bench.one_of", given=tuple(options)))
+    if options and (asked["scenes"] or asked["plot"]):
         raise UsageRefusal(say("bench.named_only"))
-    is_random = bool(set(given) & set(_RANDOM))
+    is_random = bool(set(options) & set(_RANDOM))
     if asked["quick"] and is_random:
         raise UsageRefusal(say("bench.not_quick"))
     if not is_random:
@@ -91,7 +91,7 @@ def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
 
     count, seed, accuracy = asked[option.strip("-")], asked["seed"], asked["accuracy"]
     with follow(count, "scenes", asked) as on_done:
-        found = attempt_scenes(
+        attempts = attempt_scenes(
             count,
             seed,
             accuracy=accuracy,
@@ -100,7 +100,7 @@ def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
             on_done=on_done,
         )
     write = write_errors if option == "--errors" else write_stress
-    return write(found, seed, accuracy)
+    return write(attempts, seed, accuracy)
 
 
 def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:

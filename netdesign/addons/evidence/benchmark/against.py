@@ -84,17 +84,19 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     What follows ``site`` finds its rows in the store: all, all but one, all but those
     that one type bears.
     """
-    scenes = [["solve", str(NAMED / f"{one}.toml"), "--json"] for one in size.scenes]
+    scenes = [
+        ["solve", str(NAMED / f"{scene}.toml"), "--json"] for scene in size.scenes
+    ]
     first = [_search("short", "1", density="300:310:2")]
     spans = {"density": "250:450", "friction": "15:45", "inclination": "25:35"}
     grid = {name: f"{span}:{size.samples}" for name, span in spans.items()}
     check = ["check", "--jobs", _PROCESSES, "--quiet", "--force", "--out"]
     site, length, resistance = (
-        Figure([[*check, str(folder / "out"), str(folder / one)]], [], (0, 1, 4))
-        for one in ("site", *CHANGED)
+        Figure([[*check, str(folder / "out"), str(folder / listed)]], [], (0, 1, 4))
+        for listed in ("site", *CHANGED)
     )
     in_time = ["--json", "--method", "transient"]
-    history = [["solve", str(NAMED / f"{one}.toml"), *in_time] for one in _FOLLOWED]
+    history = [["solve", str(NAMED / f"{scene}.toml"), *in_time] for scene in _FOLLOWED]
     heights = ["--heights", str(folder / _HEIGHTS)]
     winter = ["winter", "--example", "--no-cache", "--quiet", "--force"]
     winter += ["--out", str(folder / "winter"), "--row", "A1"]
@@ -162,8 +164,8 @@ def compare_versions(
     with TemporaryDirectory(ignore_cleanup_errors=True) as place:
         for what in list_figures(size, Path()):
             works = {side: partial(run, side, what) for side in _SIDES}
-            found = run_in_turns(works, size.repeats, on_done)
-            rows += [_describe(what, clock, found) for clock in _CLOCKS]
+            times = run_in_turns(works, size.repeats, on_done)
+            rows += [_describe(what, clock, times) for clock in _CLOCKS]
     return {
         "schema": SCHEMA,
         **{side: read_version(python) for side, python in pythons.items()},
@@ -204,22 +206,22 @@ def time_figure(python: Path, figure: Figure, folder: Path) -> Times | str:
         return f"> {_LONGEST_S:g} s"
     last = (done.stderr.strip().splitlines() or [""])[-1][:200]
     try:
-        found = json.loads(done.stdout)
+        printed = json.loads(done.stdout)
     except ValueError:
         return f"{last} ({done.returncode})"
-    strange = [code for code in found["codes"] if code not in figure.accepted]
-    return f"{last} ({strange[0]})" if strange else found["times"]
+    strange = [code for code in printed["codes"] if code not in figure.accepted]
+    return f"{last} ({strange[0]})" if strange else printed["times"]
 
 
 def _describe(
-    what: str, clock: str, found: Mapping[str, list[Times | str]]
+    what: str, clock: str, of_sides: Mapping[str, list[Times | str]]
 ) -> dict[str, Any]:
     """Row of the document: median, least and most of each version [s]."""
     row: dict[str, Any] = {"what": what, "clock": clock}
     failures = []
-    for side, runs in found.items():
-        failed = [one for one in runs if isinstance(one, str)]
-        times = [one[_CLOCKS[clock]] for one in runs if not isinstance(one, str)]
+    for side, runs in of_sides.items():
+        failed = [run for run in runs if isinstance(run, str)]
+        times = [run[_CLOCKS[clock]] for run in runs if not isinstance(run, str)]
         row[f"{side}_s"] = None if failed else median(times)
         row[f"{side}_between_s"] = None if failed else [min(times), max(times)]
         failures += failed[:1]
@@ -244,8 +246,8 @@ def open_version(path: Path) -> Iterator[Path]:
         with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             yield _install(path, Path(folder))
         return
-    found = [path, *(path / name for name in _PYTHONS)]
-    python = next((one for one in found if one.is_file()), None)
+    candidates = [path, *(path / name for name in _PYTHONS)]
+    python = next((candidate for candidate in candidates if candidate.is_file()), None)
     if python is None:
         raise ModelError(say("against.no_version", path=str(path)))
     yield python.absolute()  # not resolved: a venv is known by its link
@@ -260,7 +262,7 @@ def read_version(python: Path) -> str:
         If it runs none.
     """
     try:
-        told = subprocess.run(
+        printed = subprocess.run(
             [python, "-I", "-c", _ASK],
             capture_output=True,
             text=True,
@@ -269,7 +271,7 @@ def read_version(python: Path) -> str:
         )
     except (OSError, subprocess.SubprocessError):
         raise ModelError(say("against.no_program", path=str(python))) from None
-    return told.stdout.strip()
+    return printed.stdout.strip()
 
 
 def _install(wheel: Path, folder: Path) -> Path:

@@ -188,26 +188,32 @@ def write_stress(
     accuracy: float = DEFAULT_ACCURACY,
 ) -> dict[str, Any]:
     """Plain values in the form ``netdesign.stress/1``."""
-    converged = [one for one in attempts if one.kind == "converged"]
-    solved = [one for one in attempts if one.kind != "refused before"]
-    by_time = sorted(solved, key=lambda one: one.cpu_s, reverse=True)
+    converged = [attempt for attempt in attempts if attempt.kind == "converged"]
+    solved = [attempt for attempt in attempts if attempt.kind != "refused before"]
+    by_time = sorted(solved, key=lambda attempt: attempt.cpu_s, reverse=True)
     return {
         "schema": STRESS_SCHEMA,
         "scenes": len(attempts),
         "seed": seed,
         "accuracy": accuracy,
         "converged": len(converged),
-        "pass": not any(one.kind == "failed" for one in attempts),
+        "pass": not any(attempt.kind == "failed" for attempt in attempts),
         "refused": _count_refusals(attempts),
-        "failures": [_write_failure(one) for one in attempts if one.kind == "failed"],
-        "accuracy_missed": sum(not one.stated_error <= accuracy for one in converged),
-        "worst_balance": max((one.balance for one in converged), default=None),
-        "most_linear_solves": max((one.linear_solves for one in solved), default=0),
+        "failures": [
+            _write_failure(attempt) for attempt in attempts if attempt.kind == "failed"
+        ],
+        "accuracy_missed": sum(
+            not attempt.stated_error <= accuracy for attempt in converged
+        ),
+        "worst_balance": max((attempt.balance for attempt in converged), default=None),
+        "most_linear_solves": max(
+            (attempt.linear_solves for attempt in solved), default=0
+        ),
         "slowest_s": by_time[0].cpu_s if by_time else 0.0,
-        **summarise_times([one.cpu_s for one in converged]),
+        **summarise_times([attempt.cpu_s for attempt in converged]),
         "slowest": [
-            {"scene": one.number, "cpu_s": one.cpu_s, "kind": one.kind}
-            for one in by_time[:_SLOWEST_SHOWN]
+            {"scene": attempt.number, "cpu_s": attempt.cpu_s, "kind": attempt.kind}
+            for attempt in by_time[:_SLOWEST_SHOWN]
         ],
     }
 
@@ -219,9 +225,9 @@ def generalise(reason: str) -> str:
 
 def _count_refusals(attempts: Sequence[Attempt]) -> list[dict[str, Any]]:
     counts = Counter(
-        (generalise(str(one.reason)), one.kind.removeprefix("refused "))
-        for one in attempts
-        if one.kind.startswith("refused")
+        (generalise(str(attempt.reason)), attempt.kind.removeprefix("refused "))
+        for attempt in attempts
+        if attempt.kind.startswith("refused")
     )
     return [
         {"reason": reason, "when": when, "count": count}
@@ -229,9 +235,9 @@ def _count_refusals(attempts: Sequence[Attempt]) -> list[dict[str, Any]]:
     ]
 
 
-def _write_failure(one: Attempt) -> dict[str, Any]:
-    reason = str(one.reason)
-    return {"scene": one.number, "reason": reason, "tables": one.tables}
+def _write_failure(attempt: Attempt) -> dict[str, Any]:
+    reason = str(attempt.reason)
+    return {"scene": attempt.number, "reason": reason, "tables": attempt.tables}
 
 
 def write_errors(
@@ -240,10 +246,12 @@ def write_errors(
     accuracy: float = DEFAULT_ACCURACY,
 ) -> dict[str, Any]:
     """Plain values in the form ``netdesign.errors/1``."""
-    compared = [one for one in attempts if not one.reason]
-    counted = [one for one in attempts if not one.kind.startswith("refused")]
-    inside = share(one.is_inside for one in counted)
-    below = share(one.true_error <= accuracy for one in counted)
+    compared = [attempt for attempt in attempts if not attempt.reason]
+    counted = [
+        attempt for attempt in attempts if not attempt.kind.startswith("refused")
+    ]
+    inside = share(attempt.is_inside for attempt in counted)
+    below = share(attempt.true_error <= accuracy for attempt in counted)
     return {
         "schema": ERRORS_SCHEMA,
         "scenes": len(attempts),
@@ -254,19 +262,19 @@ def write_errors(
         "share_inside_stated_error": inside,
         "share_below_accuracy": below,
         "pass": all(x is not None and x >= LEAST_SHARE for x in (inside, below)),
-        **summarise_times([one.cpu_s for one in compared]),
+        **summarise_times([attempt.cpu_s for attempt in compared]),
         "outside": [
             {
-                "scene": one.number,
-                "true_error": one.true_error,
-                "stated_error": one.stated_error,
+                "scene": attempt.number,
+                "true_error": attempt.true_error,
+                "stated_error": attempt.stated_error,
             }
-            for one in compared
-            if not (one.is_inside and one.true_error <= accuracy)
+            for attempt in compared
+            if not (attempt.is_inside and attempt.true_error <= accuracy)
         ],
         "not_compared": [
-            {"scene": one.number, "reason": str(one.reason)}
-            for one in attempts
-            if one.reason
+            {"scene": attempt.number, "reason": str(attempt.reason)}
+            for attempt in attempts
+            if attempt.reason
         ],
     }

@@ -133,7 +133,7 @@ def _measure(
     name: str, method: Method, solves: Mapping[Path, Solve], truth: Truth, repeats: int
 ) -> list[Row]:
     """Solve each path once for its result and memory, then all in turns for time."""
-    found = {path: _observe(solve) for path, solve in solves.items()}
+    solved = {path: _observe(solve) for path, solve in solves.items()}
     works = {path: partial(measure, solve) for path, solve in solves.items()}
     timed = run_in_turns(works, repeats)
     return [
@@ -150,7 +150,7 @@ def _measure(
             rounds=solution.cost.rounds,
             peak_mb=peak_mb,
         )
-        for path, (solution, peak_mb) in found.items()
+        for path, (solution, peak_mb) in solved.items()
     ]
 
 
@@ -300,11 +300,11 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
     )
     looks = {"fast": (ACCENT, ""), "reference": (INK, "5 1.6"), "transient": (GREY, "")}
     for number, (name, (stroke, dash)) in enumerate(looks.items()):
-        found = [one for one in rows if name in (one.method, one.path)]
+        drawn = [row for row in rows if name in (row.method, row.path)]
         if name != "transient":
-            found = [one for one in found if one.method == "steady"]
-        if found:
-            _draw_rows(chart, frame, found, stroke, dash)
+            drawn = [row for row in drawn if row.method == "steady"]
+        if drawn:
+            _draw_rows(chart, frame, drawn, stroke, dash)
             x = frame.left + 130.0 * number
             chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke, dash=dash)
             chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{name}"))
@@ -325,8 +325,8 @@ def _draw_rows(
     for x, y in map(_place, rows):
         chart.dot((frame.x(x), frame.y(y)), 1.2, fill=stroke, stroke=stroke)
     if rows[0].method == "steady":
-        groups = [list(map(_place, one)) for one in _group_by_resolution(rows)]
-        middles = [map(median, zip(*one, strict=True)) for one in groups]
+        groups = [list(map(_place, group)) for group in _group_by_resolution(rows)]
+        middles = [map(median, zip(*group, strict=True)) for group in groups]
         line = [(frame.x(x), frame.y(y)) for x, y in middles]
         chart.line(line, stroke=stroke, width=1.2, dash=dash)
 

@@ -127,7 +127,7 @@ def refine_size(size: MeshSize, times: int) -> MeshSize:
 
 def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
     """Level whose mesh a solution was found on, by its number of triangles."""
-    return next((one for one in levels if _is_on(one, solution)), levels[-1])
+    return next((level for level in levels if _is_on(level, solution)), levels[-1])
 
 
 def _is_on(size: MeshSize, solution: Solution) -> bool:
