@@ -35,7 +35,12 @@ from netdesign.report.drawing.pressure_figure import (
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.sections.bars import show_answer
 from netdesign.report.sections.basis import is_of_row
-from netdesign.report.sections.checks import list_flips, name_case, name_few
+from netdesign.report.sections.checks import (
+    describe_cause,
+    list_flips,
+    name_case,
+    name_few,
+)
 from netdesign.report.sections.rated import (
     ANCHOR_MEMBERS,
     PARTS,
@@ -50,6 +55,7 @@ from netdesign.report.sections.rated import (
 )
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
+    MISSING,
     Words,
     name_row,
     show_check,
@@ -63,7 +69,7 @@ from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.words.message import say
 from netdesign.words.names import name_check, name_mode
 
-_MOST_REASONS = 6  # of the points of a row that its page has room for
+_MOST_REASONS = 4  # of the points of a row that its page has room for
 _DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 
 
@@ -124,6 +130,8 @@ class RowPage:
         elif shown.used is None:
             used = t.show_with_unit("demand_kN", shown.demand_kN)
         named = t.show(name_check(shown.member, shown.mode))
+        if used == MISSING:
+            used = describe_cause(shown, t)
         return t("row_page.title", verdict=told, used=used, check=named)
 
     def _list_facts(self) -> str:
