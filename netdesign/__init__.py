@@ -27,7 +27,6 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 # Names for use from Python. ``public.py`` says where each one lives.
 __all__ = [
     "AnchorForces",
-    "CheckRun",
     "DaySolver",
     "FailedPanel",
     "FailedSolution",
@@ -62,7 +61,6 @@ __all__ = [
     "build_ground_from_glide_factor",
     "build_layered_snowpack",
     "check",
-    "check_site",
     "find_anchor_forces",
     "find_envelope",
     "find_guideline_load",

@@ -6,15 +6,17 @@ a study has the units of its reports, each in the name of its column.
 
 from __future__ import annotations
 
+import logging
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
 from netdesign.cable.net import Net
-from netdesign.checks import Standard, load_standard
+from netdesign.checks import Standard, load_default, load_standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
+from netdesign.edge.progress import RunProgress, Standing
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask
 from netdesign.envelope.search import search_rows
@@ -26,35 +28,56 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.outcome import ModelError
 from netdesign.search.maxima import SearchSettings
+from netdesign.site.frames import Change, Frames
 from netdesign.site.model import Site
-from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
+from netdesign.site.reader import read_frames, read_site
+from netdesign.solving.runner import Runner, open_runner
+from netdesign.solving.store import find_store
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.study.cases import list_phases
 from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.document import load_study
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 
 def check(
-    site: Site | str | Path,
-    standard: Standard | str | Path = "nf-p-95-304-style",
+    site: Site | str | Path | Frames,
+    rows: Sequence[str] | None = None,
+    change: Change | None = None,
+    jobs: int | None = None,
+    progress: Callable[[str], object] | None = None,
     *,
+    standard: Standard | str | Path | None = None,
     accuracy: float = 0.01,
     reliability: bool = False,
 ) -> Study:
     """Study of a site against a limit profile, as ``netdesign check`` makes it.
 
+    Finished cases are kept, and those of earlier runs used.
+
     Parameters
     ----------
-    site : Site, str or Path
-        As read, or its workbook.
-    standard : Standard, str or Path
-        Limit profile, its id or its folder.
+    site : Site, str, Path, or mapping of str to DataFrame
+        As read, its workbook, or frames by name of their sheet: ``Rows``,
+        ``Net types``, ``Anchors``, ``Project``, ... Columns are keys of
+        ``site/columns/office.toml``, in the unit that the template shows, or its
+        headings.
+    rows : sequence of str, optional
+        Ids of the net rows that are checked; such a study is no pass of the site.
+    change : mapping of str to mapping of str to object, optional
+        Other values, by id of the net row and key of the column, in its unit:
+        ``{"A1": {"post_spacing": 3.0}}``. The study is marked as a what-if.
+    jobs : int, optional
+        Processes; this one alone unless told otherwise.
+    progress : callable, optional
+        Takes a line of text at each stage of the run: ``print``.
+    standard : Standard, str or Path, optional
+        Limit profile, its id or its folder; that of the site unless told otherwise.
     accuracy : float
         Relative error allowed in every end force of the net [-].
     reliability : bool
@@ -63,21 +86,81 @@ def check(
     Raises
     ------
     SiteDataError, StandardError
-        If workbook or profile cannot be read.
+        If workbook, frames or profile cannot be read.
+    ModelError
+        If a net row is not there, or a site that is read already is to be changed.
 
     Verified by
     -----------
     tests/test_api.py
     """
-    given = site if isinstance(site, Site) else read_site(site)
-    profile = standard if isinstance(standard, Standard) else load_standard(standard)
+    given = _take_rows(_read(site, change or {}), rows)
+    profile = _choose_profile(standard, given)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
+        jobs=jobs or 1,
         started=datetime.now(UTC).isoformat(timespec="seconds"),
         has_reliability=reliability,
     )
-    (study,) = check_site(given, [profile], run)
+    phases = list_phases(given, run, 1)
+    watch = RunProgress(phases, _show_stages(progress))
+    with open_runner(
+        executor="",
+        processes=run.jobs,
+        store=find_store(),
+        tell=_LOG.warning,
+        expected=sum(phase.cases for phase in phases),
+    ) as runner:
+        runner.on_ask = lambda asked: watch.ask(len(asked))
+        runner.on_done = watch.count_case
+        (study,) = check_site(given, [profile], run, runner, watch)
+    for fault in runner.faults:
+        _LOG.warning(str(fault))
     return study
+
+
+_LOG = logging.getLogger("netdesign")
+
+
+def _read(site: Site | str | Path | Frames, change: Change) -> Site:
+    if isinstance(site, Site):
+        if change:
+            raise ModelError(say("api.change_of_site"))
+        return site
+    if isinstance(site, str | Path):
+        return read_site(site, change=change)
+    return read_frames(site, change)
+
+
+def _take_rows(site: Site, ids: Sequence[str] | None) -> Site:
+    known = tuple(row.id for row in site.rows)
+    strange = tuple(one for one in ids or () if one not in known)
+    if strange:
+        raise ModelError(say("usage.no_row", rows=strange, given=known))
+    return site if ids is None else site.take_rows(ids)
+
+
+def _choose_profile(standard: Standard | str | Path | None, site: Site) -> Standard:
+    """Profile that is given, else that of the site, else the default."""
+    if isinstance(standard, Standard):
+        return standard
+    named = standard or site.project.standard
+    return load_standard(named) if named else load_default()
+
+
+def _show_stages(
+    progress: Callable[[str], object] | None,
+) -> Callable[[Standing], None]:
+    """Call for each new stage of a run."""
+    last: Message | str = ""
+
+    def show(standing: Standing) -> None:
+        nonlocal last
+        if progress and standing.stage != last and standing.done:
+            last = standing.stage
+            progress(str(standing.line))
+
+    return show
 
 
 def read_study(path: str | Path) -> Study:

@@ -49,6 +49,4 @@ from netdesign.solving.runner import Runner as Runner
 from netdesign.structure.anchors import AnchorForces as AnchorForces
 from netdesign.structure.head import FailedSupport as FailedSupport
 from netdesign.structure.layout import SupportLayout as SupportLayout
-from netdesign.study.check_run import CheckRun as CheckRun
-from netdesign.study.check_site import check_site as check_site
 from netdesign.study.records import Study as Study

@@ -133,7 +133,7 @@ THIRD_PARTY = {
         *("report.drawing.*", "examples.*"),
         "coupling.solution",  # plots itself
     ),
-    "pandas": ("study.records",),
+    "pandas": ("study.records", "study.frames"),
     "rapidfuzz": ("site.questions",),
     "click": ("cli", "commands.*", "addons.*command"),
     "rich": (

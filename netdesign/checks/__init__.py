@@ -7,6 +7,7 @@ from netdesign.checks.loader import (
     Standard,
     StandardValue,
     list_standards,
+    load_default,
     load_standard,
 )
 from netdesign.checks.result import Band, Declaration, GivenResistance, Proof
@@ -28,5 +29,6 @@ __all__ = [
     "check_member",
     "find_resistance",
     "list_standards",
+    "load_default",
     "load_standard",
 ]

@@ -243,6 +243,14 @@ def load_standard(id_or_path: str | Path) -> Standard:
     raise StandardError(_explain_unknown(str(id_or_path)))
 
 
+_DEFAULT = "nf-p-95-304-style"
+
+
+def load_default() -> Standard:
+    """Limit profile of a site that names none."""
+    return replace(load_standard(_DEFAULT), is_default=True)
+
+
 def _explain_unknown(wanted: str) -> Message:
     names = list_standards()
     near = tuple(difflib.get_close_matches(wanted.lower(), names, n=3, cutoff=0.5))

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.config import ConfiguredCommand
-from netdesign.commands.options import (
-    DEFAULT_FOLDER,
-    DEFAULT_STANDARD,
-    take_options,
-)
+from netdesign.commands.options import DEFAULT_FOLDER, take_options
 from netdesign.commands.running import format_time
 from netdesign.commands.site_input import (
     choose_rows,
@@ -120,8 +115,9 @@ def find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
     if names:
         return _load_profiles(names)
     if not named:
-        (profile,) = _load_profiles((DEFAULT_STANDARD,))
-        return [replace(profile, is_default=True)]
+        from netdesign.checks import load_default
+
+        return [load_default()]
     try:
         return _load_profiles((named,))
     except StandardError as error:

@@ -23,7 +23,6 @@ from netdesign.commands.usage import UsageRefusal, ValueRefusal
 from netdesign.words.message import say
 
 DEFAULT_FOLDER = "netdesign-out"
-DEFAULT_STANDARD = "nf-p-95-304-style"
 DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
 
 

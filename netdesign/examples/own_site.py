@@ -4,7 +4,7 @@ The picture shows the largest utilisation of the anchors of row A1 of the built-
 example, for four spacings of its posts. They pass below the broken line. At 4.50 m the
 stiffness of the net decides, which nobody gave: they are not proven.
 
-The workbook stays as it is. Each study reads another number in one of its cells.
+The workbook stays as it is. Each study is a what-if with another spacing.
 
 Run ``python -m netdesign.examples.own_site``. It writes ``own_site.png``, or the file
 that you name.
@@ -13,31 +13,18 @@ that you name.
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from netdesign import (
-    CheckRun,
-    SolverSettings,
-    check_site,
-    load_standard,
-    read_site,
-    write_site_workbook,
-)
-from netdesign.study.scopes import Scope
+from netdesign import check, write_site_workbook
 
 SPACINGS = (3.0, 4.0, 4.5, 6.0)  # [m]
-SPACING_CELL = "Rows!I6"
-RUN = CheckRun(settings=SolverSettings(accuracy=0.01))
 
 
 def find_utilisation(workbook: Path, spacing: float) -> tuple[float, str]:
     """Largest utilisation of the anchors of row A1 at a spacing, and their verdict."""
-    site = read_site(workbook, instead={SPACING_CELL: str(spacing)})
-    alone = replace(site, rows=site.rows[:1])
-    (study,) = check_site(alone, [load_standard("swiss-guideline-2007")], RUN)
-    anchors = study.rows[0].scopes[Scope.ANCHORS]
+    study = check(workbook, rows=["A1"], change={"A1": {"post_spacing": spacing}})
+    anchors, *_ = study.rows[0].scopes.values()
     return anchors.utilisation or 0.0, anchors.verdict.value
 
 

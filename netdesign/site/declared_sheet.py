@@ -92,7 +92,7 @@ def replace_cells(
             accepted = say("what_if.another_text")
             findings.append(cell.finding(say("what_if.same"), accepted))
             continue
-        sheets[number] = _put(sheets[number], replace(cell, value=text, formula=""))
+        sheets[number] = put_cell(sheets[number], replace(cell, value=text, formula=""))
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
     if findings:
         raise SiteDataError(findings)
@@ -105,7 +105,7 @@ def find_cell(sheet: Sheet, address: str) -> Cell:
     return sheet.cell(row, column)
 
 
-def _put(sheet: Sheet, cell: Cell) -> Sheet:
+def put_cell(sheet: Sheet, cell: Cell) -> Sheet:
     """Sheet with one cell, its display format taken away: that was of another value."""
     plain = replace(
         cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""

@@ -34,6 +34,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.content import Content
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
+from netdesign.site.frames import Change, Frames, build_workbook, change_values
 from netdesign.site.further_sheets import read_monitoring, read_uncertain
 from netdesign.site.headings import count_known
 from netdesign.site.lists.join import join_list
@@ -79,6 +80,7 @@ def read_site(
     instead: Mapping[str, str] = MappingProxyType({}),
     sheets: Mapping[str, str] = MappingProxyType({}),
     net_types: Path | None = None,
+    change: Change = MappingProxyType({}),
 ) -> Site:
     """Read a site workbook.
 
@@ -95,6 +97,8 @@ def read_site(
         Answers about sheets beside those of the file of answers.
     net_types : Path, optional
         Workbook whose net types and parts count beside those of the site.
+    change : mapping of str to mapping of str to object
+        Other values of net rows, as of `change_values`.
 
     Returns
     -------
@@ -113,6 +117,8 @@ def read_site(
     else:
         cells = read_cells(Path(path), text_format, sheets)
     workbook, replaced = replace_cells(cells, instead)
+    workbook, changed = change_values(workbook, change)
+    replaced += changed
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     if found:
@@ -127,6 +133,19 @@ def read_site(
         if net_types:
             findings.append(workbook.finding(say("office.no_library")))
     return replace(_build_site(content, replaced, findings), text_format=text_format)
+
+
+def read_frames(frames: Frames, change: Change = MappingProxyType({})) -> Site:
+    """Site of some frames, as `build_workbook` takes them; see `read_site`.
+
+    Raises
+    ------
+    SiteDataError
+        With all findings, if any of them is an error.
+    """
+    workbook, replaced = change_values(build_workbook(frames), change)
+    findings: list[Finding] = []
+    return _build_site(read_office(workbook, findings), replaced, findings)
 
 
 def _read_list(path: Path, found: ListMap, text_format: TextFormat) -> Workbook:

@@ -24,6 +24,7 @@ from netdesign.edge.json_text import (
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study import frames
 from netdesign.study.case_records import (
     CaseRecord,
     EnvelopeRecord,
@@ -173,7 +174,7 @@ class OpenPoint:
     needs_kN: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RowStudy:
     """Everything about one net row."""
 
@@ -222,6 +223,10 @@ class RowStudy:
     def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
         """Verdict of some scopes; of the whole row where none is named."""
         return merge_scopes(self.scopes, scopes) if scopes else self.verdict
+
+    def __repr__(self) -> str:
+        """Id and verdict."""
+        return f"<RowStudy {self.id!r:.60}: {self.verdict.value}>"
 
     @cached_property
     def open(self) -> list[OpenPoint]:
@@ -318,7 +323,7 @@ class Provenance:
     libraries: dict[str, str]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Study:
     """One study of one site under one profile."""
 
@@ -372,6 +377,34 @@ class Study:
             for name, value in without.items()
         }
         return join_members(parts)
+
+    def __repr__(self) -> str:
+        """Name, number of net rows, verdict, profile."""
+        return frames.write_repr(self)
+
+    def _repr_html_(self) -> str:
+        """Table for notebooks."""
+        return frames.write_html(self)
+
+    @cached_property
+    def anchors(self) -> DataFrame:
+        """Check that decides each anchor, by net row and position along it.
+
+        Columns ``row``, ``anchor``, ``position``, ``E_k_kN``, ``E_d_kN``, ``R_d_kN``,
+        ``utilisation`` [-], ``verdict``, ``assumed`` (what the row leaves empty and is
+        searched), ``missing`` (what is open).
+        """
+        return frames.list_anchors(self)
+
+    @cached_property
+    def open(self) -> DataFrame:
+        """What is not proven: ``row``, ``kind``, ``text``, ``needs_kN``."""
+        return frames.list_open(self)
+
+    @cached_property
+    def forces(self) -> DataFrame:
+        """Largest forces with their cases: ``row``, ``force``, ``value_kN``, ..."""
+        return frames.list_forces(self)
 
     def to_frame(self) -> DataFrame:
         """Checks of all net rows as a table of pandas, one line each.

@@ -1,0 +1,119 @@
+"""Tables of a study for Python: pandas is loaded where one is asked for.
+
+Columns have their unit at the end of their name, as those of files have; ratios have
+none. Texts are English.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+from netdesign.checks.check import Check
+from netdesign.outcome import SEVERITY
+from netdesign.study.scopes import SCOPES, Scope, list_of_scope
+from netdesign.words.catalogue import render
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from netdesign.study.records import RowStudy, Study
+
+_ANCHORS = (
+    *("row", "anchor", "position", "E_k_kN", "E_d_kN", "R_d_kN"),
+    *("utilisation", "verdict", "assumed", "missing"),
+)
+_OPEN = ("row", "kind", "text", "needs_kN")
+_FORCES = (
+    *("row", "force", "low_kN", "value_kN", "high_kN", "bound_kN"),
+    *("density_kg_m3", "friction_deg", "inclination_deg"),
+)
+
+
+def list_anchors(study: Study) -> DataFrame:
+    """Check that decides each anchor of each net row, by its position along the row."""
+    return _build(_ANCHORS, [line for row in study.rows for line in _of_row(row)])
+
+
+def list_open(study: Study) -> DataFrame:
+    """Reasons why checks are not proven, each once in a net row."""
+    lines = [
+        (row.id, one.kind.value, render(one.text, "en"), one.needs_kN)
+        for row in study.rows
+        for one in row.open
+    ]
+    return _build(_OPEN, lines)
+
+
+def list_forces(study: Study) -> DataFrame:
+    """Largest forces of each net row, characteristic, and the case of each."""
+    lines = [
+        (
+            *(row.id, one.quantity, one.low_kN, one.value_kN, one.high_kN),
+            *(one.bound_kN, one.case.density_kg_m3, one.case.friction_deg),
+            one.case.inclination_deg,
+        )
+        for row in study.rows
+        for one in row.forces
+    ]
+    return _build(_FORCES, lines)
+
+
+def _build(columns: Sequence[str], lines: Sequence[Sequence[object]]) -> DataFrame:
+    from pandas import DataFrame
+
+    records = [dict(zip(columns, line, strict=True)) for line in lines]
+    return DataFrame(records, columns=list(columns))
+
+
+def _of_row(row: RowStudy) -> Iterator[tuple[object, ...]]:
+    groups: dict[tuple[str, str], list[Check]] = {}
+    for check in list_of_scope(row.checks, Scope.ANCHORS):
+        if check.is_of_force:
+            groups.setdefault((check.member, check.position), []).append(check)
+    assumed = ", ".join(render(one.input, "en") for one in row.assumed)
+    for (member, position), checks in groups.items():
+        check = min(checks, key=_rank)
+        missing = dict.fromkeys(str(x.message) for one in checks for x in one.open)
+        yield (
+            *(row.id, member, position, check.read("E_k"), check.demand_kN),
+            *(check.resistance_kN, check.used, check.verdict.value),
+            *(assumed, "; ".join(missing)),
+        )
+
+
+def _rank(check: Check) -> tuple[int, bool, float]:
+    """The worst verdict first; in it a check without a resistance, then by use."""
+    used = check.used
+    return SEVERITY.index(check.verdict), used is not None, -(used or 0.0)
+
+
+def write_repr(study: Study) -> str:
+    """``<Study Gratboden: 8 rows, FAIL, swiss-guideline-2007>``."""
+    what_if = ", what-if" if study.what_if else ""
+    verdict = study.verdict.value
+    rows = f"{len(study.rows)} rows"
+    name = study.project.name
+    return f"<Study {name!r:.60}: {rows}, {verdict}{what_if}, {study.profile.id}>"
+
+
+def write_html(study: Study) -> str:
+    """Verdict of each scope of each net row as a table; every text is escaped."""
+    heads = ("row", "verdict", *(str(one.value) for one in SCOPES))
+    lines = [
+        "".join(f"<td>{escape(text)}</td>" for text in _list_texts(row))
+        for row in study.rows
+    ]
+    head = "".join(f"<th>{escape(one)}</th>" for one in heads)
+    body = "".join(f"<tr>{line}</tr>" for line in lines)
+    caption = escape(write_repr(study)[1:-1])
+    return f"<table><caption>{caption}</caption><tr>{head}</tr>{body}</table>"
+
+
+def _list_texts(row: RowStudy) -> Iterator[str]:
+    yield row.id
+    yield row.verdict.value
+    for one in row.scopes.values():
+        used = "" if one.utilisation is None else f" {one.utilisation:.2f}"
+        yield f"{one.verdict.value}{used}"
