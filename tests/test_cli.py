@@ -395,9 +395,9 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
     verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
-    assert verdicts["R3"] == "declared"
-    assert verdicts["R6"] == "not_proven"
-    assert verdicts["R7"] == "fail"
+    assert verdicts["A1"] == "declared"
+    assert verdicts["A2"] == "not_proven"
+    assert verdicts["A4"] == verdicts["B4"] == "fail"
     for row in document["rows"]:
         assert set(row) >= ROW_KEYS
         assert {case["outcome"] for case in row["cases"]} == {"converged"}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 # A study of as many net rows and cases as a site may have (``site/cells/cells.py``,
 # ``envelope/ranges.py``), with some room: a row has up to 450 kB, 17,000 values and
 # 3,200 objects, a case 520 bytes, 13 values and 2 objects.
-MAX_JSON_BYTES = 640 * 2**20
+MAX_JSON_BYTES = 704 * 2**20
 MAX_VALUES = 24_000_000
 MAX_OBJECTS = 4_000_000
 _SMALL = 20_000  # values
