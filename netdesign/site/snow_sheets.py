@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from datetime import date
 
 from netdesign.envelope.ranges import Ranges
@@ -31,7 +30,6 @@ LayersByRow = Mapping[str, Sequence[Row]]  # lines from the ground up, by net ro
 
 # Layers may miss the thickness of their net row by rounding to the centimetre.
 _SUM_TOLERANCE = 0.0101  # [m]
-_MELTING = 0.0  # no layer creeps faster [degC]
 
 
 def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
@@ -48,7 +46,8 @@ def order_layers(rows: Sequence[Row], findings: list[Finding]) -> LayersByRow:
     for lines in by_row.values():
         lines.sort(key=lambda line: line["layer"].number)
         _check_numbers(lines, findings)
-    return {name: tuple(_fill_in_temperatures(lines)) for name, lines in by_row.items()}
+        _check_temperatures(lines, findings)
+    return {name: tuple(lines) for name, lines in by_row.items()}
 
 
 def build_layers(
@@ -75,7 +74,7 @@ def build_layers(
         layer = Layer(
             thickness=thickness,
             density=density.si,
-            temperature=temperature.known_si,
+            temperature=temperature.given_si,
         )
         layers.append(layer)
     if len(layers) < len(lines):
@@ -237,16 +236,14 @@ def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:
             return
 
 
-def _fill_in_temperatures(lines: Sequence[Row]) -> list[Row]:
-    """Layers of which one without a temperature melts, beside others that have one."""
-    if all(line["temperature"].state == "blank" for line in lines):
-        return list(lines)
-    return [
-        {**line, "temperature": replace(found, state="default", value=_MELTING)}
-        if (found := line["temperature"]).state == "blank"
-        else line
-        for line in lines
-    ]
+def _check_temperatures(lines: list[Row], findings: list[Finding]) -> None:
+    """Refuse temperatures of some layers of a row only: the others would be unknown."""
+    states = {line["temperature"].state for line in lines}
+    if "given" not in states or "blank" not in states:
+        return
+    empty = next(line for line in lines if line["temperature"].state == "blank")
+    rule = say("layer.temperature_lacks")
+    refuse(empty["temperature"], rule, say("layer.all_or_none"), findings)
 
 
 _MOST_LISTED = 8  # days in one remark

@@ -56,14 +56,6 @@ def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, sa
     )
 
 
-def test_a_layer_without_a_temperature_melts_beside_others_that_have_one(layered, save):
-    """So no temperature that somebody types makes it creep faster."""
-    layered["Snow"][1][4] = -3.7
-    row = read_site(save(layered)).rows[0]
-    found = [one.temperature for one in row.layers]
-    assert found == pytest.approx([269.45, 273.15, 273.15])
-
-
 @pytest.mark.parametrize(
     ("cell", "value", "place", "rule"),
     [
@@ -77,6 +69,7 @@ def test_a_layer_without_a_temperature_melts_beside_others_that_have_one(layered
         ((3, 2), 0.02, "Snow!C4", "is below 2% of the snowpack"),
         ((1, 3), "4OO", "Snow!D2", "is not a number"),
         ((1, 3), 899, "Snow!D2", "begins layers of mean density"),
+        ((1, 4), -3, "Snow!E3", "is empty beside layers with a temperature"),
         ((1, 4), 3, "Snow!E2", "is out of range"),
     ],
 )
