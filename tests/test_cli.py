@@ -176,8 +176,9 @@ def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
     assert row.endswith("Report G-17")
     assert proof in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     book = read_workbook((tmp_path / "out" / "report.xlsx").read_bytes())
-    cells = [cell.value for line in book["Decision"].iter_rows() for cell in line]
-    assert any(proof in str(cell) for cell in cells)
+    for sheet, part in (("Decision", "Report G-17"), ("Checks", proof)):
+        cells = [cell.value for line in book[sheet].iter_rows() for cell in line]
+        assert any(part in str(cell) for cell in cells), sheet
     again = call_program("report", "out/study.json", "--out", "again", cwd=tmp_path)
     assert again.code == 6, again.err
 

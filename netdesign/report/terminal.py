@@ -26,7 +26,6 @@ from netdesign.report.sections.checks import (
 )
 from netdesign.report.sections.open_points import (
     list_conditions,
-    list_open_points,
     show_line,
 )
 from netdesign.report.sections.scopes import (
@@ -45,7 +44,7 @@ from netdesign.report.words import (
 from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import SCOPES
-from netdesign.study.to_do import WHO, list_to_do
+from netdesign.study.to_do import MOST_LINES, WHO, list_to_do
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name
 
@@ -181,18 +180,14 @@ def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
         yield words("show.label", label=floor, text=describe_floor(study, words))
     for one in list_additions(study):
         yield from one.list_lines(study, words)
-    yield from _list_to_do(study, words)
+    yield from _list_to_do(study, words, MOST_LINES if is_short else None)
     yield from list_conditions(study, words)
-    if is_short:
-        return
-    points = list(list_open_points(study, words))
-    for number, point in enumerate(points, 1):
-        yield words("show.open_point", number=number, point=point)
+    yield from list_exceeding(study, words)
 
 
-def _list_to_do(study: Study, words: Words) -> Iterator[str]:
+def _list_to_do(study: Study, words: Words, most: int | None) -> Iterator[str]:
     """What is to be done, by who has it: his name before his first line."""
-    lines = list_to_do(study)
+    lines = list_to_do(study, most)
     names = {who: words.show(name("who", who)) for who in WHO}
     width = max((len(names[one.who]) for one in lines), default=0)
     for who in WHO:

@@ -62,13 +62,15 @@ class _Point:
     point: Open | None
 
 
-def list_to_do(study: Study) -> tuple[ToDo, ...]:
-    """Lines of a study, the gravest first, at most `MOST_LINES`.
+def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
+    """Lines of a study, the gravest first.
 
     Parameters
     ----------
     study : Study
         Of any verdict; one that passes may have none.
+    most : int or None
+        Largest number of lines, of which the last then counts the others; None: all.
     """
     points = [one for row in study.rows for one in _list_points(row)]
     lines: dict[tuple[str, ...], list[_Point]] = {}
@@ -80,14 +82,14 @@ def list_to_do(study: Study) -> tuple[ToDo, ...]:
         ToDo(who="office", text=reason, rows=tuple(ids))
         for reason, ids in _list_unmet(study).items()
     ]
-    return _shorten(every)
+    return tuple(every) if most is None else _shorten(every, most)
 
 
-def _shorten(lines: Sequence[ToDo]) -> tuple[ToDo, ...]:
+def _shorten(lines: Sequence[ToDo], most: int) -> tuple[ToDo, ...]:
     """Lines of which the last one counts those that have no room."""
-    if len(lines) <= MOST_LINES:
+    if len(lines) <= most:
         return tuple(lines)
-    kept, rest = lines[: MOST_LINES - 1], lines[MOST_LINES - 1 :]
+    kept, rest = lines[: most - 1], lines[most - 1 :]
     ids = tuple(dict.fromkeys(row for one in rest for row in one.rows))
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*kept, more)
