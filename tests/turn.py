@@ -69,7 +69,7 @@ def use(check, utilisation):
 
 
 def _turn_bare(check, verdict, utilisation, told):
-    if "μ" not in check.known:
+    if "μ" not in check.step_of:
         met = Verdict.PASS if verdict is Verdict.DECLARED else verdict
         return replace(check, met=met, finding=told or check.finding)
     if utilisation != AS_IT_IS:

@@ -230,18 +230,18 @@ class Check:
     eased: float | None = None
 
     @cached_property
-    def known(self) -> dict[str, Step]:
+    def step_of(self) -> dict[str, Step]:
         """Steps by their symbols."""
         return {step.symbol: step for step in self.steps}
 
     def read(self, symbol: str) -> float | None:
         """Value of a step, in its unit; None where it is missing."""
-        step = self.known.get(symbol)
+        step = self.step_of.get(symbol)
         return step.value if step else None
 
     def read_band(self, symbol: str) -> tuple[float | None, float | None]:
         """Low and high end of a step."""
-        step = self.known.get(symbol)
+        step = self.step_of.get(symbol)
         return (step.ends[0], step.ends[2]) if step else (None, None)
 
     @property
@@ -284,7 +284,7 @@ class Check:
     @property
     def utilisation_by_model(self) -> float | None:
         """Utilisation by the coupled calculation alone [-]; None where not known."""
-        if "E_c" in self.known or not self.is_of_force:
+        if "E_c" in self.step_of or not self.is_of_force:
             return self._rate("cpt")
         used = self.utilisation  # of a rope, which the guideline may have raised
         return None if used is None else used / (self.read("φ_g") or 1.0)
@@ -292,7 +292,7 @@ class Check:
     @property
     def utilisation_by_guideline(self) -> float | None:
         """Utilisation by the guideline's load alone [-]; None where not known."""
-        return self.utilisation if "φ_g" in self.known else self._rate("g")
+        return self.utilisation if "φ_g" in self.step_of else self._rate("g")
 
     @property
     def exceeds_by_model(self) -> bool:
@@ -403,16 +403,16 @@ class Check:
     @property
     def is_of_force(self) -> bool:
         """It compares a force that is known with a resistance."""
-        return self._has_section or bool({"T_r", "T_b"} & self.known.keys())
+        return self._has_section or bool({"T_r", "T_b"} & self.step_of.keys())
 
     @property
     def _has_section(self) -> bool:
-        return f"{self._letter}_s" in self.known
+        return f"{self._letter}_s" in self.step_of
 
     @property
     def _letter(self) -> str:
         """Letter of the force on the support: of a base that slides, V across it."""
-        return "V" if "V_k" in self.known else "E"
+        return "V" if "V_k" in self.step_of else "E"
 
     def name_force(self, load: str) -> str:
         """Symbol of a force on the support: of a base that slides, that across it.
@@ -421,7 +421,7 @@ class Check:
         that of the section is E_k itself.
         """
         symbol = f"{self._letter}_{load}"
-        is_alone = load == "c" and symbol not in self.known
+        is_alone = load == "c" and symbol not in self.step_of
         return f"{self._letter}_k" if is_alone else symbol
 
     def _find_high(self, load: str) -> float:
@@ -435,9 +435,9 @@ class Check:
     @property
     def is_by_guideline_alone(self) -> bool:
         """The profile lets the guideline's load decide, whatever the model says."""
-        action = self.known.get(f"{self._letter}_k")
+        action = self.step_of.get(f"{self._letter}_k")
         coupled = f"{self._letter}_c"
-        if action is None or not action.formula or coupled not in self.known:
+        if action is None or not action.formula or coupled not in self.step_of:
             return False
         return coupled not in dict(list_operands(action.formula, 1))
 
@@ -465,25 +465,25 @@ class Check:
     @property
     def reason(self) -> Message:
         """Why it has its verdict, in one sentence, with the load that governs."""
-        loads = [load for load in "cptgm" if self.name_force(load) in self.known]
+        loads = [load for load in "cptgm" if self.name_force(load) in self.step_of]
         is_alone = len(loads) < 2 or not self._has_section
         if is_alone or not any(map(self._find_high, loads)):
-            return self.told
+            return self.plain_reason
         load = say(f"load.{self.governs}", case=name("load_case", self.load_case))
-        return say("load.reason", reason=self.told, load=load)
+        return say("load.reason", reason=self.plain_reason, load=load)
 
     @property
-    def told(self) -> Message:
+    def plain_reason(self) -> Message:
         """The reason without the load that governs."""
-        reason = self._tell_found()
+        reason = self._explain()
         if self.declared is None:
             return reason
         is_failed = self.verdict is Verdict.FAIL
         key = "check.fails_though_declared" if is_failed else "check.declared"
         return say(key, reason=reason, proof=self.declared.describe())
 
-    def _tell_found(self) -> Message:
-        """What numbers and open points say, without a proof elsewhere.
+    def _explain(self) -> Message:
+        """The reason by numbers and open points, without a proof elsewhere.
 
         Without digits, so that rounding cannot contradict it.
         """

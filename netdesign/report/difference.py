@@ -369,7 +369,7 @@ def _read_value(check: Check, key: str) -> Any:
     """
     if key in _OF_STEPS:
         symbol, end = _OF_STEPS[key]
-        step = check.known.get(symbol)
+        step = check.step_of.get(symbol)
         return step.ends[end] if step else None
     value = getattr(check, key)
     if key == "utilisation" and check.is_unbounded:

@@ -147,7 +147,7 @@ class _BestEnds:
         if end is None or one.check.member in ROPE_OF:
             return False
         may_slide = one.width.position == "second" and end.ropes_slide is None
-        is_pulled = not _PULLS.isdisjoint(one.check.known)
+        is_pulled = not _PULLS.isdisjoint(one.check.step_of)
         return is_pulled and (may_slide or self._are_sags_assumed)
 
     def _take_off_ropes(self, one: MemberCheck) -> Check:

@@ -293,5 +293,5 @@ def _list_solved(check: Check) -> Iterator[float]:
     for force in map(check.read, symbols):
         if force is not None:
             yield force
-    if "E_g" not in check.known and (force := check.read("E_k")) is not None:
+    if "E_g" not in check.step_of and (force := check.read("E_k")) is not None:
         yield force

@@ -116,7 +116,7 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
         if check.verdict is Verdict.FAIL or is_spanning:
             key: tuple[str, ...] = ("fails", check.verdict, check.member)
             if not check.is_of_force:
-                key = ("open", check.told.key)
+                key = ("open", check.plain_reason.key)
             yield _Point(who="office", key=key, row=row.id, check=check, point=None)
         elif check.verdict is not Verdict.PASS:
             yield from _list_open(row.id, check)
@@ -187,7 +187,9 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     if worst.point is None:
         if check.is_of_force:
             return say("to_do.spans", checks=checks)
-        return say("to_do.open", checks=checks, reason=shorten_reason(check.told))
+        return say(
+            "to_do.open", checks=checks, reason=shorten_reason(check.plain_reason)
+        )
     if kind == "lowers":
         told = (x.point.message.arguments["name"] for x in group if x.point)
         names = (name for name in told if isinstance(name, Message))
@@ -207,7 +209,7 @@ def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
     """Force beside resistance, and the type that does, where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
-        reason = shorten_reason(check.told)
+        reason = shorten_reason(check.plain_reason)
         return say("to_do.open", checks=checks, reason=reason)
     told = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
     other = next((one for one in check.changes if one.sense == "has"), None)

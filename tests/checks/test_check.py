@@ -117,10 +117,10 @@ def test_numbers_of_a_check_are_action_times_and_resistance_over_factor():
     assert result.read("E_k") == 100.0
     factors = result.read("γ_E"), result.read("γ_R")
     assert factors == (1.5, 1.25)
-    assert result.known["E_d"].ends == (135.0, 150.0, 180.0)
+    assert result.step_of["E_d"].ends == (135.0, 150.0, 180.0)
     assert result.read("R_k") == 500.0
     assert result.read("R_d") == 400.0
-    assert result.known["μ"].ends == (0.3375, 0.375, 0.45)
+    assert result.step_of["μ"].ends == (0.3375, 0.375, 0.45)
     assert result.verdict is Verdict.PASS
 
 
@@ -274,7 +274,7 @@ def test_slack_member_without_resistance_or_factor_is_not_proven(resistance, sta
 def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
     result = check_member(a_force(0.0), a_resistance(7e3), plain_standard())
     assert result.verdict is Verdict.PASS
-    assert result.known["μ"].ends == (0.0, 0.0, 0.0)
+    assert result.step_of["μ"].ends == (0.0, 0.0, 0.0)
     assert "slack in every case" in str(result.reason)
 
 

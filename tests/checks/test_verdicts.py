@@ -213,7 +213,7 @@ def test_open_points_leave_numbers_as_they_are_and_are_all_told(
     assert doubted.utilisation_band == plain.utilisation_band
     assert ORDER.index(doubted.verdict) <= ORDER.index(plain.verdict) or kinds
     if not doubted.is_unbounded:
-        told = str(doubted.told)
+        told = str(doubted.plain_reason)
         elsewhere = OpenKind.PROVEN_ELSEWHERE
         assert all(one in told for one in kinds if one is not elsewhere)
 

@@ -88,7 +88,7 @@ def test_checks_agree(page, book):
             assert (line.resistance or "-") == describe_resistance(check, ENGLISH)
             assert ENGLISH.show(check.reason) in line.told
             if check.verdict is not Verdict.PASS and (check.open or check.gaps):
-                assert ENGLISH.show(check.told) in told(page)
+                assert ENGLISH.show(check.plain_reason) in told(page)
 
 
 def test_every_step_of_the_page_stands_in_the_workbook(page, book):

@@ -42,7 +42,7 @@ def list_reasons(check):
 
 
 def test_no_part_fails_by_a_pull_of_assumed_sag_alone(checks):
-    pulled = [one for one in checks if {"T_r", "T_b", "E_t"} & one.known.keys()]
+    pulled = [one for one in checks if {"T_r", "T_b", "E_t"} & one.step_of.keys()]
     beyond = [one for one in pulled if (one.utilisation or 0.0) > 1.0]
     assert len(beyond) > 10
     for check in beyond:

@@ -77,7 +77,7 @@ def test_forces_are_the_floor_of_the_checks(solved, profile):
     rows = list_guideline_forces(SITE, profile)
     for found, row in zip(rows, study.rows, strict=True):
         for check in row.checks:
-            if check.member not in ANCHORS or "E_g" not in check.known:
+            if check.member not in ANCHORS or "E_g" not in check.step_of:
                 continue
             force = found.find(check.member, check.position).guideline_kN
             assert force == pytest.approx(check.read("E_g"), rel=EXACT, abs=1e-12)

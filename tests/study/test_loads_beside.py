@@ -48,7 +48,9 @@ def state(**forces):
 
 
 def list_anchor_checks(row):
-    return [one for one in list_of_scope(row.checks, Scope.ANCHORS) if "μ" in one.known]
+    return [
+        one for one in list_of_scope(row.checks, Scope.ANCHORS) if "μ" in one.step_of
+    ]
 
 
 @pytest.mark.parametrize("anchor", FORCES)
@@ -59,12 +61,12 @@ def test_the_larger_of_the_makers_force_and_ours_is_the_demand(judge, anchor):
     )
     row = judge(approval=state(**{anchor: 1.43 * largest}))
     for before, after in zip(own.checks, row.checks, strict=True):
-        if before.member != anchor or "μ" not in before.known:
+        if before.member != anchor or "μ" not in before.step_of:
             assert before == after or after.mode == "connection"
         elif after.position == "intermediate":
             assert after.governs == "maker"
             assert after.read("E_k") == pytest.approx(1.43 * largest, rel=1e-12)
-            assert after.known["E_m0"].source == "Net types!H4"
+            assert after.step_of["E_m0"].source == "Net types!H4"
             assert after.utilisation_by_model == before.utilisation_by_model
     small = judge(approval=state(**{anchor: 1e-3}))
     for before, after in zip(own.checks, small.checks, strict=True):
@@ -118,7 +120,7 @@ def test_the_smaller_demand_decides_on_nothing_but_the_models_part(
     }
     larger, guided = judge(**changes), judge(BY_GUIDELINE, **changes)
     for one, other in zip(larger.checks, guided.checks, strict=True):
-        if "E_g" not in one.known:
+        if "E_g" not in one.step_of:
             continue
         floors = max(one.read("E_g"), one.read("E_m") or 0.0)
         assert other.read("E_k") == pytest.approx(floors, rel=1e-12)

@@ -271,7 +271,7 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     slack = find_member_force(Member.DOWNHILL_GUY, none, width)
     assert slack.action.high == 0.0
     found = check_alone(slack, case)
-    assert found.reason == found.told
+    assert found.reason == found.plain_reason
 
 
 def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):

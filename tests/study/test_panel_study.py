@@ -189,7 +189,7 @@ def draw_row(rng, number):
 
 
 def _list_ends(check):
-    return check.known["E_d"].ends
+    return check.step_of["E_d"].ends
 
 
 @each("seed", range(6))

@@ -110,7 +110,7 @@ def describe_cause(check: Check, words: Words) -> str:
         return words("show.exceeds", demand=demand, resistance=resistance)
     if check.gaps:
         return words.join(map(words.show, check.gaps))
-    return words.show(shorten_reason(check.told))
+    return words.show(shorten_reason(check.plain_reason))
 
 
 def _show_apart(

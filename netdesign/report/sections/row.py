@@ -272,7 +272,7 @@ class RowPage:
         others: dict[tuple[Verdict, str], list[Check]] = {}
         for one in checks:
             if one.verdict is not Verdict.PASS:
-                reason = "" if _says_all(one) else t.show(one.told)
+                reason = "" if _says_all(one) else t.show(one.plain_reason)
                 others.setdefault((one.verdict, reason), []).append(one)
         told: list[Content] = []
         for (verdict, reason), shared in list(others.items())[:_MOST_REASONS]:
