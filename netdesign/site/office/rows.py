@@ -25,11 +25,8 @@ from netdesign.words.message import say
 
 Dips = Mapping[tuple[str, str], Reading]
 _ENDS = 2  # of a row
-# Columns of a net type that a row shows beside those of sheet Nets.
-_STATED = (
-    *("approval", "glide_most", "altitude_most", "spacing_most"),
-    *("maker_foot", "maker_uphill", "maker_downhill"),
-)
+# Columns of which a row shows what they are turned into; of all others the cell itself.
+_TURNED = ("snow", "end_anchor", "end_guy", "end_guy_angle", "ropes_at_supports")
 _AXES = {
     "foot_axis": (Member.FOOT_ANCHOR, "foot_anchor"),
     "uphill_axis": (Member.UPHILL_ANCHOR, "uphill_anchor"),
@@ -150,8 +147,11 @@ def join_rows(
         )
         if not net:  # a finding already
             row["net_height"] = replace(row["net_height"], state="faulty")
-        stated = {key: net[key] for key in _STATED if key in net}
-        rows.append({**row, "net_type": line["net_type"], **stated})
+        row["net_type"] = line["net_type"]
+        typed = {**net, **line}
+        rows.append(
+            row | {key: typed[key] for key in typed if key not in (*row, *_TURNED)}
+        )
     return rows
 
 

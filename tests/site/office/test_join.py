@@ -1,13 +1,16 @@
 """Rows and net types, joined: what is typed is what a net row has."""
 
 import math
+from dataclasses import replace
 
 import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.office.rows import find_slack
+from netdesign.site.columns.office import load_columns
+from netdesign.site.office.rows import find_slack, join_rows
 from netdesign.site.reader import read_site
+from netdesign.site.readings import read_nothing
 from tests.each import each
 from tests.site.office.books import write_office
 from tests.site.office.drawn import draw_tables
@@ -302,3 +305,17 @@ def test_the_ground_of_the_wedge_is_that_of_the_type(tmp_path):
     site = write_and_read(tmp_path / "site.xlsx", tables)
     soil = dict(site.rows[0].anchors)["foot_anchor"].soil
     assert (soil.cohesion, soil.weight) == (5e3, 20e3)
+
+
+TURNED = {"snow", "end_anchor", "end_guy", "end_guy_angle", "ropes_at_supports"}
+
+
+def test_a_row_shows_every_column_of_its_line_and_of_its_net_type():
+    """Also a column of `office.toml` that nothing calculates with."""
+    line, net, project = (
+        {one.field.key: read_nothing(one.field, None) for one in load_columns(table)}
+        for table in ("rows", "net_types", "project")
+    )
+    line["aspect"] = read_nothing(replace(line["id"].field, key="aspect"), None)
+    (row,) = join_rows([line], {"": net}, {}, project, {}, "", [])
+    assert {*line, *net} - row.keys() == TURNED
