@@ -47,10 +47,14 @@ def run(line, folder):
 
 
 def find_missing(shown, printed):
-    """Pieces of an excerpt that no output has; ``...`` stands for lines left out."""
+    """Pieces of an excerpt that no output has.
+
+    A line ``...`` stands for lines that are left out, ``…`` for a part of a line.
+    """
     text = "\n".join(["", *printed, ""])
     pieces = re.split(r"^\.\.\.\n", shown, flags=re.MULTILINE)
-    return [piece for piece in pieces if f"\n{piece}" not in text]
+    patterns = [re.escape(piece).replace("…", ".*") for piece in pieces]
+    return [one for one in patterns if not re.search(f"\n{one}", text)]
 
 
 def write_cell(path, part):
