@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 # 3,200 objects, a case 520 bytes, 13 values and 2 objects.
 MAX_JSON_BYTES = 704 * 2**20
 MAX_VALUES = 24_000_000
-MAX_OBJECTS = 4_000_000
+MAX_OBJECTS = 5_000_000
 _SMALL = 20_000  # values
 _MOST_KEYS = 200  # of one object
 _NEXT = ",\n"  # between items
