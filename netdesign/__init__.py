@@ -44,6 +44,7 @@ __all__ = [
     "RowTask",
     "Runner",
     "Scene",
+    "Scope",
     "SearchSettings",
     "Season",
     "Site",

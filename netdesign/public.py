@@ -50,3 +50,4 @@ from netdesign.structure.anchors import AnchorForces as AnchorForces
 from netdesign.structure.head import FailedSupport as FailedSupport
 from netdesign.structure.layout import SupportLayout as SupportLayout
 from netdesign.study.records import Study as Study
+from netdesign.study.scopes import Scope as Scope
