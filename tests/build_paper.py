@@ -51,9 +51,7 @@ def build_run(case, size):
         lower=node,
         upper=node,
         heights=(1.0, 3.0),
-        density=np.full(101, 0.45),
         plateau=index,
-        ended=None,
     )
     at_rest = None if index is None else float(foot[index])
     return PaperRun(

@@ -14,7 +14,7 @@ def test_the_doctor_names_versions_and_finds_the_program_sound(call):
     assert document["sound"] is True
     assert shown["netdesign"]["shows"] == __version__
     assert {"numpy", "OMP_NUM_THREADS", "BLAS", "solver"} <= set(shown)
-    assert shown["site workbook"]["shows"].endswith("7 net rows")
+    assert shown["site workbook"]["shows"].endswith("8 net rows")
 
 
 def test_the_doctor_says_where_the_store_is_and_how_large(call, monkeypatch, tmp_path):
