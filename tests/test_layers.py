@@ -90,7 +90,6 @@ THIRD_PARTY = {
             "addons.terrain.*",
         ),
         "addons.evidence.*",
-        "study.record_support",
         "commands.doctor",
     ),
     "scipy": (

@@ -15,12 +15,12 @@ from netdesign.core.library import name_core
 from netdesign.coupling.solution import Solution
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.panel_forces import PanelForces
-from netdesign.envelope.ranges import build_case
+from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.scene import GivenSupport
 from netdesign.panel.solve import EndForces, RopeForces, compute_end_forces
-from netdesign.search.maxima import Addition
+from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
@@ -28,7 +28,6 @@ from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
 from netdesign.study.record_envelope import (
-    record_envelope,
     record_largest,
     show_case,
     show_coincident,
@@ -62,12 +61,15 @@ def write_envelope_document(
     language : str
         Of the reason.
     """
-    record, extremes = record_envelope(envelope), envelope.extremes
+    task, extremes = envelope.task, envelope.extremes
+    spans = ((PARAMETERS[name], span) for name, span in task.ranges.intervals)
     return {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
-        "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
+        "ranges": {
+            one.key: [one.show(span.low), one.show(span.high)] for one, span in spans
+        },
         "extremes": [
             _write_bound(envelope, extremes[member], language)
             for member in QUANTITY_KEYS
@@ -76,15 +78,15 @@ def write_envelope_document(
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
-            "skipped": record.skipped,
-            "failed": record.failed,
-            "asked": record.cases,
-            "skips_tested": record.skips_tested,
+            "skipped": envelope.skipped,
+            "failed": sum(not one.is_converged for one in envelope.results),
+            "asked": len(envelope.results),
+            "skips_tested": envelope.skips_tested,
         },
         "bound": {
-            "gap_asked": envelope.task.search.gap,
-            "certainty": record.certainty,
-            "resolved_share": record.resolved_share,
+            "gap_asked": task.search.gap,
+            "certainty": task.search.certainty,
+            "resolved_share": RESOLVED_SHARE,
             "rests_on": render(say("envelope.rests_on"), language),
         },
         "log": [_write_addition(envelope, case) for case in envelope.maxima.log],
@@ -157,7 +159,7 @@ def write_grid_document(
 def _write_bound(
     envelope: RowEnvelope, extreme: Extreme, language: Language
 ) -> dict[str, Any]:
-    force = record_largest(extreme, envelope, tuple(QUANTITY_KEYS))
+    force = record_largest(extreme, envelope)
     confirmation, bound = None, force.bound_kN
     if force.confirmed is not None:
         reason = render(force.confirmed.reason or "", language)

@@ -1,4 +1,4 @@
-"""Records of cases, forces, the guideline's loads and the searched envelope."""
+"""Records of cases, forces and the guideline's loads."""
 
 from __future__ import annotations
 
@@ -8,15 +8,6 @@ from netdesign.checks.check import CasePoint
 from netdesign.edge.json_text import Items
 from netdesign.outcome import Outcome
 from netdesign.words.message import Text
-
-
-@dataclass(frozen=True, kw_only=True)
-class AxisRecord:
-    """One quantity that ranges; unit in its key."""
-
-    key: str  # "density_kg_m3"
-    low: float
-    high: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,23 +36,7 @@ class LargestForce:
     high_kN: float
     bound_kN: float  # value with what may hide
     case: CasePoint
-    beside_kN: dict[str, float]  # the members' forces in that case
     confirmed: ConfirmationRecord | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class EnvelopeRecord:
-    """Search for the largest forces of a net row, and what may hide."""
-
-    axes: Items[AxisRecord]
-    is_closed: bool  # every gap is within the one asked for
-    gap_asked_percent: float
-    certainty: float  # standard errors in an upper bound
-    resolved_share: float  # narrower features may hide, as a share of a range
-    cases: int
-    skipped: int  # known without a solve, since the snow stuck with less friction
-    skips_tested: int
-    failed: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +52,6 @@ class CaseRecord:
     post_kN: float | None
     error_percent: float | None  # estimated, of the worst of the four
     balance_residual: float | None  # relative to the weight
-    is_calibrated: bool = True  # the creep law is given for this density
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +66,6 @@ class GuidelineCase:
     foot_anchor_kN: float | None
     uphill_guy_kN: float | None
     post_kN: float | None
-    load_difference_percent: float | None  # of the coupled solve against this
-    foot_difference_percent: float | None
     reason: Text | None = None  # why a force is None
     density_kg_m3: float
     height_vertical_m: float
@@ -107,8 +79,6 @@ class GuidelineCase:
 class GuidelineRecord:
     """Independent check of a row by the guideline's load model."""
 
-    profile: str  # whose numbers
-    sha256: str
     case: CasePoint  # of the coupled solve
     solved_load_kN_per_m: float  # along the slope on the net
     solved_foot_anchor_kN: float
@@ -150,7 +120,6 @@ class FloorRecord:
     """Forces that no demand of a row lies below, by the guideline's load cases."""
 
     profile: str  # whose load model
-    sha256: str
     forces: Items[FloorForceRecord]  # empty where the floor is not available
     altitude_factor: float  # on the density of load case 1
     assumed: Items[Text] = field(default_factory=list)  # of the row, for its load

@@ -21,20 +21,12 @@ from netdesign.study.notes import (
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
-from netdesign.study.record_envelope import (
-    record_case,
-    record_envelope,
-)
+from netdesign.study.record_drawn import record_drawing, record_independent
+from netdesign.study.record_envelope import record_case
 from netdesign.study.record_guideline import (
     record_guideline,
 )
-from netdesign.study.record_independent import record_independent
-from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_provenance import record_profile, record_provenance
-from netdesign.study.record_support import (
-    record_drawn,
-    record_panel,
-)
 from netdesign.study.records import (
     SCHEMA,
     ModelFormRecord,
@@ -50,6 +42,7 @@ from netdesign.study.row_checks import (
 from netdesign.study.row_knowledge import Variant, know_variants
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.scopes import record_assumed
+from netdesign.study.support_records import PanelRecord
 
 
 def judge_site(
@@ -133,43 +126,42 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     worst = _find_worst_variant(found, variants)
     found, model_form = _ask_other_models(worst.task, found)
     checks, known, extremes = found.checks, worst.known, worst.task.extremes
-    cases = [record_case(one, run.creep_law, row) for one in task.solved.results]
+    cases = [record_case(one) for one in task.solved.results]
     governing = _governing_result(find_worst(checks), worst.task)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    share = known.effects.lateral_share
-    drawing, anchors, head = record_drawn(known.row, governing, share)
-    independent = record_independent(governing, head)
-    panel = record_panel(row, worst.task.solved.results, extremes, governing)
-    notes = list_judged_notes(known, checks, cases, panel)
     return RowStudy(
         id=row.id,
         checks=checks,
         cases=cases,
         inputs=list(row.inputs),
         parts=list_parts(known.row, task.site.ranges["inclination"]),
-        drawing=drawing,
+        drawing=record_drawing(known.row, governing),
         questions=list(row.questions),
         assumed=[record_assumed(one) for one in row.assumed if not one.is_typed],
-        monitoring=record_monitoring(task.site, row),
-        anchors=anchors,
         pulls=list(known.pulls),
-        head=head,
-        independent=independent,
+        independent=record_independent(known.row, governing),
         forces=list(known.largest.values()),
         guideline=record_guideline(known.row, foot, task.standard),
         floor=known.floor,
         model_form=model_form,
-        panel=panel,
-        notes=notes,
+        panel=_record_panel(row),
+        notes=list_judged_notes(known, checks, cases, governing),
         held_sideways=known.along_row,
         tilt=known.tilt,
         end_guy=known.at_end,
-        envelope=record_envelope(task.solved),
         reliability=_find_reliability(worst, found, run),
         conditions=merge_conditions(
             one for each in variants for one in list_conditions(each.known)
         ),
     )
+
+
+def _record_panel(row: NetRow) -> PanelRecord | None:
+    """Panel between two posts of a row; None without one."""
+    if not row.panels:
+        return None
+    has_mid_anchors = row.panels[0].has_mid_anchors
+    return PanelRecord(has_mid_anchors=has_mid_anchors, assumed=list(row.panel_assumed))
 
 
 def _find_worst_variant(found: RowChecks, variants: Sequence[Variant]) -> Variant:

@@ -16,11 +16,10 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
     load_glide_tables,
 )
-from netdesign.structure.members import Member
 from netdesign.study.record_envelope import record_point
 from netdesign.study.records import ModelFormRecord, VariantRecord
-from netdesign.study.row_to_check import CaseSolver, is_calibrated
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.study.row_to_check import CaseSolver
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message
 
 
@@ -59,27 +58,19 @@ def record_model_form(
     own = result.member_forces.get(member)
     if own is None or not own.value > 0.0:
         return None
-    before = solver.count
     placed, case = row.at(result.case), replace(result.case, others=())
     others = [law for law in CREEP_LAWS.values() if law.name != solver.law.name]
     variants = [_place(law, placed) for law in others]
     results = _solve(solver, placed, case, variants)
     records = [
-        _record(one, found, placed, case, member, own.value)
+        _record(one, found, member, own.value)
         for one, found in zip(variants, results, strict=True)
     ]
-    ratios = [1.0, *(one.ratio for one in records if one.ratio is not None)]
-    low, high, used = min(ratios), max(ratios), check.utilisation
     return ModelFormRecord(
         case=record_point(result.case),
         member=member,
         force_kN=kilonewton_from_newton(own.value),
-        low_ratio=low,
-        high_ratio=high,
-        utilisation=used,
-        utilisation_low=None if used is None else used * low,
-        utilisation_high=None if used is None else used * high,
-        solves=solver.count - before,
+        utilisation=check.utilisation,
         variants=records,
     )
 
@@ -120,8 +111,6 @@ def _solve(
 def _record(
     one: _Variant,
     found: CaseResult | None,
-    row: NetRow,
-    case: Case,
     member: str,
     own: float,
 ) -> VariantRecord:
@@ -132,11 +121,6 @@ def _record(
         reason = found.reason
     return VariantRecord(
         creep_law=one.law.name,
-        slip_length_m=one.ground.slip_length or None,
-        is_calibrated=is_calibrated(one.law, row, case.density),
-        foot_anchor_kN=kilonewton_if_known(values.get(Member.FOOT_ANCHOR)),
-        uphill_guy_kN=kilonewton_if_known(values.get(Member.UPHILL_GUY)),
-        post_kN=kilonewton_if_known(values.get(Member.POST)),
         ratio=values[member] / own if member in values else None,
         reason=reason,
     )

@@ -13,7 +13,9 @@ from netdesign.checks.check import Check
 from netdesign.checks.comparison import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -27,7 +29,7 @@ from netdesign.study.posts import find_snow_pressure
 from netdesign.study.pulls import USUAL_DIP, may_share
 from netdesign.study.records import RowStudy
 from netdesign.study.sideways import GUYS, place_row
-from netdesign.study.support_records import PanelRecord, PullRecord
+from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
@@ -93,15 +95,14 @@ def _describe_other_laws(rows: Sequence[RowStudy]) -> Iterator[Message]:
     found = {row.id: row.model_form for row in rows if row.model_form}
     if not found:
         return
-    low = min(one.low_ratio for one in found.values())
-    high = max(one.high_ratio for one in found.values())
+    low = min(one.ratios[0] for one in found.values())
+    high = max(one.ratios[1] for one in found.values())
     yield say("note.other_laws", low=100.0 * (low - 1.0), high=100.0 * (high - 1.0))
     turned = [
         row
         for row, one in found.items()
         if one.utilisation is not None
-        and one.utilisation_high is not None
-        and one.utilisation <= 1.0 < one.utilisation_high
+        and one.utilisation <= 1.0 < one.utilisation * one.ratios[1]
     ]
     if turned:
         yield say("note.turned_by_law", rows=tuple(turned))
@@ -145,9 +146,9 @@ def list_judged_notes(
     known: RowForces,
     checks: Sequence[Check],
     cases: Sequence[CaseRecord],
-    panel: PanelRecord | None,
+    drawn: CaseResult | None,
 ) -> list[Message]:
-    """Notes of a row that follow from its inputs, its checks and its cases."""
+    """Notes of a row by its inputs, checks and cases, of which one is drawn."""
     row, ranges, standard = known.row, known.site.ranges, known.standard
     return [
         *list_row_notes(known),
@@ -159,7 +160,7 @@ def list_judged_notes(
         *_list_tube_notes(checks),
         *_list_weak_tendons(checks),
         *list_guy_notes(row, ranges, checks, standard),
-        *list_sag_notes(row, panel),
+        *_list_sag_notes(row, drawn),
         *list_case_notes(cases),
     ]
 
@@ -384,11 +385,12 @@ def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
     return max(found) * math.cos(row.guys.splay or 0.0)
 
 
-def list_sag_notes(row: NetRow, panel: PanelRecord | None) -> Iterator[Message]:
+def _list_sag_notes(row: NetRow, drawn: CaseResult | None) -> Iterator[Message]:
     """Height of the loaded net between two posts, in the case that is drawn."""
-    if panel is None or panel.drawing is None:
+    panel = drawn.panel if drawn else None
+    if row.panel_assumed or not isinstance(panel, PanelForces):
         return
-    height = panel.drawing.mid_net_m[-1][1]
+    height = float(panel.solution.curves[-1][1, -1])  # of the head, in mid-panel
     yield say(
         "row.loaded_net",
         height=height,

@@ -9,18 +9,12 @@ from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.search.maxima import RESOLVED_SHARE
-from netdesign.site.model import NetRow
-from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import (
-    AxisRecord,
     CaseRecord,
     ConfirmationRecord,
-    EnvelopeRecord,
     LargestForce,
 )
-from netdesign.study.row_to_check import is_calibrated
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 
 
@@ -47,7 +41,7 @@ def read_point(point: CasePoint) -> Case:
     )
 
 
-def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
+def record_case(result: CaseResult) -> CaseRecord:
     """Outcome and forces of a solved case."""
     forces = {
         f"{member}_kN": kilonewton_if_known(
@@ -62,7 +56,6 @@ def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
-        is_calibrated=is_calibrated(law, row, result.case.density),
         **forces,
     )
 
@@ -75,11 +68,7 @@ def _largest_error_percent(result: CaseResult) -> float | None:
     return 100.0 * max(pull.error / pull.size for pull in pulls)
 
 
-def record_largest(
-    extreme: Extreme,
-    envelope: RowEnvelope,
-    members: Sequence[str] = REPORTED_MEMBERS,
-) -> LargestForce:
+def record_largest(extreme: Extreme, envelope: RowEnvelope) -> LargestForce:
     """Largest force, with what may hide between the cases."""
     force = extreme.widened
     return LargestForce(
@@ -89,7 +78,6 @@ def record_largest(
         high_kN=kilonewton_from_newton(force.high),
         bound_kN=kilonewton_from_newton(extreme.upper_bound),
         case=record_point(extreme.governing.case),
-        beside_kN=show_coincident(extreme, members),
         confirmed=_record_confirmation(envelope, extreme.member),
     )
 
@@ -102,29 +90,6 @@ def show_coincident(extreme: Extreme, members: Sequence[str]) -> dict[str, float
         for member in members
         if member != extreme.member
     }
-
-
-def record_envelope(envelope: RowEnvelope) -> EnvelopeRecord:
-    """Record of the end of a search."""
-    maxima, task = envelope.maxima, envelope.task
-    return EnvelopeRecord(
-        axes=[
-            AxisRecord(
-                key=PARAMETERS[name].key,
-                low=PARAMETERS[name].show(span.low),
-                high=PARAMETERS[name].show(span.high),
-            )
-            for name, span in task.ranges.intervals
-        ],
-        is_closed=maxima.is_closed,
-        gap_asked_percent=100.0 * task.search.gap,
-        certainty=task.search.certainty,
-        resolved_share=RESOLVED_SHARE,
-        cases=len(envelope.results),
-        skipped=envelope.skipped,
-        skips_tested=envelope.skips_tested,
-        failed=sum(not result.is_converged for result in envelope.results),
-    )
 
 
 def _record_confirmation(

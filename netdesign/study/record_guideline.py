@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
 from netdesign.checks import Standard
 from netdesign.checks.schema import DIMENSIONING
+from netdesign.coupling.interface import NetState, find_net_face
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
@@ -42,7 +43,6 @@ from netdesign.study.effects import (
     list_assumed,
 )
 from netdesign.study.record_envelope import record_point
-from netdesign.study.record_support import list_pressures
 from netdesign.units import (
     given_degree_from_radian,
     kilonewton_from_newton,
@@ -126,10 +126,8 @@ def record_floor(
     """
     if floor is None:
         return None
-    standard = load_guideline()
     return FloorRecord(
-        profile=standard.id,
-        sha256=standard.sha256,
+        profile=load_guideline().id,
         forces=[_record_force(one) for one in floor.forces],
         altitude_factor=find_altitude_factor(row),
         assumed=list_assumed(row),
@@ -165,24 +163,6 @@ def list_load(one: FloorForce) -> dict[str, Any]:
     }
 
 
-def compare_forces(
-    load: float | None, forces: Mapping[str, float], solved: tuple[float, float]
-) -> dict[str, float | None]:
-    """Load [N/m] and forces [N] of a closed form, by the keys of a ``GuidelineCase``.
-
-    ``solved`` are load and force of the foot anchor of the coupled solve.
-    """
-    foot = forces.get(Member.FOOT_ANCHOR)
-    return {
-        "load_kN_per_m": kilonewton_if_known(load),
-        "foot_anchor_kN": kilonewton_if_known(foot),
-        "uphill_guy_kN": kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
-        "post_kN": kilonewton_if_known(forces.get(Member.POST)),
-        "load_difference_percent": _compare(solved[0], load),
-        "foot_difference_percent": _compare(solved[1], foot),
-    }
-
-
 _DECIMALS = 3  # of heights on the net [m]
 _OTHER_DENSITY = 0.1  # share from which another density is told as a cause
 
@@ -212,7 +192,7 @@ def record_guideline(
     if solution is None or solved is None:
         return None
     heights = solution.net_curve[1].round(_DECIMALS).tolist()
-    pairs = zip(heights, list_pressures(solution), strict=True)
+    pairs = zip(heights, _list_pressures(solution), strict=True)
     return replace(
         compare_case(row, result.case, solved, read_floor_model(standard)),
         along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
@@ -235,7 +215,6 @@ def compare_case(
     model : LoadModel
         Of the guideline.
     """
-    standard = load_guideline()
     row, (load, foot) = row.at(case), solved
     net = build_geometry(row, case.inclination)
     cases = compare_with_guideline(
@@ -249,12 +228,10 @@ def compare_case(
         ),
     )
     return GuidelineRecord(
-        profile=standard.id,
-        sha256=standard.sha256,
         case=record_point(case),
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
-        cases=[_record_case(one, net, solved) for one in cases],
+        cases=[_record_case(one, net) for one in cases],
         sentence=_explain_difference(row, case, foot, cases),
     )
 
@@ -309,9 +286,7 @@ def _name_cause(row: NetRow) -> Message:
     return say("guideline.on_free_ground" if is_free else "guideline.on_sliding_ground")
 
 
-def _record_case(
-    one: GuidelineResult, net: NetGeometry[float], solved: tuple[float, float]
-) -> GuidelineCase:
+def _record_case(one: GuidelineResult, net: NetGeometry[float]) -> GuidelineCase:
     snow, forces = one.load, one.anchors.member_forces if one.anchors else {}
     along = snow.resultant[0] if snow else None
     filled = one.case.height_vertical * math.cos(net.slope_angle) / net.net_height
@@ -324,9 +299,20 @@ def _record_case(
         glide_factor=snow.glide_factor if snow else None,
         rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
         reason=one.reason,
-        **compare_forces(along, forces, solved),
+        load_kN_per_m=kilonewton_if_known(along),
+        foot_anchor_kN=kilonewton_if_known(forces.get(Member.FOOT_ANCHOR)),
+        uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
+        post_kN=kilonewton_if_known(forces.get(Member.POST)),
     )
 
 
-def _compare(solved: float, other: float | None) -> float | None:
-    return 100.0 * (solved / other - 1.0) if other else None
+_PRESSURE_DECIMALS = 3  # [kPa]
+
+
+def _list_pressures(net: NetState) -> list[float | None]:
+    """Pressure of the snow on each net point [kPa]; None where it is not known."""
+    face = find_net_face(net)
+    values = (face.pressures[face.inner] / 1e3).round(_PRESSURE_DECIMALS).tolist()
+    before = face.inner.start
+    after = net.net_curve.shape[1] - before - len(values)
+    return [*[None] * before, *values, *[None] * after]

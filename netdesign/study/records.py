@@ -27,7 +27,6 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study import frames
 from netdesign.study.case_records import (
     CaseRecord,
-    EnvelopeRecord,
     FloorRecord,
     GuidelineRecord,
     LargestForce,
@@ -43,10 +42,8 @@ from netdesign.study.scopes import (
     sum_up_study,
 )
 from netdesign.study.support_records import (
-    AnchorRecord,
     Drawing,
     EndGuyRecord,
-    HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
     PullRecord,
@@ -63,11 +60,6 @@ class VariantRecord:
     """One other creep law on one case."""
 
     creep_law: str
-    slip_length_m: float | None  # of sliding ground: rematched where N was typed
-    is_calibrated: bool  # the set is given for this snow
-    foot_anchor_kN: float | None
-    uphill_guy_kN: float | None
-    post_kN: float | None
     ratio: float | None  # force of the governing member over that of the study's model
     reason: Text | None = None  # why there is none, or why nothing was solved
 
@@ -79,31 +71,17 @@ class ModelFormRecord:
     case: CasePoint
     member: str  # key of the governing force
     force_kN: float  # of the study's model
-    low_ratio: float  # least and largest over all variants with a force, and 1
-    high_ratio: float
     utilisation: float | None  # of the governing check
-    utilisation_low: float | None  # of the same, in proportion
-    utilisation_high: float | None
-    solves: int  # that this took
     variants: Items[VariantRecord]
+
+    @property
+    def ratios(self) -> tuple[float, float]:
+        """Least and largest force of all laws over that of the study's model [-]."""
+        ratios = [one.ratio for one in self.variants if one.ratio is not None]
+        return min([1.0, *ratios]), max([1.0, *ratios])
 
 
 SCHEMA: Literal["netdesign.study/4"] = "netdesign.study/4"
-
-
-@dataclass(frozen=True, kw_only=True)
-class MonitoringRecord:
-    """Measurements at one member; missing readings are None.
-
-    ``model`` says where the model's forces on these dates stand, or what they need.
-    """
-
-    member: str
-    source: str  # "Monitoring!A2"
-    times_d: Items[float]  # since the first reading
-    tensions_kN: Items[float | None]
-    air_temperatures_C: Items[float | None]
-    model: Text
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,15 +167,11 @@ class RowStudy:
     drawing: Drawing | None  # None when no case converged
     questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
     assumed: Items[AssumedRecord] = field(default_factory=list)  # of empty columns
-    monitoring: Items[MonitoringRecord] = field(default_factory=list)
-    anchors: Items[AnchorRecord] = field(default_factory=list)  # in the drawn case
-    head: Items[HeadForce] = field(default_factory=list)  # in the drawn case
     pulls: Items[PullRecord] = field(default_factory=list)  # over all solved cases
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: Items[Text] = field(default_factory=list)
     independent: Items[IndependentRecord] = field(default_factory=list)
-    envelope: EnvelopeRecord
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     end_guy: EndGuyRecord | None = None  # None without one, or where nothing holds it

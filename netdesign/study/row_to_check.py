@@ -13,7 +13,7 @@ from netdesign.envelope.ranges import Case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.site.model import NetRow, Site
-from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.study.effects import find_solved_ground
@@ -137,15 +137,3 @@ class CaseSolver:
             self._runner.keep_fault(result.fault, row.id)
             self.faults += result.fault is not None
         return found
-
-
-def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """The law is given for the density of a case [kg/m3], and of each layer."""
-    return all(
-        law.is_calibrated(one / ICE_DENSITY) for one in list_densities(row, density)
-    )
-
-
-def list_densities(row: NetRow, density: float) -> tuple[float, ...]:
-    """Densities of the layers, or of uniform snow [kg/m3]."""
-    return tuple(layer.density for layer in row.layers_at(density)) or (density,)

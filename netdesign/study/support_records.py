@@ -1,4 +1,4 @@
-"""Records of forces on a support, of its panel, and of their drawing.
+"""Records of the supports of a row: section, pulls, load along the row, panel.
 
 All numbers in engineer's units, as in ``records``.
 """
@@ -18,17 +18,6 @@ from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, kw_only=True)
-class Arrow:
-    """A force drawn at a point of the section; per anchor."""
-
-    member: str
-    x_m: float
-    y_m: float
-    force_x_kN: float  # what the structure does to the ground
-    force_y_kN: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class Drawing:
     """Section of the governing case, in the slope's axes [m]."""
 
@@ -36,29 +25,10 @@ class Drawing:
     slope_deg: float
     snow_thickness_m: float
     net_m: Items[tuple[float, float]]  # foot to head, under load
-    sticks: Items[bool]  # per net point: the snow sticks there
-    mesh_edges_m: Items[tuple[float, float, float, float]]
     head_m: tuple[float, float]
     post_base_m: tuple[float, float]
     uphill_anchor_m: tuple[float, float]
     downhill_anchor_m: tuple[float, float]
-    arrows: Items[Arrow]
-    # Of the snow, per net point; None at the ends, where it is singular, and above the
-    # snow. Empty in studies of earlier versions.
-    pressure_kPa: Items[float | None] = field(default_factory=list)
-
-
-@dataclass(frozen=True, kw_only=True)
-class AnchorRecord:
-    """Force of the structure on the ground at one point, in the drawn case."""
-
-    anchor: str  # "foot_anchor", "uphill_anchor", "downhill_anchor", "post_base"
-    member: str  # what brings it: "net", "uphill_guy", "downhill_guy", "post"
-    force_x_kN: float  # downslope
-    force_y_kN: float  # out of the ground
-    lateral_kN: float  # along the row, either way; share of the profile
-    size_kN: float  # in the section
-    direction_deg: float | None  # 0 downslope, 90 out of the ground; None if slack
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,15 +81,6 @@ class PullRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HeadForce:
-    """One force on the post head; those of a head sum up to zero."""
-
-    member: str
-    x_kN: float
-    y_kN: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class HeldSidewaysRecord:
     """Numbers of a row that the load along it follows from: (S15) to (S18)."""
 
@@ -154,52 +115,12 @@ class EndGuyRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RopeRecord:
-    """A border rope: what it is, and its largest forces, upper ends to a tenth."""
+class PanelRecord:
+    """Panel between two posts of a row, inside it.
 
-    rope: str  # "lower" or "upper"
-    type: str  # id of sheet Ropes
-    stiffness_kN: float  # EA
-    sag: float  # as built, over the post spacing
-    along_kN: float | None  # along the row; None where no case has a panel
-    tension_kN: float | None
-    breaking_kN: float | None  # less what its ends lose; None where none is given
-    cell: str  # of the breaking force, else of the id
-
-
-@dataclass(frozen=True, kw_only=True)
-class PanelDrawing:
-    """Panel of the drawn case: half of it, from a post to mid-panel.
-
-    Axes of the section: X downslope from the net's foot, Y out of the ground.
+    Where columns are ``assumed``, since they are empty, forces are the largest of all
+    panels that were tried, and the anchors in mid-panel are those of the first.
     """
 
-    case: CasePoint
-    places_m: Items[float]  # along the row, from beside the post to mid-panel
-    post_head_m: tuple[float, float]
-    lower_m: Items[tuple[float, float]]
-    upper_m: Items[tuple[float, float]]
-    mid_net_m: Items[tuple[float, float]]  # foot to head, in mid-panel
-    rope_places_m: Items[float]  # those of the tensions, from the post on
-    lower_tensions_kN: Items[float]
-    upper_tensions_kN: Items[float]
-    foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
-    mid_foot_kN: tuple[float, float]
-    head_kN: tuple[float, float]  # on a post head
-    lower_along_kN: float
-    upper_along_kN: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class PanelRecord:
-    """Panel between two posts of a row, inside it."""
-
-    cut: str  # "uniform", "upper" or "fitted"
     has_mid_anchors: bool
-    ropes: Items[RopeRecord]
-    failed: int = 0  # solved cases without forces by the panel
-    end_guy_deg: float | None = None  # angle to the row; None where none is given
-    drawing: PanelDrawing | None = None  # None where the drawn case has no panel
-    # columns that are empty: several panels were tried, forces are the largest of all,
-    # and cut and anchors in mid-panel those of the first
     assumed: Items[Message] = field(default_factory=list)

@@ -6,7 +6,7 @@ can state what it expects. Some texts attack the outputs.
 
 import math
 from dataclasses import replace
-from itertools import pairwise, product
+from itertools import product
 
 from netdesign.calculation.quantity import Kind, Quantity, given
 from netdesign.calculation.steps import list_steps
@@ -23,7 +23,6 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (
     CaseRecord,
-    EnvelopeRecord,
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
@@ -43,10 +42,7 @@ from netdesign.study.records import (
     VariantRecord,
 )
 from netdesign.study.support_records import (
-    AnchorRecord,
-    Arrow,
     Drawing,
-    HeadForce,
     HeldSidewaysRecord,
     PullRecord,
 )
@@ -177,30 +173,12 @@ def build_row(
             _echo(say("column.Nets.slack"), "%", "", 2.0, "default"),
         ],
         drawing=build_drawing(extremes[0]),
-        anchors=build_anchors(),
-        head=build_head(),
         guideline=build_guideline(extremes[0]),
         model_form=build_model_form(extremes[0]),
         floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
         pulls=build_pulls(),
         held_sideways=build_held_sideways(),
-        envelope=build_envelope(len(cases)),
-    )
-
-
-def build_envelope(cases: int) -> EnvelopeRecord:
-    """Search of a row, of which nothing is drawn."""
-    return EnvelopeRecord(
-        axes=[],
-        is_closed=True,
-        gap_asked_percent=1.0,
-        certainty=3.0,
-        resolved_share=0.6,
-        cases=cases,
-        skipped=0,
-        skips_tested=0,
-        failed=0,
     )
 
 
@@ -240,7 +218,6 @@ def build_floor(extreme: LargestForce) -> FloorRecord:
     """One member of a floor."""
     return FloorRecord(
         profile="swiss-guideline-2007",
-        sha256="0" * 64,
         forces=[
             FloorForceRecord(
                 member=extreme.quantity,
@@ -263,39 +240,6 @@ def build_floor(extreme: LargestForce) -> FloorRecord:
         altitude_factor=1.3,
         assumed=[say("row.altitude_assumed", factor=1.3)],
     )
-
-
-def build_anchors() -> list[AnchorRecord]:
-    """A loaded and a slack anchor."""
-    return [
-        AnchorRecord(
-            anchor="foot_anchor",
-            member="net",
-            force_x_kN=30.0,
-            force_y_kN=40.0,
-            lateral_kN=5.0,
-            size_kN=50.0,
-            direction_deg=53.130102354,
-        ),
-        AnchorRecord(
-            anchor="downhill_anchor",
-            member="downhill_guy",
-            force_x_kN=0.0,
-            force_y_kN=0.0,
-            lateral_kN=0.0,
-            size_kN=0.0,
-            direction_deg=None,
-        ),
-    ]
-
-
-def build_head() -> list[HeadForce]:
-    """Three forces that close."""
-    return [
-        HeadForce(member="net", x_kN=17.5, y_kN=-77.0),
-        HeadForce(member="post", x_kN=28.4, y_kN=106.1),
-        HeadForce(member="uphill_guy", x_kN=-45.9, y_kN=-29.1),
-    ]
 
 
 def build_independent() -> list[IndependentRecord]:
@@ -323,12 +267,8 @@ def build_guideline(extreme: LargestForce) -> GuidelineRecord:
         "foot_anchor_kN": 90.0,
         "uphill_guy_kN": 20.0,
         "post_kN": 80.0,
-        "load_difference_percent": 25.0,
-        "foot_difference_percent": 33.3,
     }
     return GuidelineRecord(
-        profile="swiss-guideline-2007",
-        sha256="0" * 64,
         case=extreme.case,
         solved_load_kN_per_m=15.0,
         solved_foot_anchor_kN=extreme.value_kN,
@@ -350,31 +290,16 @@ def build_guideline(extreme: LargestForce) -> GuidelineRecord:
 
 def build_model_form(extreme: LargestForce) -> ModelFormRecord:
     """One variant with a force, one without."""
-    forces = {"foot_anchor_kN": 141.2, "uphill_guy_kN": 37.6, "post_kN": 122.9}
     return ModelFormRecord(
         case=extreme.case,
         member="foot_anchor",
         force_kN=extreme.value_kN,
-        low_ratio=0.907,
-        high_ratio=1.0,
         utilisation=0.78,
-        utilisation_low=0.71,
-        utilisation_high=0.83,
-        solves=1,
         variants=[
-            VariantRecord(
-                creep_law="zwinger-2007",
-                slip_length_m=0.41,
-                is_calibrated=True,
-                ratio=0.907,
-                **forces,
-            ),
+            VariantRecord(creep_law="zwinger-2007", ratio=0.907),
             VariantRecord(
                 creep_law="gagliardini-1997",
-                slip_length_m=None,
-                is_calibrated=False,
                 ratio=None,
-                **dict.fromkeys(forces),
                 reason=as_given(f"it shrinks {SCRIPT}"),
             ),
         ],
@@ -481,9 +406,6 @@ def build_extreme(member: str, cases: list[CaseRecord]) -> LargestForce:
         high_kN=largest * (1 + ERROR),
         bound_kN=largest,
         case=worst.case,
-        beside_kN={
-            other: getattr(worst, f"{other}_kN") for other in MEMBERS if other != member
-        },
     )
 
 
@@ -589,7 +511,7 @@ def build_drawing(
 ) -> Drawing:
     """Section with a parabolic net under load."""
     lean = math.radians(extreme.case.inclination_deg)
-    thickness, sag, length = 4.0, 0.35, 20.0
+    thickness, sag = 4.0, 0.35
     head = (thickness * math.tan(lean), thickness)
     net = [
         (
@@ -599,57 +521,17 @@ def build_drawing(
         for s in spread(0, 1, 25)
     ]
     base = head[0] - thickness * math.tan(math.radians(tilt))
-    forces = {"foot_anchor": extreme.value_kN, **extreme.beside_kN}
     uphill, downhill = -thickness, base + thickness
     return Drawing(
         case=extreme.case,
         slope_deg=slope,
         snow_thickness_m=thickness,
         net_m=net,
-        sticks=[step < 15 for step in range(25)],
-        mesh_edges_m=_mesh(net, length),
         head_m=head,
         post_base_m=(base, 0.0),
         uphill_anchor_m=(uphill, 0.0),
         downhill_anchor_m=(downhill, 0.0),
-        arrows=[
-            _arrow("foot_anchor", (0, 0), net[2], forces["foot_anchor"]),
-            _arrow("uphill_anchor", (uphill, 0), head, forces["uphill_guy"]),
-            _arrow("post", (base, 0), head, -forces["post"]),
-            _arrow("downhill_anchor", (downhill, 0), head, forces["downhill_guy"]),
-        ],
     )
-
-
-def _arrow(
-    member: str, at: tuple[float, float], toward: tuple[float, float], size: float
-) -> Arrow:
-    along = (toward[0] - at[0], toward[1] - at[1])
-    factor = size / math.hypot(*along)
-    return Arrow(
-        member=member,
-        x_m=at[0],
-        y_m=at[1],
-        force_x_kN=along[0] * factor,
-        force_y_kN=along[1] * factor,
-    )
-
-
-def _mesh(
-    net: list[tuple[float, float]], length: float
-) -> list[tuple[float, float, float, float]]:
-    """Edges of a structured triangle mesh between the top end and the net."""
-    rows = net[::4]
-    grid = [
-        [(-length + (x + length) * (1 - (1 - s) ** 2), y) for s in spread(0, 1, 16)]
-        for x, y in rows
-    ]
-    edges = []
-    for lower, upper in pairwise(grid):
-        for i in range(len(lower) - 1):
-            edges += [(*lower[i], *lower[i + 1]), (*lower[i], *upper[i])]
-            edges += [(*lower[i], *upper[i + 1])]
-    return edges
 
 
 def _end(end: str, quantity: str) -> Message:

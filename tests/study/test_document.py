@@ -24,10 +24,9 @@ from netdesign.study.document import (
     write_document,
 )
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, RowStudy, Study
-from netdesign.study.support_records import Arrow, Drawing
+from netdesign.study.support_records import Drawing
 from netdesign.words.message import say
 from tests.each import each
-from tests.report.build_study import build_envelope
 
 POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)
 CHECK = Check(
@@ -55,17 +54,13 @@ DRAWING = Drawing(
     slope_deg=40.0,
     snow_thickness_m=4.0,
     net_m=[(0.0, 0.0), (1.5, 2.0), (2.3, 4.0)],
-    sticks=[True, False, True],
-    mesh_edges_m=[(0.0, 0.0, 1.0, 1.0)],
     head_m=(2.3, 4.0),
     post_base_m=(1.2, 0.0),
     uphill_anchor_m=(-4.0, 0.0),
     downhill_anchor_m=(5.2, 0.0),
-    arrows=[Arrow(member="post", x_m=1.2, y_m=0.0, force_x_kN=-1.0, force_y_kN=-9.0)],
 )
 ROW = RowStudy(
     id="Couloir n° 1 – “Ost”",
-    envelope=build_envelope(1),
     checks=[CHECK, GEOMETRY],
     forces=[
         LargestForce(
@@ -75,7 +70,6 @@ ROW = RowStudy(
             high_kN=22.5,
             bound_kN=22.4,
             case=POINT,
-            beside_kN={"post": 12.0},
         )
     ],
     cases=[

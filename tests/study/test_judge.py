@@ -131,11 +131,6 @@ def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):
         assert extreme.low_kN <= extreme.value_kN <= extreme.high_kN
         governing = results[0][forces.index(max(forces))]
         assert extreme.case.density_kg_m3 == governing.case.density
-        assert extreme.beside_kN == {
-            member: governing.member_forces[member].value / 1000.0
-            for member in REPORTED_MEMBERS
-            if member != extreme.quantity
-        }
 
 
 def test_numbers_of_a_check_follow_from_each_other(judge):
@@ -273,22 +268,7 @@ def test_drawing_shows_the_case_of_the_largest_utilisation(judge):
     assert drawing.head_m == pytest.approx(
         (2.5 * math.tan(math.radians(30)), 2.5), rel=1e-12
     )
-    assert len(drawing.sticks) == len(drawing.net_m)
     assert drawing.slope_deg == pytest.approx(38.0, rel=1e-12)
-    assert len(drawing.mesh_edges_m) > 100
-
-
-def test_drawn_forces_are_those_of_the_drawn_case(judge):
-    row = judge().rows[0]
-    shown = next(case for case in row.cases if case.case == row.drawing.case)
-    sizes = {
-        arrow.member: math.hypot(arrow.force_x_kN, arrow.force_y_kN)
-        for arrow in row.drawing.arrows
-    }
-    assert sizes["foot_anchor"] == pytest.approx(shown.foot_anchor_kN, rel=1e-12)
-    assert sizes["uphill_anchor"] == pytest.approx(shown.uphill_guy_kN, abs=1e-9)
-    assert sizes["downhill_anchor"] == pytest.approx(shown.downhill_guy_kN, abs=1e-9)
-    assert sizes["post"] == pytest.approx(shown.post_kN, rel=1e-12)
 
 
 @pytest.mark.parametrize(

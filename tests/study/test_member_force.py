@@ -218,7 +218,6 @@ def find_member_force(member, ends, width, *, has_floor=True):
         high_kN=high,
         bound_kN=value,
         case=at,
-        beside_kN={},
     )
     forces = RowForces(
         site=None,

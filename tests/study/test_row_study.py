@@ -109,21 +109,6 @@ def test_resistance_that_is_told_is_enough_and_no_more(changes):
     assert verdict(needed - 200.0) is not Verdict.PASS
 
 
-def test_forces_on_the_head_close(found):
-    size = math.hypot(found.head[0].x_kN, found.head[0].y_kN)
-    assert found.head[0].member == "net"
-    for part in ("x_kN", "y_kN"):
-        assert abs(sum(getattr(force, part) for force in found.head)) < 1e-9 * size
-
-
-def test_anchors_pull_out_of_the_ground_and_the_base_presses(found):
-    directions = {anchor.anchor: anchor.direction_deg for anchor in found.anchors}
-    assert 0.0 < directions["foot_anchor"] < 180.0
-    assert directions["post_base"] < 0.0
-    slack = [anchor for anchor in found.anchors if anchor.size_kN == 0.0]
-    assert [anchor.direction_deg for anchor in slack] == [None] * len(slack)
-
-
 def test_guideline_stands_beside_the_solve(found):
     record = found.guideline
     names = [case.name for case in record.cases]
@@ -132,7 +117,6 @@ def test_guideline_stands_beside_the_solve(found):
     assert same.density_kg_m3 == record.case.density_kg_m3 == 400.0
     assert same.glide_factor == 1.2  # the least of the guideline's tables
     ratio = record.solved_load_kN_per_m / same.load_kN_per_m
-    assert same.load_difference_percent == pytest.approx(100 * (ratio - 1), rel=1e-12)
     assert 0.7 < ratio < 1.7  # two models of the same snow, see physics of the pressure
     assert "Both use the same glide factor" in str(record.sentence)
     of_cases = {one.name: one.loaded_share for one in record.cases}

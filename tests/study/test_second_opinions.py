@@ -1,5 +1,7 @@
 """Spread of the model form beside the coupled forces of a row."""
 
+from contextlib import contextmanager
+
 import pytest
 
 from netdesign.calculation.quantity import Kind
@@ -34,6 +36,20 @@ def solve(solver, row, case):
     return result
 
 
+@contextmanager
+def record_slips(solver):
+    """Slip lengths of the rows that are solved [m], by the creep law."""
+    slips, solve_all = {}, solver.solve_all
+
+    def record_all(wanted):
+        slips.update({law.name: row.ground.slip_length for row, _, law in wanted})
+        return solve_all(wanted)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solver, "solve_all", record_all)
+        yield slips
+
+
 @pytest.fixture(scope="module")
 def sliding():
     row = build_row(
@@ -47,27 +63,28 @@ def sliding():
 
 def test_model_form_of_a_sliding_row(sliding):
     row, solver, result = sliding
-    record = record_model_form(solver, row, result, "foot_anchor", CHECK)
+    with record_slips(solver) as slips:
+        record = record_model_form(solver, row, result, "foot_anchor", CHECK)
     variants = {one.creep_law: one for one in record.variants}
     assert set(variants) == {"zwinger-2007", "gagliardini-1997"}
     known = {one.ratio for one in record.variants if one.ratio is not None}
-    assert record.low_ratio == min(known) < 0.95
-    assert record.high_ratio == max(known | {1.0})
-    assert record.utilisation_low == pytest.approx(0.7 * record.low_ratio)
+    assert record.ratios[0] == min(known) < 0.95
+    assert record.ratios[1] == max(known | {1.0})
     # the other law means the same N, and so another slip length
-    assert variants["zwinger-2007"].slip_length_m != row.ground.slip_length
+    assert slips["zwinger-2007"] != row.ground.slip_length
     refused = variants["gagliardini-1997"]
     assert refused.ratio is None
     assert "sideways" in str(refused.reason)
-    assert record.solves <= 2
+    assert len(slips) <= 2
 
 
 def test_model_form_of_a_row_whose_slip_length_was_typed():
     row = build_row("R7", ground=GroundLaw(kind="sliding", slip_length=2.2))
     solver = build_probe()
-    record = record_model_form(solver, row, solve(solver, row, CASE), "post", CHECK)
-    solved = [one for one in record.variants if one.ratio is not None]
-    assert {one.slip_length_m for one in solved} == {2.2}
+    result = solve(solver, row, CASE)
+    with record_slips(solver) as slips:
+        record_model_form(solver, row, result, "post", CHECK)
+    assert set(slips.values()) == {2.2}
 
 
 def test_model_form_needs_a_force(sliding):

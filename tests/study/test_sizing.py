@@ -243,12 +243,13 @@ def two_open_cells(example):
     path, solved = example
     changes = {"Nets!Q2": "A25-untested"}
     read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
-    return replace(solved, site=read({})), read
+    solved = replace(solved, site=read({}))
+    study = judge(solved)
+    return solved, study, read, find_types(solved, study, read)
 
 
-def find_types(two_open_cells, read):
-    solved, _ = two_open_cells
-    cells = size_site(solved, judge(solved), PROFILE, RUN, read)
+def find_types(solved, study, read):
+    cells = size_site(solved, study, PROFILE, RUN, read)
     return {one.column: one for one in cells}
 
 
@@ -256,8 +257,7 @@ def find_types(two_open_cells, read):
 def test_a_question_of_one_cell_leaves_the_types_of_the_other(two_open_cells, seed):
     """Drawn types are asked about, or refused, in one of two cells."""
     rng = np.random.default_rng([61, 17, seed])
-    _, read = two_open_cells
-    found = find_types(two_open_cells, read)
+    solved, study, read, found = two_open_cells
     asked, other = ("foot_anchor", "uphill_anchor")[:: (-1) ** seed]
     some = rng.choice(found[asked].types, 3, replace=False)
     beside = found[asked].types[found[other].types.index(found[other].now)]
@@ -272,7 +272,7 @@ def test_a_question_of_one_cell_leaves_the_types_of_the_other(two_open_cells, se
         row = replace(site.rows[0], questions=(say("steady.needs_net"),))
         return replace(site, rows=(row,))
 
-    again = find_types(two_open_cells, read_asking)
+    again = find_types(solved, study, read_asking)
     assert found[other].now
     assert (again[other].now, again[other].used) == (
         found[other].now,

@@ -204,7 +204,7 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
     """Spread of the governing force over other models of the snow; "-" without."""
     if record is None:
         return MISSING
-    ends = (record.force_kN * record.low_ratio, record.force_kN * record.high_ratio)
+    ends = [record.force_kN * ratio for ratio in record.ratios]
     return words(
         "opinion.spread",
         member=show_member(words, record.member),

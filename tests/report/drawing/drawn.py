@@ -12,11 +12,7 @@ from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.pressure_figure import draw_pressure
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.study.case_records import GuidelineRecord
-from netdesign.study.support_records import (
-    Arrow,
-    Drawing,
-    PullRecord,
-)
+from netdesign.study.support_records import Drawing, PullRecord
 from tests.report.build_study import build_study
 
 AXES = {
@@ -112,30 +108,10 @@ def build_section(rng: random.Random) -> Drawing:
         slope_deg=rng.uniform(22.0, 62.0),
         snow_thickness_m=thickness,
         net_m=[(float(x), float(y)) for x, y in net],
-        sticks=[rng.random() < 0.7 for _ in net],
-        mesh_edges_m=[],
         head_m=head,
         post_base_m=points["post"],
         uphill_anchor_m=points["uphill_anchor"],
         downhill_anchor_m=points["downhill_anchor"],
-        arrows=[_pull(rng, name, at, head) for name, at in points.items()],
-        pressure_kPa=[
-            None, None, *(rng.uniform(-2.0, 80.0) for _ in net[4:]), None, None,
-        ],
-    )  # fmt: skip
-
-
-def _pull(rng, name, at, head):
-    size = rng.choice([0.0, 10 ** rng.uniform(-0.5, 3.2)])
-    across, up = head[0] - at[0], head[1] - at[1]
-    length = math.hypot(across, up)
-    sign = -1.0 if name == "post" else 1.0
-    return Arrow(
-        member=name,
-        x_m=at[0],
-        y_m=at[1],
-        force_x_kN=sign * size * across / length,
-        force_y_kN=sign * size * up / length,
     )
 
 

@@ -60,8 +60,6 @@ def test_empty_parts_say_none():
         cases=[],
         inputs=[],
         drawing=None,
-        anchors=[],
-        head=[],
         pulls=[],
         held_sideways=None,
         guideline=None,

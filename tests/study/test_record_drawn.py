@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.study.record_independent import record_independent
-from netdesign.study.record_support import record_drawn
+from netdesign.study.record_drawn import record_independent
 from netdesign.study.row_to_check import CaseSolver
 from tests.grid import build_cases
 from tests.study.test_row_study import RANGES, ROW, RUN
@@ -19,9 +18,8 @@ def solved():
     return result
 
 
-def check(result, head=None):
-    head = record_drawn(ROW, result, 0.0)[2] if head is None else head
-    return {one.name: one for one in record_independent(result, head)}
+def check(result):
+    return {one.name: one for one in record_independent(ROW, result)}
 
 
 def test_a_sound_solution_meets_all(solved):
@@ -55,11 +53,10 @@ def test_spoilt_solutions_are_found(solved):
     found = check(replace(solved, solution=replace(solution, balance=none)))
     for name in ("global_balance", "capstan_ratio", "tension_share"):
         assert not found[name].is_met
-    head = record_drawn(ROW, solved, 0.0)[2]
-    assert not check(solved, [replace(head[0], x_kN=-head[0].x_kN), *head[1:]])[
-        "head_balance"
-    ].is_met
+    base = replace(solved.anchors.post_base, x=-solved.anchors.post_base.x)
+    open_head = replace(solved, anchors=replace(solved.anchors, post_base=base))
+    assert not check(open_head)["head_balance"].is_met
 
 
 def test_without_a_solution_there_is_nothing(solved):
-    assert record_independent(replace(solved, solution=None), []) == []
+    assert record_independent(ROW, replace(solved, solution=None)) == []

@@ -1,4 +1,4 @@
-"""Checks of one solved case against laws that hold whatever the mesh.
+"""The drawn case of a net row: its section, and the laws that it obeys on any mesh.
 
 Forces sum up to zero, a net pulls along itself and does not push, friction bounds the
 ratio of its tensions.
@@ -14,26 +14,43 @@ from netdesign.cable.net import (
     compute_turning_angles,
 )
 from netdesign.envelope.run import CaseResult
+from netdesign.site.model import NetRow
 from netdesign.solving.solve import SolvedState
+from netdesign.structure.anchors import AnchorForces
+from netdesign.structure.layout import Point, place_support
+from netdesign.study.record_envelope import record_point
 from netdesign.study.records import IndependentRecord
-from netdesign.study.support_records import HeadForce
+from netdesign.study.support_records import Drawing
+from netdesign.units import degree_from_radian
+
+_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
+
+
+def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
+    """Section of a case; None of one without a solution."""
+    if result is None or result.solution is None or result.anchors is None:
+        return None
+    points = place_support(row.layout, result.solution.head_point)
+    curve = result.solution.net_curve.T.round(_DECIMALS).tolist()
+    return Drawing(
+        case=record_point(result.case),
+        slope_deg=degree_from_radian(row.slope_angle),
+        snow_thickness_m=row.at(result.case).held_thickness,
+        net_m=[(x, y) for x, y in curve],
+        head_m=points.head,
+        post_base_m=points.post_base,
+        uphill_anchor_m=points.uphill_anchor,
+        downhill_anchor_m=points.downhill_anchor,
+    )
 
 
 def record_independent(
-    result: CaseResult | None, head: list[HeadForce]
+    row: NetRow, result: CaseResult | None
 ) -> list[IndependentRecord]:
-    """Independent checks of a converged case; none where it has no solution.
-
-    Parameters
-    ----------
-    result : CaseResult or None
-        The drawn case; None where there is none.
-    head : list of HeadForce
-        As ``record_head`` gives them [kN].
-    """
+    """Laws that a converged case has to obey; none where it has no solution."""
     if result is None or result.solution is None:
         return []
-    state = result.solution
+    state, width = result.solution, row.layout.post_spacing
     checks = [
         _judge("global_balance", state.balance.relative_residual),
         _judge("friction_excess", state.balance.friction_excess),
@@ -42,8 +59,11 @@ def record_independent(
     ]
     share = (state.balance.smallest_tension or 0.0) / state.tension_max
     checks.append(_judge("tension_share", share))  # a net does not push
-    if len(head) > 1:
-        checks.append(_judge("head_balance", measure_open_head(head)))
+    if result.anchors is not None:
+        pull = (state.head.x * width, state.head.y * width)
+        missing = _measure_open_head(pull, result.anchors)
+        if missing is not None:
+            checks.append(_judge("head_balance", missing))
     return checks
 
 
@@ -68,12 +88,19 @@ def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentReco
     return _judge("capstan_ratio", ratio, limit)
 
 
-def measure_open_head(head: list[HeadForce]) -> float:
-    """Forces on a post head that are left over, as a share of the largest one [-]."""
-    missing = math.hypot(
-        sum(force.x_kN for force in head), sum(force.y_kN for force in head)
-    )
-    return missing / max(math.hypot(force.x_kN, force.y_kN) for force in head)
+def _measure_open_head(pull: Point, anchors: AnchorForces) -> float | None:
+    """Forces on a post head that are left over, as a share of the largest one [-].
+
+    The net's pull is that of the solve, the others are the reverse of what each member
+    does to the ground: an error in the support leaves the polygon open. None where no
+    member has a force.
+    """
+    members = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
+    forces = [(-force.x, -force.y) for force in members if force.size > 0.0]
+    if not forces:
+        return None
+    missing = math.hypot(*(sum(part) for part in zip(pull, *forces, strict=True)))
+    return missing / max(math.hypot(*force) for force in (pull, *forces))
 
 
 def _judge(
