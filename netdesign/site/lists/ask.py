@@ -7,6 +7,7 @@ one that no other comes near; else a question mark, with the likeliest behind it
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -341,8 +342,14 @@ def _has_unit(unit: str, target: Target) -> bool:
     return not unit or unit in (target.field.units or ("-",))
 
 
+# "N°" numbers the lines of a list, and is no glide factor N.
+_NUMBER = re.compile(r"\w\s*[°º]")
+
+
 def _is_unclear(text: str, becomes: str) -> bool:
     """A heading is known to mean several things."""
+    if _NUMBER.fullmatch(text.strip()):
+        return True
     plan = _OLD[becomes]
     return bool(Lexicon.of(plan.fields, plan).match(text).readings)
 

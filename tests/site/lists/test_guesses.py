@@ -55,6 +55,18 @@ def rated(tmp_path_factory):
     }
 
 
+@pytest.mark.parametrize("heading", ["N°", "n °", "Nº"])
+def test_a_number_of_a_line_is_no_glide_factor(tmp_path, heading):
+    path = tmp_path / "liste.csv"
+    text = f"{heading};pente [°];hauteur de neige [m]\nN1;34;2,9\nN2;37;3,3\n"
+    path.write_text(text, encoding="utf-8")
+    (sheet,) = read_list(path, UNDECLARED).sheets
+    table = ListTable(name=sheet.name, becomes="rows", line=1)
+    first = next(iter(guess_headings(sheet, table, "fr")))
+    assert first.target is None
+    assert "?" in first.answer
+
+
 def test_no_guess_is_wrong(rated):
     assert [name for name, how in rated.items() if how == "wrong"] == []
 
