@@ -1,5 +1,6 @@
 """What is assumed of empty cells: every range lies within what a cell may hold."""
 
+import ast
 import math
 
 import pytest
@@ -8,6 +9,7 @@ from netdesign.checks import list_standards
 from netdesign.site.assumed import assume, assume_ends, load_assumed
 from netdesign.site.columns.all_tables import RANGE_QUANTITIES, SHEETS
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.sources import parse_package
 
 FIELDS = {
     **{f"{plan.name}.{one.key}": one for plan in SHEETS for one in plan.fields},
@@ -47,3 +49,14 @@ def test_a_multiple_is_that_of_its_factor():
 
 def test_assumed_ranges_are_no_profile():
     assert "assumed" not in " ".join(list_standards())
+
+
+def test_the_program_takes_every_range_of_the_file():
+    """Each key stands as a whole text in the package: no range is stated in vain."""
+    texts = {
+        node.value
+        for tree in parse_package().values()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+    assert set(load_assumed()) <= texts
