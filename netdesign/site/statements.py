@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, product
 
 from netdesign.panel.inputs import (
     CUTS,
@@ -178,12 +179,14 @@ def list_stiffnesses(
     """Stiffnesses EA that uphill guy, downhill guy, end guy and post may have [N].
 
     Ropes of which nobody gives it are of one construction: their EA is the same
-    multiple of their breaking force, and without that they are as stiff as the others.
+    multiple of their breaking force, or equal where none has a type. One without a
+    type beside others is either end of all that is built.
     """
     words = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
     words += [end[EndMember.END_GUY].word if end else ""]
     lines = [types["Ropes"].get(one) for one in words]
-    ropes = dict.fromkeys(_build_alike(lines, of) for of in _list_multiples(lines))
+    alike = [_list_alike(lines, of) for of in _list_multiples(lines)]
+    ropes = dict.fromkeys(chain.from_iterable(product(*one) for one in alike))
     post = _find_post_stiffness(types["Posts"].get(at_end[Member.POST].word))
     return tuple((*ways, one) for ways in ropes for one in dict.fromkeys(post))
 
@@ -200,22 +203,16 @@ def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
     return found or OF_BREAKING
 
 
-def _build_alike(lines: Sequence[Row | None], multiple: float) -> tuple[float, ...]:
-    """EA of ropes of one construction [N]: uphill guy, downhill guy, end guy.
-
-    Of no type a guy is as stiff as the stiffest, the end guy as the softest: so the
-    guys hold most.
-    """
+def _list_alike(lines: Sequence[Row | None], multiple: float) -> list[Sequence[float]]:
+    """EA that each rope may have in one construction [N]: uphill, downhill, end guy."""
     found: list[float | None] = []
     for line in lines:
         force = find_breaking(line) if line else None
         typed = line["axial_stiffness"].given_si if line else None
         found.append(typed or (multiple * force if force else None))
-    known = [one for one in found if one is not None]
-    usual = known or [math.sqrt(math.prod(STIFFNESSES))]
-    *guys, end = found
-    stiff = [max(usual) if one is None else one for one in guys]
-    return (*stiff, min(usual) if end is None else end)
+    if all(one is None for one in found):
+        return [(math.sqrt(math.prod(STIFFNESSES)),)] * len(found)
+    return [STIFFNESSES if one is None else (one,) for one in found]
 
 
 _POST_AREAS = (5e-4, 2e-2)  # that are built [m2]

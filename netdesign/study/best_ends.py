@@ -25,7 +25,7 @@ from netdesign.structure.members import ROPE_OF
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
-from netdesign.study.row_knowledge import know_alone, know_least
+from netdesign.study.row_knowledge import know_alone, know_least, take_off_truss
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.scopes import is_of_structure
 from netdesign.study.variants import list_layouts, place_variant, read_values
@@ -63,12 +63,17 @@ def settle(
     return [ends.settle(one) for one in judged]
 
 
-def _take_off(known: RowForces) -> RowForces:
+def _take_off_ropes(known: RowForces) -> RowForces:
     """The row whose border ropes pull no support along it."""
     end = known.row.row_end
     row = replace(known.row, row_end=end and replace(end, ropes_slide=True))
     pulls = tuple(one for one in known.pulls if one.position != "second")
     return replace(known, row=row, pulls=pulls, end_guy=None)
+
+
+def _has_open_truss(row: NetRow) -> bool:
+    """A stiffness is open by which ropes and post at the end share a pull."""
+    return row.row_end is not None and len(row.row_end.stiffnesses) > 1
 
 
 def _leave_to_sags(check: Check) -> Check:
@@ -120,7 +125,9 @@ class _BestEnds:
         if one.again is None or not is_beyond:
             return one
         if check.verdict is Verdict.FAIL and self._has_open_pull(one):
-            check = self._take_off_ropes(one)
+            check = self._ease(one, _take_off_ropes, "assumed.by_ropes")
+        if check.verdict is Verdict.FAIL and _has_open_truss(one.known.row):
+            check = self._ease(one, take_off_truss, "assumed.by_stiffness")
         is_open = bool(self.searched or self.task.row.panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
             check = check.ease(self._find_least(one))
@@ -150,13 +157,15 @@ class _BestEnds:
         is_pulled = not _PULLS.isdisjoint(one.check.step_of)
         return is_pulled and (may_slide or self._are_sags_assumed)
 
-    def _take_off_ropes(self, one: MemberCheck) -> Check:
-        """Check without the border ropes' pull, which it may fail by alone."""
-        low = _find_low(self._judge(one, _take_off(one.best or one.known)))
+    def _ease(
+        self, one: MemberCheck, take_off: Callable[[RowForces], RowForces], key: str
+    ) -> Check:
+        """Check without a pull that hangs on what nobody says, if it passes so."""
+        low = _find_low(self._judge(one, take_off(one.best or one.known)))
         worst = _rate(one.check)
         if not 0.0 < low <= 1.0 or math.isinf(worst):
             return one.check
-        told = say("assumed.by_ropes", used=worst, without=low)
+        told = say(key, used=worst, without=low)
         return one.check.ease(low).with_open(OpenKind.ASSUMED_DECIDES, told)
 
     def _find_least(self, one: MemberCheck) -> float:

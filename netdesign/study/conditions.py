@@ -39,6 +39,7 @@ Key = Literal[
     "depth",
     "edge",
     "apart",
+    "row_above",
     "gap",
 ]
 
@@ -58,6 +59,7 @@ _WHO: Mapping[Key, Who] = {
     "depth": "site",
     "edge": "site",
     "apart": "site",
+    "row_above": "site",
     "gap": "site",
 }
 _LEAST_COUNTS = ("cover", "gap")  # of all others the largest number
@@ -194,5 +196,8 @@ def _list_of_bores(known: RowForces) -> Iterator[Condition]:
     end = row.row_end
     if apart is not None and end is not None and end.lateral_distance is None:
         yield _state("apart", apart.value)
+    is_open = row.has_row_above and row.find_assumed("upslope_length") is not None
+    if apart is not None and is_open:
+        yield _state("row_above", apart.value)
     if gap is not None and math.isinf(row.gap):
         yield _state("gap", gap.value)

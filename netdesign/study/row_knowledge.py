@@ -84,6 +84,11 @@ def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     largest = _take_least(base.largest, solved.results)
     floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
     known = know_row(cases, replace(base, largest=largest, floor=floor))
+    return take_off_truss(known)
+
+
+def take_off_truss(known: RowForces) -> RowForces:
+    """The row whose guys hold no part of the ridge rope's pull beside its end guy."""
     end = known.at_end
     if end is None:
         return known
@@ -181,7 +186,7 @@ def know_row(cases: RowCases, base: RowForces) -> RowForces:
         return known
     factor = known.floor.ridge_rope if known.floor else 1.0
     load = EndShare(end=known.effects.supports[-1], along=along, factor=factor)
-    return replace(known, end_guy=find_end_guy(task, load))
+    return replace(known, end_guy=find_end_guy(task, load, cases.heads))
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:

@@ -170,7 +170,9 @@ class EndShare:
     factor: float
 
 
-def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | None:
+def find_end_guy(
+    task: RowToCheck, load: EndShare, states: Sequence[SupportState]
+) -> EndGuyRecord | Message | None:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
 
     None without a guy whose angle is given.
@@ -181,6 +183,8 @@ def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | N
         Row with its end, cases and largest forces.
     load : EndShare
         On the head there.
+    states : sequence of SupportState
+        Of all its cases.
     """
     row, span = task.row, task.site.ranges["inclination"]
     guy = row.row_end.guy if row.row_end else None
@@ -194,7 +198,7 @@ def find_end_guy(task: RowToCheck, load: EndShare) -> EndGuyRecord | Message | N
     heads = [one for one in held if isinstance(one, HeadForces)]
     posts = [one.post_compression for one in heads]
     upright = [place.head[1] / place.post_length for place in places]
-    tensions = _share_end(task, guy, load)
+    tensions = _share_end(task, guy, load, states)
     if isinstance(tensions, Message):
         return tensions
     return EndGuyRecord(
@@ -215,15 +219,17 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, guy: EndGuy, load: EndShare
+    task: RowToCheck, guy: EndGuy, load: EndShare, states: Sequence[SupportState]
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
-    Of the cases in which guys, by section and by panel, and ridge rope pull most, with
-    what may hide. None of one guy on a side, or without a panel.
+    Of all states, with what may hide in the pulls of guys and ridge rope. None of one
+    guy on a side, or without a panel.
     """
     row, splay = task.row, task.row.guys.splay
     if row.row_end is None or row.guys.count < 2 or splay is None:
+        return None
+    if all(one.panel is None for one in states):
         return None
     keys = (*GUYS, *GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
     extremes = [task.extremes[key] for key in keys if key in task.extremes]
@@ -232,21 +238,41 @@ def _share_end(
         default=0.0,
     )
     scale = load.end.width / row.layout.post_spacing * load.factor * hidden
-    found = {one.governing.case: one.governing for one in extremes}
-    states = [one for result in found.values() for one in list_states(row, result)]
     heads = [
-        EndHead(points=one.points, pull=(scale * x, scale * y), along=load.along)
-        for one in states
-        for x, y in (one.head_pull,)
+        EndHead(points=points, pull=(scale * x, scale * y), along=load.along)
+        for points, (x, y) in _list_outermost(row, states)
     ]
-    if all(one.panel is None for one in states):
-        return None
     ways = row.row_end.stiffnesses
     tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)
     if tensions is None:
         return say("support.not_held_sideways")
     outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)
     return float(outer[0]), float(outer[2])
+
+
+_DIRECTIONS = 16  # in which the outermost of the pulls on a head are looked for
+
+
+def _list_outermost(
+    row: NetRow, states: Sequence[SupportState]
+) -> list[tuple[SupportPoints, Point]]:
+    """Pulls on the head that lie outermost among those at one inclination [N]."""
+    turns = [2.0 * math.pi * one / _DIRECTIONS for one in range(_DIRECTIONS)]
+    pulls: dict[float, list[Point]] = {}
+    for one in states:
+        if one.result is not None:
+            pulls.setdefault(one.result.case.inclination, []).append(one.head_pull)
+    return [
+        (place_row(row, inclination), pull)
+        for inclination, found in pulls.items()
+        for pull in {_find_outermost(found, turn) for turn in turns}
+    ]
+
+
+def _find_outermost(pulls: Sequence[Point], turn: float) -> Point:
+    """Pull with the largest part in a direction [N]."""
+    across, up = math.cos(turn), math.sin(turn)
+    return max(pulls, key=lambda pull: across * pull[0] + up * pull[1])
 
 
 def find_rope_factors(

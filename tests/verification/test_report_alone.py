@@ -179,7 +179,6 @@ def seven_rows(tmp_path_factory):
 
 
 @pytest.mark.long
-@pytest.mark.xfail(reason="10 pages since conditions stand on page 1", strict=True)
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_seven_rows_have_few_pages(seven_rows, tmp_path, language):
     """Decision, schedule with what it rests on, and a page for each of seven rows."""
