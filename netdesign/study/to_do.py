@@ -82,15 +82,17 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
         ToDo(who="office", text=reason, rows=tuple(ids))
         for reason, ids in _list_unmet(study).items()
     ]
-    return tuple(every) if most is None else _shorten(every, most)
+    if most is None or len(every) <= most:
+        return tuple(every)
+    return _shorten(every, most, [row.id for row in study.rows])
 
 
-def _shorten(lines: Sequence[ToDo], most: int) -> tuple[ToDo, ...]:
+def _shorten(
+    lines: Sequence[ToDo], most: int, order: Sequence[str]
+) -> tuple[ToDo, ...]:
     """Lines of which the last one counts those that have no room."""
-    if len(lines) <= most:
-        return tuple(lines)
     kept, rest = lines[: most - 1], lines[most - 1 :]
-    ids = tuple(dict.fromkeys(row for one in rest for row in one.rows))
+    ids = tuple(row for row in order if any(row in one.rows for one in rest))
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*kept, more)
 
