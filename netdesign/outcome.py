@@ -158,7 +158,8 @@ class SiteDataError(NetDesignError):
     def __init__(
         self, findings: Sequence[Told], lines: tuple[Message, ...] = ()
     ) -> None:
-        self.findings = tuple(findings)
+        # each once: a cell may be read for two columns
+        self.findings = tuple({str(one.message): one for one in findings}.values())
         told = lines or tuple(finding.message for finding in self.findings)
         super().__init__(say("text.lines", lines=told))
         self.args = (findings, lines)

@@ -191,14 +191,15 @@ def change_values(
     found: dict[str, tuple[Cell, object]] = {}
     for name, values in change.items():
         if name not in lines:
-            rule = say("frames.no_row", row=name, given=tuple(lines))
-            findings.append(workbook.finding(rule))
+            fault = workbook.finding(say("frames.no_row"))
+            accepted = say("accepted.words", words=tuple(lines))
+            findings.append(replace(fault, text=name, accepted=accepted))
             continue
         for key, value in values.items():
             cell = _find_cell(lines[name], nets, key)
             if cell is None:
-                rule = say("frames.no_column", row=name, key=key)
-                findings.append(workbook.finding(rule))
+                fault = workbook.finding(say("frames.no_column"))
+                findings.append(replace(fault, text=f"{name}: {key}"))
                 continue
             others = _list_others(cell, key, change, lines, nets)
             if others or found.get(cell.place, (cell, value))[1] != value:

@@ -158,19 +158,21 @@ def sum_up_study(
 ) -> dict[Scope, ScopeRecord]:
     """Verdict of each scope of all rows, by their ids, with the row that decides.
 
-    Of a part of a site nothing is proven.
+    Of a part of a site nothing is proven, and no row decides that.
     """
     found = {}
     for scope in SCOPES:
         of_rows = {row: scopes[scope] for row, scopes in rows.items()}
         more = [Verdict.NOT_PROVEN] if is_part else []
         worst = min(of_rows, key=lambda row: (of_rows[row].rank, row), default="")
+        verdict = merge_verdicts([*(one.verdict for one in of_rows.values()), *more])
+        decides = not worst or of_rows[worst].verdict is verdict
         found[scope] = ScopeRecord(
-            verdict=merge_verdicts([*(one.verdict for one in of_rows.values()), *more]),
+            verdict=verdict,
             utilisation=of_rows[worst].utilisation if worst else None,
             governing=of_rows[worst].governing if worst else "",
             assumed=max((one.assumed for one in of_rows.values()), default=0),
-            row=worst,
+            row=worst if decides else None,
         )
     return found
 

@@ -8,7 +8,15 @@ from hypothesis import strategies as st
 
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.study.scopes import SCOPES, Scope, find_scopes, list_of_scope, sum_up_row
+from netdesign.study.scopes import (
+    SCOPES,
+    Scope,
+    ScopeRecord,
+    find_scopes,
+    list_of_scope,
+    sum_up_row,
+    sum_up_study,
+)
 from tests.report.build_study import build_study
 from tests.turn import turn
 
@@ -70,3 +78,17 @@ def test_a_scope_names_the_check_that_decides():
         )
         assert record.governing == (worst.id if worst else "")
         assert record.utilisation == (worst.utilisation if worst else None)
+
+
+def test_no_row_stands_for_what_a_part_of_a_site_leaves_open():
+    """Rows that pass are not named as those that decide."""
+    passing = ScopeRecord(verdict=Verdict.PASS, utilisation=0.83, governing="x")
+    failing = ScopeRecord(verdict=Verdict.FAIL, utilisation=1.37, governing="y")
+    rows = {
+        "U1": dict.fromkeys(SCOPES, passing),
+        "U2": {**dict.fromkeys(SCOPES, passing), Scope.ANCHORS: failing},
+    }
+    found = sum_up_study(rows, is_part=True)
+    assert found[Scope.ANCHORS].row == "U2"
+    assert found[Scope.SITING].row is None
+    assert found[Scope.SITING].verdict is Verdict.NOT_PROVEN

@@ -117,7 +117,8 @@ def fold_findings(
         rule = finding.rule.key if finding.rule.key in _ALIKE else str(finding.rule)
         key = (finding.severity, finding.file, finding.sheet, rule, place)
         group = alike.setdefault(key, [])
-        group.append(finding)
+        if finding not in group:  # a cell that two columns are read from
+            group.append(finding)
     asked = [one for one in findings if one.is_asked]
     offers = [say("finding.ask_map", file=site_file or one.file) for one in asked[:1]]
     lines = [_describe_alike(group) for group in alike.values()]
