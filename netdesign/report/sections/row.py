@@ -139,9 +139,9 @@ class RowPage:
         t, row = self.words, self.row
         glide = find_input(row, "glide_factor")
         pairs = [
-            ("slope", find_input(row, "slope_angle"), 0),
             ("net", _find_height(row), 2),
             ("snow", _find_snow(row), 2),
+            ("normal", row.drawing.snow_thickness_m if row.drawing else None, 2),
             ("posts", find_input(row, "post_spacing"), 2),
             ("upslope", find_input(row, "upslope_length"), 1),
             ("altitude", find_input(row, "altitude"), 0),
@@ -151,8 +151,11 @@ class RowPage:
             for key, value, decimals in pairs
             if value is not None
         ]
+        slope = find_input(row, "slope_angle")
+        if slope is not None:
+            told.insert(0, t("row_page.slope", value=t.show_given(slope)))
         ground = f"N {t.show_given(glide)}" if glide is not None else self._name_law()
-        told[3:3] = [ground] if ground else []
+        told[4:4] = [ground] if ground else []
         return " · ".join(told)
 
     def _name_law(self) -> str:
