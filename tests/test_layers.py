@@ -105,10 +105,7 @@ THIRD_PARTY = {
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
     "hatchling": ("core.build",),  # it runs before the package is installed
-    "skfem": (
-        "snow.forms",
-        "addons.evidence.benchmark.reference_path",
-    ),
+    "skfem": ("snow.forms",),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),

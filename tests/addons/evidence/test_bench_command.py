@@ -21,7 +21,7 @@ def test_rows_and_plot(monkeypatch, tmp_path):
     result = run("--quick", "--scenes", "rough-steep", "--json", "--plot", str(plot))
     assert result.exit_code == 0, result.output
     document = json.loads(result.stdout)
-    assert [row["path"] for row in document["rows"]] == ["fast", "reference"]
+    assert [row["path"] for row in document["rows"]] == ["fast"]
     assert plot.read_text(encoding="utf-8").startswith("<svg")
     again = run("--quick", "--scenes", "rough-steep", "--plot", str(plot))
     assert isinstance(again.exception, OutputError)

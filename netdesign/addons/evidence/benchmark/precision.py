@@ -1,9 +1,9 @@
-"""Run time against error: scenes by resolution, method and path, in one run.
+"""Run time against error: scenes by resolution and method, in one run.
 
 A row is a solve on one mesh with the coarser one before it, which gives the error
-estimate: the cheapest result of that mesh that the program would hand out. Both paths
-are timed in turns, so that a busy machine slows both; meshes and start values of a
-scene's shape are found before the first timing, as in an envelope of many cases.
+estimate: the cheapest result of that mesh that the program would hand out. Meshes and
+start values of a scene's shape are found before the first timing, as in an envelope of
+many cases.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import os
 import platform
 import tracemalloc
 from collections import defaultdict
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
@@ -22,7 +22,6 @@ from statistics import median
 from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign import __version__
-from netdesign.addons.evidence.benchmark import reference_path
 from netdesign.addons.evidence.benchmark.truth import (
     Truth,
     build_truth,
@@ -33,7 +32,6 @@ from netdesign.addons.evidence.benchmark.truth import (
 from netdesign.addons.evidence.runner import (
     fit_order,
     measure,
-    run_in_turns,
     summarise_times,
 )
 from netdesign.addons.evidence.table import show_document, show_rows
@@ -45,7 +43,6 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
     GREY,
-    INK,
     WIDTH,
     Chart,
     Frame,
@@ -74,7 +71,7 @@ Solve = Callable[[], Solution | FailedSolution]
 def measure_steady(
     name: str, scene: Scene, finest: int = 3, repeats: int = _REPEATS
 ) -> list[Row]:
-    """Rows of one scene: every pair of levels up to the finest, all paths, in turns.
+    """Rows of one scene: every pair of levels up to the finest.
 
     Raises
     ------
@@ -87,13 +84,8 @@ def measure_steady(
     truth = solve_truth(scene, MESH_LEVELS[finest], tight, halvings=1)
     rows = []
     for pair in pairwise(MESH_LEVELS[: finest + 1]):
-        fast = replace(settings, levels=pair)
-        plain = replace(fast, step=reference_path.advance)
-        solves: dict[Path, Solve] = {
-            "fast": partial(solve_steady, scene, fast),
-            "reference": partial(solve_steady, scene, plain),
-        }
-        rows += _measure(name, "steady", solves, truth, repeats)
+        solve = partial(solve_steady, scene, replace(settings, levels=pair))
+        rows.append(_measure(name, "steady", solve, truth, repeats))
     return rows
 
 
@@ -114,7 +106,7 @@ def measure_transient(name: str, scene: Scene) -> list[Row]:
     rows = []
     for pair in pairwise(TRANSIENT_LEVELS):
         solve = partial(solve_transient, scene, replace(settings, levels=pair))
-        rows += _measure(name, "transient", {"fast": solve}, truth, _REPEATS)
+        rows.append(_measure(name, "transient", solve, truth, _REPEATS))
     return rows
 
 
@@ -130,28 +122,22 @@ def time_accuracies(scenes: Collection[Scene]) -> list[dict[str, Any]]:
 
 
 def _measure(
-    name: str, method: Method, solves: Mapping[Path, Solve], truth: Truth, repeats: int
-) -> list[Row]:
-    """Solve each path once for its result and memory, then all in turns for time."""
-    solved = {path: _observe(solve) for path, solve in solves.items()}
-    works = {path: partial(measure, solve) for path, solve in solves.items()}
-    timed = run_in_turns(works, repeats)
-    return [
-        Row(
-            scene=name,
-            method=method,
-            path=path,
-            elements=solution.cost.elements,
-            degrees_of_freedom=solution.cost.degrees_of_freedom,
-            wall_s=min(timed[path]),
-            error=truth.compare(solution),
-            stated_error=state_error(solution),
-            linear_solves=solution.cost.linear_solves,
-            rounds=solution.cost.rounds,
-            peak_mb=peak_mb,
-        )
-        for path, (solution, peak_mb) in solved.items()
-    ]
+    name: str, method: Method, solve: Solve, truth: Truth, repeats: int
+) -> Row:
+    """Solve twice for result and memory, then repeatedly for the shortest time."""
+    solution, peak_mb = _observe(solve)
+    return Row(
+        scene=name,
+        method=method,
+        elements=solution.cost.elements,
+        degrees_of_freedom=solution.cost.degrees_of_freedom,
+        wall_s=min(measure(solve) for _ in range(repeats)),
+        error=truth.compare(solution),
+        stated_error=state_error(solution),
+        linear_solves=solution.cost.linear_solves,
+        rounds=solution.cost.rounds,
+        peak_mb=peak_mb,
+    )
 
 
 def _observe(solve: Solve) -> tuple[Solution, float]:
@@ -190,7 +176,6 @@ def print_bench(document: dict[str, Any], console: Console) -> None:
     show_document(document["summary"], console)
 
 
-Path = Literal["fast", "reference"]
 Method = Literal["steady", "transient"]
 
 
@@ -203,7 +188,7 @@ class Row:
     scene, method : str
         What was solved, and how.
     path : str
-        ``fast`` kernel, or its meshes solved in scikit-fem (``reference``).
+        Always ``fast``, for the kernels: a field of the document's form.
     elements, degrees_of_freedom : int
         Of the finer mesh.
     wall_s : float
@@ -222,7 +207,6 @@ class Row:
 
     scene: str
     method: Method
-    path: Path
     elements: int
     degrees_of_freedom: int
     wall_s: float
@@ -231,29 +215,23 @@ class Row:
     linear_solves: int
     rounds: int
     peak_mb: float
+    path: str = "fast"
 
 
 def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
     """Figures of the steady rows over all scenes; None where there are too few.
 
-    ``times_faster``: time of scikit-fem over that of the fast path on the same mesh,
-    hence at equal error.
-    ``cost_order``: p in time ~ degrees of freedom^p, of the fast path; ``error_order``:
-    q in error ~ degrees of freedom^-q/2. All are medians unless named otherwise.
+    ``cost_order``: p in time ~ degrees of freedom^p; ``error_order``: q in error ~
+    degrees of freedom^-q/2. Both are medians unless named otherwise.
     """
-    steady = [row for row in rows if row.method == "steady"]
-    ratios = compare_paths(steady)
     by_scene: dict[str, list[Row]] = defaultdict(list)
-    for row in steady:
-        if row.path == "fast":
+    for row in rows:
+        if row.method == "steady":
             by_scene[row.scene].append(row)
     fitted = [group for group in by_scene.values() if len(group) > 2]
     costs = [_fit(group, "wall_s") for group in fitted]
     orders = [-2.0 * _fit(group, "error") for group in fitted]
     return {
-        "times_faster": median(ratios) if ratios else None,
-        "least_times_faster": min(ratios, default=None),
-        "most_times_faster": max(ratios, default=None),
         "cost_order": median(costs) if costs else None,
         "worst_cost_order": max(costs, default=None),
         "error_order": median(orders) if orders else None,
@@ -264,19 +242,6 @@ def _fit(rows: Sequence[Row], name: str) -> float:
     """Power of the degrees of freedom with which a field of the rows grows."""
     sizes = [row.degrees_of_freedom for row in rows]
     return fit_order(sizes, [getattr(row, name) for row in rows])
-
-
-def compare_paths(rows: Sequence[Row]) -> list[float]:
-    """Time of the reference path over the fast one's, wherever both were measured.
-
-    Both are on one mesh, so their errors are equal to the solvers' tolerances.
-    """
-    fast = {(r.scene, r.elements): r.wall_s for r in rows if r.path == "fast"}
-    return [
-        row.wall_s / fast[row.scene, row.elements]
-        for row in rows
-        if row.path == "reference" and (row.scene, row.elements) in fast
-    ]
 
 
 _TALL, _LEFT, _ABOVE, _BELOW = 200.0, 42.0, 28.0, 32.0  # of the panel, beside it [pt]
@@ -298,16 +263,15 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         y_low=low - 0.1,
         y_high=high + 0.1,
     )
-    looks = {"fast": (ACCENT, ""), "reference": (INK, "5 1.6"), "transient": (GREY, "")}
-    for number, (name, (stroke, dash)) in enumerate(looks.items()):
-        drawn = [row for row in rows if name in (row.method, row.path)]
-        if name != "transient":
-            drawn = [row for row in drawn if row.method == "steady"]
+    for number, (method, stroke) in enumerate(
+        {"steady": ACCENT, "transient": GREY}.items()
+    ):
+        drawn = [row for row in rows if row.method == method]
         if drawn:
-            _draw_rows(chart, frame, drawn, stroke, dash)
+            _draw_rows(chart, frame, drawn, stroke)
             x = frame.left + 130.0 * number
-            chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke, dash=dash)
-            chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{name}"))
+            chart.line(((x, 7.0), (x + 18.0, 7.0)), stroke=stroke)
+            chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{method}"))
     chart.axes(frame, x_ticks=False, y_ticks=False)
     for across in (True, False):
         chart.decades(frame, across=across)
@@ -318,9 +282,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
     return chart.write(bottom, ENGLISH("bench_plot.title"))
 
 
-def _draw_rows(
-    chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str, dash: str
-) -> None:
+def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str) -> None:
     """Dots of all rows; steady ones have a line through the medians of their meshes."""
     for x, y in map(_place, rows):
         chart.dot((frame.x(x), frame.y(y)), 1.2, fill=stroke, stroke=stroke)
@@ -328,7 +290,7 @@ def _draw_rows(
         groups = [list(map(_place, group)) for group in _group_by_resolution(rows)]
         middles = [map(median, zip(*group, strict=True)) for group in groups]
         line = [(frame.x(x), frame.y(y)) for x, y in middles]
-        chart.line(line, stroke=stroke, width=1.2, dash=dash)
+        chart.line(line, stroke=stroke, width=1.2)
 
 
 def _place(row: Row) -> tuple[float, float]:

@@ -35,9 +35,9 @@ def run(words: Sequence[str]) -> object:
 
 if __name__ == "__main__":
     warming, timed = json.loads(sys.argv[1])
-    codes = [run(one) for one in warming]
+    codes = [run(words) for words in warming]
     before = read_clocks()
-    codes += [run(one) for one in timed]
+    codes += [run(words) for words in timed]
     wall, cpu = (b - a for a, b in zip(before, read_clocks(), strict=True))
     times = {"wall_s": wall, "cpu_s": cpu}
     sys.stdout.write(json.dumps({"times": times, "codes": codes}))

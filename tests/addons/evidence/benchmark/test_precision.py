@@ -21,17 +21,18 @@ def rows():
     return measure_steady("rough-ground", scenes["rough-ground"], **LEAST)
 
 
-def test_paths_err_alike(rows):
-    for fast, plain in zip(rows[:4:2], rows[1:4:2], strict=True):
-        assert plain.error == pytest.approx(fast.error, rel=1e-5)
-        assert plain.linear_solves == fast.linear_solves > 0
+def test_finer_meshes_err_less(rows):
+    """Each row is solved anew: none is a copy of the one before."""
+    coarse, fine = rows
+    assert fine.elements > coarse.elements
+    assert fine.error < coarse.error
+    assert fine.linear_solves > 0
 
 
 def a_row(**changed) -> Row:
     row = Row(
         scene="a",
         method="steady",
-        path="fast",
         elements=1,
         degrees_of_freedom=100,
         wall_s=0.01,
@@ -45,24 +46,20 @@ def a_row(**changed) -> Row:
 
 
 def test_summary_of_known_rows():
-    """Time ~ N^1.5, error ~ h^2 = N^-1, the reference path 10, 20, 40 times slower."""
-    rows = []
-    for place, ratio in enumerate((10.0, 20.0, 40.0)):
-        unknowns = 100 * 4**place
-        fast = a_row(
+    """Time ~ N^1.5, error ~ h^2 = N^-1."""
+    rows = [
+        a_row(
             elements=place,
             degrees_of_freedom=unknowns,
             wall_s=unknowns**1.5,
             error=1.0 / unknowns,
         )
-        rows += [fast, replace(fast, path="reference", wall_s=ratio * fast.wall_s)]
-    found = summarise([*rows, a_row(method="transient", wall_s=1e9)])
-    assert found["times_faster"] == pytest.approx(20.0)
-    assert found["least_times_faster"] == pytest.approx(10.0)
-    assert found["most_times_faster"] == pytest.approx(40.0)
-    assert found["cost_order"] == pytest.approx(1.5)
-    assert found["worst_cost_order"] == pytest.approx(1.5)
-    assert found["error_order"] == pytest.approx(2.0)
+        for place, unknowns in enumerate((100, 400, 1600))
+    ]
+    summary = summarise([*rows, a_row(method="transient", wall_s=1e9)])
+    assert summary["cost_order"] == pytest.approx(1.5)
+    assert summary["worst_cost_order"] == pytest.approx(1.5)
+    assert summary["error_order"] == pytest.approx(2.0)
 
 
 def test_statistics():

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.addons.evidence.benchmark import reference_path
 from netdesign.addons.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
+from tests.coupling.steady import plain_step
 
 # The same steps with sums and eliminations in another order. The free ground lets
 # rounding grow: nothing but the net holds the snow along X.
@@ -32,7 +32,7 @@ def test_paths_agree(name):
     scene = build_tables(CHOSEN[name])
     fast = solve_steady(scene, SETTINGS, on_failure="raise")
     plain = solve_steady(
-        scene, replace(SETTINGS, step=reference_path.advance), on_failure="raise"
+        scene, replace(SETTINGS, step=plain_step.advance), on_failure="raise"
     )
     assert isinstance(fast, Solution)
     assert isinstance(plain, Solution)
@@ -51,7 +51,7 @@ def test_both_elements_are_compared():
 
 def test_the_plain_path_is_really_taken(monkeypatch):
     taken = []
-    advance = reference_path.advance
+    advance = plain_step.advance
 
     def count(*arguments):
         taken.append(arguments)

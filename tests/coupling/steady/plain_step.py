@@ -59,7 +59,7 @@ def advance(
 
     Verified by
     -----------
-    tests/addons/evidence/benchmark/test_reference_path.py
+    tests/coupling/steady/test_plain_step.py
     """
     tangent = linearise_creep(problem, material, state.stress)
     matrix = _assemble_matrix(problem, mesh, tangent)
