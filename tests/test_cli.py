@@ -3,7 +3,6 @@
 One run of a tiny site feeds most tests; the rest runs only what it needs.
 """
 
-import copy
 import json
 import shutil
 import signal
@@ -20,10 +19,10 @@ from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import load_input_example
 from netdesign.words.message import restore, say
+from tests.make import find_cell, lay_out, load_tables, write_tiny
 from tests.program import QUICK, call_program, spoilt_program, start_program
 from tests.report.reading import read_workbook
 from tests.site.csv_folder import write_csv_folder
-from tests.tiny_site import SHEETS, write_site
 
 PROFILE = "nf-p-95-304-style"
 
@@ -52,7 +51,7 @@ def listing(folder):
 def home(tmp_path_factory):
     """Folder with the tiny site, checked once into ``out``."""
     folder = tmp_path_factory.mktemp("home")
-    write_site(folder / "site.xlsx")
+    write_tiny(folder / "site.xlsx")
     return folder
 
 
@@ -80,20 +79,21 @@ def test_a_pass_ends_with_0(checked, study):
 
 
 def test_a_fail_ends_with_1(tmp_path):
-    def weaken(sheets):
-        sheets["Anchors"][1][1:3] = [2, 2]
+    def weaken(tables):
+        tables["anchor_types"][0] |= {"tendon": 2, "pull_out": 2}
 
-    write_site(tmp_path / "site.xlsx", weaken)
+    write_tiny(tmp_path / "site.xlsx", weaken)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == 1, result.err
     assert json.loads(result.out)["verdict"] == "fail"
 
 
 def test_a_missing_resistance_ends_with_4(tmp_path):
-    def forget(sheets):
-        sheets["Anchors"][1][2:4] = [None, None]
+    def forget(tables):
+        for key in ("pull_out", "proven", "test_count"):
+            del tables["anchor_types"][0][key]
 
-    write_site(tmp_path / "site.xlsx", forget)
+    write_tiny(tmp_path / "site.xlsx", forget)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == 4, result.err
     assert json.loads(result.out)["verdict"] == "not_proven"
@@ -102,13 +102,10 @@ def test_a_missing_resistance_ends_with_4(tmp_path):
 def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
     """65, meant in percent, in a column of degrees: steep snow lies light on a net."""
 
-    def steepen(sheets):
-        sheets["Nets"][1][1] = 65
-        sheets["Nets"][1][2] = 1.3
-        sheets["Nets"][1][5] = 1.5  # [m], of a net that a guideline fills with snow
-        sheets["Anchors"][1][-1] = 800  # head, of anchors that are pulled down steeply
+    def steepen(tables):
+        tables["rows"][0]["slope_angle"] = 65
 
-    write_site(tmp_path / "site.xlsx", steepen)
+    write_tiny(tmp_path / "site.xlsx", steepen)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == 4, result.err
     (row,) = json.loads(result.out)["rows"]
@@ -120,37 +117,39 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
 
 @pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
 def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
-    sheets = {"Project": ["item;value", line], **dict(list(SHEETS.items())[:-1])}
+    sheets = lay_out(load_tables("tiny")) | {"Project": ["item;value", line]}
     write_csv_folder(tmp_path / "site", sheets)
     result = call_program("check", "site", *QUICK, cwd=tmp_path)
     assert result.code == 3
     assert f'Project.csv › Project › A2: "{line.split(";")[0]}"' in result.err
-    assert "standard" in result.err.split("accepted: ")[1]
+    assert "profile" in result.err.split("accepted: ")[1]
     assert {path.name for path in tmp_path.iterdir()} == {"site"}
 
 
 def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):
-    sheets = copy.deepcopy(SHEETS)
-    sheets["Project"] = [["item", "value"], ["name", "Combe"], ["standard", "eurocod"]]
-    write_site(tmp_path / "site.xlsx", lambda own: own.update(sheets))
+    def misspell(tables):
+        tables["project"][0]["standard"] = "eurocod"
+
+    write_tiny(tmp_path / "site.xlsx", misspell)
     ended = call("check", "site.xlsx", "--dry-run")
     assert ended.code == 3
-    assert "site.xlsx › Project › B3: limit profile 'eurocod'" in ended.err
+    place = find_cell("project", "standard").replace("!", " › ")
+    assert f"site.xlsx › {place}: limit profile 'eurocod'" in ended.err
     assert "Did you mean eurocode?" in ended.err
 
 
 def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
-    def bury(sheets):
-        sheets["Nets"][1][5] = 2.4
+    def bury(tables):
+        tables["net_types"][0]["net_height"] = 1.2
 
-    write_site(tmp_path / "site.xlsx", bury)
+    write_tiny(tmp_path / "site.xlsx", bury)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == 1, result.err
     (row,) = json.loads(result.out)["rows"]
     verdicts = {check["id"]: check["verdict"] for check in row["checks"]}
     assert verdicts.pop("geometry.height") == "fail"
     assert verdicts.pop("geometry.inclination") == "pass"
-    for one in ("slope", "anchors", "cover"):
+    for one in ("slope", "anchors"):
         assert verdicts.pop(f"geometry.{one}") == "pass"
     assert set(verdicts.values()) == {"not_proven"}
     assert {case["outcome"] for case in row["cases"]} == {"converged"}
@@ -160,17 +159,22 @@ def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
 
 
 def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
-    def declare(sheets):
-        sheets["Posts"][1][2] = None
-        sheets["Declared"] = [
-            ["net row", "check", "document", "author", "date"],
-            ["all", "Post base, bearing", "Report G-17", "B. Rüegg", "2026-03-09"],
+    def declare(tables):
+        del tables["posts"][0]["bearing"]
+        tables["declared"] = [
+            {
+                "row": "all",
+                "check": "Post base, bearing",
+                "document": "Report G-17",
+                "author": "B. Rüegg",
+                "date": "2026-03-09",
+            }
         ]
 
-    write_site(tmp_path / "site.xlsx", declare)
+    write_tiny(tmp_path / "site.xlsx", declare)
     result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=tmp_path)
     assert result.code == 6, result.err
-    proof = "Report G-17, B. Rüegg, 2026-03-09, cell Declared!B2"
+    proof = f"Report G-17, B. Rüegg, 2026-03-09, cell {find_cell('declared', 'check')}"
     (row,) = [one for one in result.out.splitlines() if one.startswith("R1 ")]
     assert "†" in row
     assert row.endswith("Report G-17")
@@ -195,7 +199,7 @@ def test_outputs_are_in_their_folder_and_nothing_else_is(home, checked):
 
 
 def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
-    write_site(tmp_path / "site.xlsx")
+    write_tiny(tmp_path / "site.xlsx")
     options = ("--json", "--no-cache", *QUICK)
     result = call_program("check", "site.xlsx", *options, cwd=tmp_path)
     assert result.code == 0, result.err
@@ -209,7 +213,7 @@ def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
 
 
 def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
-    write_site(tmp_path / "site.xlsx")
+    write_tiny(tmp_path / "site.xlsx")
     options = ("--accuracy", "0.1", "--jobs", "2", "--quiet", "--no-html")
     result = start_program(
         *("check", "site.xlsx", "--out", "o", "--no-excel", *options), cwd=tmp_path
@@ -291,16 +295,20 @@ def test_wrong_usage_ends_with_2(home, tmp_path, arguments, message):
 
 
 def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
-    def spoil(sheets):
-        sheets["Nets"][1][1] = 95  # slope
-        sheets["Nets"][1][8] = "A9"  # no such anchor
-        sheets["Ranges"][1][2] = "4OO"
+    def spoil(tables):
+        tables["rows"][0] |= {"slope_angle": 95, "foot_anchor": "A9"}
+        tables["project"][0]["density"] = "270 to 4OO"
 
-    write_site(tmp_path / "site.xlsx", spoil)
+    write_tiny(tmp_path / "site.xlsx", spoil)
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == 3
-    for place in ('Nets › B2: "95"', 'Nets › I2: "A9"', 'Ranges › C2: "4OO"'):
-        assert f"site.xlsx › {place}" in result.err
+    for table, key, text in (
+        ("rows", "slope_angle", "95"),
+        ("rows", "foot_anchor", "A9"),
+        ("project", "density", "270 to 4OO"),
+    ):
+        place = find_cell(table, key).replace("!", " › ")
+        assert f'site.xlsx › {place}: "{text}"' in result.err
     assert "3 findings; nothing was checked" in result.err
     assert result.out == ""
     assert listing(tmp_path) == {"site.xlsx"}
@@ -341,11 +349,10 @@ def test_a_traceback_is_there_for_the_asking(home, tmp_path):
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
-    def enlarge(sheets):
-        sheets["Ranges"][2] = ["friction angle [deg]", 15, 45]
-        sheets["Ranges"][1] = ["density [kg/m3]", 270, 400]
+    def enlarge(tables):
+        tables["project"][0]["friction_angle"] = (15, 45)
 
-    write_site(tmp_path / "site.xlsx", enlarge)
+    write_tiny(tmp_path / "site.xlsx", enlarge)
     # A shell that runs tests in the background lets its children ignore SIGINT.
     heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
     with subprocess.Popen(

@@ -9,7 +9,7 @@ import pytest
 import netdesign
 from netdesign.checks import list_standards, load_standard
 from netdesign.core.library import name_core
-from tests.tiny_site import write_site
+from tests.make import write_tiny
 
 HEAVY = (
     *("numpy", "scipy", "skfem", "pandas", "matplotlib", "openpyxl", "xlsxwriter"),
@@ -96,7 +96,7 @@ def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
 
 def test_a_table_needs_no_solver(tmp_path):
     """A second of processor time for eight rows: no more than reading and a table."""
-    write_site(tmp_path / "site.xlsx")
+    write_tiny(tmp_path / "site.xlsx")
     modules = imported("table", "site.xlsx", cwd=tmp_path)
     assert "rich" in modules
     assert not modules & {"scipy", "skfem", "pandas", "jinja2", "xlsxwriter"}

@@ -13,7 +13,7 @@ from netdesign.edge.input_files import _RemovedError, _require_there
 from netdesign.edge.output import require_free, write_files
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.site.reader import read_site
-from tests.tiny_site import write_site
+from tests.make import write_tiny
 
 POSIX = {
     *("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "posix"),
@@ -75,7 +75,7 @@ def deny(monkeypatch, place, name):
 @pytest.mark.parametrize("lock", ["~${}", ".~lock.{}#"])
 def test_a_workbook_open_in_excel_is_to_be_closed(tmp_path, monkeypatch, lock):
     path = tmp_path / "site.xlsx"
-    write_site(path)
+    write_tiny(path)
     (tmp_path / lock.format(path.name)).write_bytes(b"owner")
     deny(monkeypatch, path, "open")
     with pytest.raises(SiteDataError) as told:
@@ -88,7 +88,7 @@ def test_a_workbook_open_in_excel_is_to_be_closed(tmp_path, monkeypatch, lock):
 
 def test_a_workbook_that_may_not_be_read_is_not_said_to_be_open(tmp_path, monkeypatch):
     path = tmp_path / "site.xlsx"
-    write_site(path)
+    write_tiny(path)
     deny(monkeypatch, path, "open")
     with pytest.raises(SiteDataError, match="Permission denied"):
         read_site(path)

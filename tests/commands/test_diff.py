@@ -7,7 +7,7 @@ from netdesign import cli
 from netdesign.site.model import Project
 from netdesign.study.document import write_document
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
-from tests.tiny_site import write_site
+from tests.make import write_tiny
 
 STUDY = Study(
     schema=SCHEMA,
@@ -52,8 +52,8 @@ def test_what_is_no_study_ends_with_3(call, files, content):
     assert call("diff", files / "old.json", path).code == 3
 
 
-def weaken(sheets):
-    sheets["Posts"][1][2] = 5.0  # [kN], bearing resistance
+def weaken(tables):
+    tables["posts"][0]["bearing"] = 5.0
 
 
 @pytest.fixture(scope="module")
@@ -63,8 +63,8 @@ def real(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setenv("NETDESIGN_STORE", str(folder / "cases.sqlite"))
-        write_site(folder / "passes.xlsx")
-        write_site(folder / "fails.xlsx", weaken)
+        write_tiny(folder / "passes.xlsx")
+        write_tiny(folder / "fails.xlsx", weaken)
         for name in ("passes", "fails"):
             words = ["--out", name, "--no-html", "--no-excel", "--jobs", "1"]
             asked = ["netdesign", "check", f"{name}.xlsx", "--accuracy", "0.05"]

@@ -5,8 +5,8 @@ import shutil
 
 import pytest
 
+from tests.make import write_tiny
 from tests.program import QUICK
-from tests.tiny_site import write_site
 
 SHOWN = ("foot_anchor", "uphill_anchor", "downhill_anchor")
 
@@ -17,7 +17,7 @@ def checked(tmp_path_factory):
     from tests.program import call_program
 
     folder = tmp_path_factory.mktemp("checked")
-    write_site(folder / "site.xlsx")
+    write_tiny(folder / "site.xlsx")
     asked = ("--out", "study", "--no-html", "--no-excel", "--quiet")
     call_program("check", "site.xlsx", *QUICK, *asked, cwd=folder)
     return folder
@@ -57,7 +57,7 @@ def test_a_study_beside_the_site_is_found(call, checked, beside, place):
 
 
 def test_a_study_of_another_site_is_told_and_refused(call, checked, beside):
-    write_site(beside / "site.xlsx", lambda of: of["Nets"][1].__setitem__(1, 38.4))
+    write_tiny(beside / "site.xlsx", lambda of: of["rows"][0].update(slope_angle=38.4))
     found, _ = read(call)
     shutil.copy(checked / "study" / "study.json", beside)
     again, told = read(call)

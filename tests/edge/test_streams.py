@@ -12,19 +12,20 @@ import pytest
 from netdesign.edge.output import _Lasting
 from netdesign.words.catalogue import load_texts
 from tests.each import each
+from tests.make import write_tiny
 from tests.program import QUICK, start_program
-from tests.tiny_site import write_site
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="POSIX pipes and devices")
 FULL = Path("/dev/full")
 
 
-def weaken(sheets):
-    sheets["Anchors"][1][1:3] = [2, 2]
+def weaken(tables):
+    tables["anchor_types"][0] |= {"tendon": 2, "pull_out": 2}
 
 
-def forget(sheets):
-    sheets["Anchors"][1][2:4] = [None, None]
+def forget(tables):
+    for key in ("pull_out", "proven", "test_count"):
+        del tables["anchor_types"][0][key]
 
 
 VERDICTS = {0: None, 1: weaken, 4: forget}
@@ -35,7 +36,7 @@ def sites(tmp_path_factory):
     """Folder with a site of each verdict: ``0.xlsx`` passes."""
     folder = tmp_path_factory.mktemp("sites")
     for code, edit in VERDICTS.items():
-        write_site(folder / f"{code}.xlsx", edit)
+        write_tiny(folder / f"{code}.xlsx", edit)
     return folder
 
 
@@ -113,10 +114,10 @@ def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
 
 
 def test_a_document_is_utf_8_whatever_the_code_page(tmp_path):
-    def name(sheets):
-        sheets["Nets"][1][0] = sheets["Ends"][1][0] = "Rangée φ 1"
+    def name(tables):
+        tables["rows"][0]["id"] = "Rangée φ 1"
 
-    write_site(tmp_path / "site.xlsx", name)
+    write_tiny(tmp_path / "site.xlsx", name)
     result = subprocess.run(
         [Path(sys.executable).with_name("netdesign"), "check", "site.xlsx", "--json",
          *QUICK],

@@ -1,0 +1,159 @@
+"""Sites as an office types them: tables of the input workbook by key, soon written.
+
+A table is a list of lines, a line a mapping by the keys of `site/columns/office.toml`,
+in the units that its template shows; words are its English ones, a pair is a range.
+The workbook has every column at the place of the template, without formats and notes.
+"""
+
+import tomllib
+from pathlib import Path
+
+import xlsxwriter
+from xlsxwriter.utility import xl_col_to_name
+
+from netdesign.site.columns.all_tables import MONITORING, UNCERTAINTY, WINTER
+from netdesign.site.columns.office import (
+    PARTS,
+    PROJECT_HEADS,
+    TABLES,
+    load_columns,
+    load_plan,
+    load_text,
+    name_measure,
+)
+from netdesign.words.catalogue import render
+
+MEASURES = {
+    ("rows", "snow"): "normal",
+    ("net_types", "slack"): "slack",
+    ("layers", "thickness"): "normal",
+}
+_HERE = Path(__file__).parent
+_HEADINGS, _BELOW = 2, 3  # row of a sheet's headings, from 0; rows down to its lines
+_OF_ADDONS = (MONITORING, WINTER, UNCERTAINTY)
+
+
+def load_tables(name):
+    """Tables of a file beside this module, as new each time."""
+    kept = tomllib.loads((_HERE / f"{name}.toml").read_text(encoding="utf-8"))
+    tables = {"project": [kept.pop("project")]}
+    for table, one in kept.items():
+        lines = (zip(one["columns"], line, strict=True) for line in one["lines"])
+        tables[table] = [
+            {key: value for key, value in line if value != ""} for line in lines
+        ]
+    return tables
+
+
+def write_tiny(path, edit=None):
+    """Workbook of one row that is soon solved; ``edit`` may change its tables."""
+    tables = load_tables("tiny")
+    if edit:
+        edit(tables)
+    return write_site(path, tables)
+
+
+def write_site(path, tables, language="en", measures=None):
+    """Workbook of these tables; returns its path.
+
+    ``measures`` has what a unit cell says that it measures, by table and key.
+    """
+    return write_sheets(path, lay_out(tables, language, measures))
+
+
+def write_sheets(path, sheets):
+    """Workbook of sheets by name, each a list of lines."""
+    book = xlsxwriter.Workbook(str(path))
+    for name, lines in sheets.items():
+        sheet = book.add_worksheet(name)
+        for row, line in enumerate(lines):
+            for column, value in enumerate(line):
+                if isinstance(value, str) and value:
+                    sheet.write_string(row, column, value)
+                elif value is not None and value != "":
+                    sheet.write_number(row, column, value)
+    book.close()
+    return path
+
+
+def lay_out(tables, language="en", measures=None):
+    """Cells of these tables by sheet, each a list of lines."""
+    said = MEASURES | (measures or {})
+    sheets = {}
+    for table in (one for one in TABLES if one not in PARTS):
+        lines = tables.get(table, [])
+        sheets[load_plan(table).name_in(language)] = [[]] * _HEADINGS + (
+            _lay_out_project(lines, language)
+            if table == "project"
+            else _lay_out_block(table, lines, language, said)
+        )
+    parts = [[], []]
+    for table in PARTS:
+        parts.append([f"block of {table}"])
+        parts += _lay_out_block(table, tables.get(table, []), language, said)
+        parts.append([])
+    sheets[load_plan(PARTS[0]).name_in(language)] = parts
+    for plan in (one for one in _OF_ADDONS if one.name in tables):
+        fields = [one for one in plan.fields if one.is_offered]
+        sheets[plan.name] = [
+            [one.heading_for(language) for one in fields],
+            *_say_lines(fields, tables[plan.name], language),
+        ]
+    return sheets
+
+
+def find_cell(table, key, line=0, language="en"):
+    """Cell of a value outside sheet Parts, as ``Rows!B6``."""
+    number = [one.field.key for one in load_columns(table)].index(key)
+    name = load_plan(table).name_in(language)
+    if table == "project":
+        return f"{name}!B{_HEADINGS + 2 + number}"
+    return f"{name}!{xl_col_to_name(number)}{_HEADINGS + _BELOW + line + 1}"
+
+
+def _lay_out_project(lines, language):
+    heads = {one.key: one.label_in(language) for one in load_plan("project").fields}
+    columns = load_columns("project")
+    (values,) = _say_lines([one.field for one in columns], lines or [{}], language)
+    return [
+        [heads[key] for key in PROJECT_HEADS],
+        *(
+            [one.field.label_in(language), value, one.unit if one.field.units else ""]
+            for one, value in zip(columns, values, strict=True)
+        ),
+    ]
+
+
+def _lay_out_block(table, lines, language, measures):
+    """Headings, units, what is assumed, and lines."""
+    columns = load_columns(table)
+    units = [
+        name_measure(one.choice, measures[table, one.field.key], language)
+        if one.choice
+        else one.unit
+        if one.field.units
+        else ""
+        for one in columns
+    ]
+    return [
+        [one.field.label_in(language) for one in columns],
+        [load_text("unit", language), *units[1:]],
+        [load_text("empty", language)],
+        *_say_lines([one.field for one in columns], lines, language),
+    ]
+
+
+def _say_lines(fields, lines, language):
+    return [
+        [_say(one, line.get(one.key), language) for one in fields] for line in lines
+    ]
+
+
+def _say(field, value, language):
+    """Value as a user of that language types it."""
+    if isinstance(value, tuple):
+        mark, to = load_text("comma", language), load_text("to", language)
+        return f" {to} ".join(f"{end:.15g}".replace(".", mark) for end in value)
+    if isinstance(value, str) and value in field.words:
+        return render(field.name_word(value), language)
+    return value
