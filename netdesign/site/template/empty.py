@@ -1,13 +1,16 @@
-"""What the template says of an empty cell: what is assumed, and its source."""
+"""What the template says of a cell: what it accepts, what is assumed if it is empty."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from netdesign.site.assumed import Assumed, load_assumed
 from netdesign.site.columns.office import Column, load_text
 from netdesign.site.office.rows import find_sag
+from netdesign.site.template.workbook import describe_accepted
 from netdesign.words.catalogue import Language, render, set_marks
+from netdesign.words.message import say
 
 # What a range is a multiple of, and which of its ends are.
 _TIMES = {"net_height": ("D_K", 2), "altitude_factor": ("f_c", 1)}
@@ -33,6 +36,19 @@ def say_why(column: Column, language: Language) -> str:
     return render(assumed.why, language) if assumed else ""
 
 
+def say_accepted(column: Column, language: Language) -> str:
+    """What a cell accepts, in the unit that the template shows; empty of any text."""
+    field = column.field
+    low, high = _show_in_unit(column, field.bounds)
+    is_share = column.choice == "sag_unit" or column.unit == "%"
+    units = ("%",) if is_share else field.units
+    shown = replace(field, bounds=(low, high), units=units)
+    accepted = describe_accepted(shown, language)
+    if not field.may_range:
+        return accepted
+    return render(say("accepted.or_range", accepted=accepted), language)
+
+
 def _find(column: Column) -> Assumed | None:
     if column.said or column.field.required:
         return None
@@ -44,14 +60,18 @@ def _list_ends(column: Column) -> Sequence[float | str]:
     if assumed is None or assumed.word:
         return ()
     ends = (assumed.low, assumed.high) if assumed.times else assumed.shown
-    if column.choice == "sag_unit":
-        return tuple(round(100.0 * find_sag(end), 1) for end in ends)
-    if column.unit == "%" and column.field.unit == "-":
-        return tuple(round(100.0 * end, 6) for end in ends)
     if assumed.times:
         sign, count = _TIMES[assumed.times]
         return (f"{ends[0]:g} {sign}", f"{ends[1]:g} {sign}" if count > 1 else ends[1])
-    return tuple(round(end, 6) for end in ends)
+    return _show_in_unit(column, ends)
+
+
+def _show_in_unit(column: Column, ends: Sequence[float]) -> tuple[float, ...]:
+    """Ends of a range in the unit that the template shows."""
+    if column.choice == "sag_unit":
+        return tuple(round(100.0 * find_sag(end), 1) for end in ends)
+    share = 100.0 if column.unit == "%" and column.field.unit == "-" else 1.0
+    return tuple(round(share * end, 6) for end in ends)
 
 
 def _show(value: float | str, language: Language) -> str:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.office import PARTS, load_plan
-from netdesign.site.template.empty import say_empty
+from netdesign.site.template.empty import say_accepted, say_empty
 from netdesign.site.template.form import Form, list_shown, name_column, say_unit
-from netdesign.site.template.workbook import count_lines, describe_accepted
+from netdesign.site.template.workbook import count_lines
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
@@ -67,8 +67,8 @@ def _write_columns(form: Form, sheet: Worksheet, row: int, table: str) -> int:
         sheet.write_blank(row, 0, None, form.style("yes" if column.need else "cell"))
         texts = (
             *(name_column(form, column), say_unit(form, column)),
-            *(describe_accepted(column.field, form.language)[:90],),
-            *(say_empty(column, form.language), form.text(column.has, "who")),
+            *(say_accepted(column, form.language), say_empty(column, form.language)),
+            form.text(column.has, "who"),
             column.texts["note"][form.language],
         )
         for number, text in enumerate(texts, start=1):

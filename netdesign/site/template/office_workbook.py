@@ -25,7 +25,7 @@ from netdesign.site.columns.office import (
     name_measure,
 )
 from netdesign.site.office.declared import GROUPS, name_group
-from netdesign.site.template.empty import say_empty, say_why
+from netdesign.site.template.empty import say_accepted, say_empty, say_why
 from netdesign.site.template.form import (
     Form,
     Tables,
@@ -34,11 +34,7 @@ from netdesign.site.template.form import (
     say_unit,
 )
 from netdesign.site.template.office_notes import write_notes
-from netdesign.site.template.workbook import (
-    describe_accepted,
-    start_book,
-    write_sheet,
-)
+from netdesign.site.template.workbook import start_book, write_sheet
 from netdesign.words.catalogue import Language, render
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
@@ -282,7 +278,7 @@ def _mark_missing(
 
 def _say_rule(form: Form, column: Column) -> dict[str, Any] | None:
     """Drop-down of a cell, or a prompt with what it accepts and what is assumed."""
-    accepted = describe_accepted(column.field, form.language)
+    accepted = say_accepted(column, form.language)
     is_number = column.field.kind in ("number", "count")
     empty = say_empty(column, form.language)
     lines = [
