@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from netdesign.addons.terrain.grid import Grid
     from netdesign.addons.terrain.measure import MeasuredRow
     from netdesign.addons.terrain.plan import Plan
-    from netdesign.addons.terrain.site_lines import Lines
+    from netdesign.addons.terrain.site_lines import TypedSheets
     from netdesign.addons.terrain.surface import Surface
 
 _SITE, _ROWS_FILE, _PAGE_FILE = "site.xlsx", "rows.geojson", "terrain.html"
@@ -51,9 +51,10 @@ def terrain(grid: Path | None, rows: Path | None, **asked: Any) -> None:
 
     GRID is an ESRI ASCII grid or a GeoTIFF, in metres. ROWS are lines in its
     coordinates: GeoJSON, a shapefile (.shp) or a GeoPackage (.gpkg). Their properties
-    are columns of sheet Nets: id, net height, post spacing and any other. Each derived
-    cell has a note with its band and its stretch. The map of verdicts is GeoJSON or a
-    drawing (.dxf). It needs pip install "netdesign[terrain]".
+    are columns of sheets Rows and Net types: id, net height, post spacing and any
+    other. Each derived cell has a note with its band and its stretch. The map of
+    verdicts is GeoJSON or a drawing (.dxf). It needs
+    pip install "netdesign[terrain]".
     """
     if any(find_spec(library) is None for library in _LIBRARIES):
         message = 'terrain needs additional packages: pip install "netdesign[terrain]"'
@@ -132,7 +133,7 @@ def _measure(
 
     plan = read_plan(rows)
     ground = _read_ground(grid, plan)
-    others = _read_types(asked["types"], plan)
+    others = _read_types(asked["types"])
     with follow(len(plan.lines), "rows", asked) as on_row:
         surface, measured = measure_plan(
             ground, plan, most=asked["most"], on_row=on_row
@@ -164,21 +165,15 @@ def _read_ground(grid: Path, plan: Plan) -> Grid:
         tell(message, err=True)
     if plan.unread:
         names = ", ".join(plan.unread)
-        tell(f"No columns of sheet Nets, left out: {names}", err=True)
+        tell(f"No columns of Rows or Net types, left out: {names}", err=True)
     return ground
 
 
-def _read_types(path: Path | None, plan: Plan) -> Lines | None:
-    """Lines of the other sheets; what names rows that the plan lacks is told."""
+def _read_types(path: Path | None) -> TypedSheets | None:
+    """Project, net types and parts of another workbook."""
     from netdesign.addons.terrain.site_lines import read_typed_sheets
 
-    if path is None:
-        return None
-    lines, left_out = read_typed_sheets(path, [line.id for line in plan.lines])
-    if left_out:
-        message = f"note: {path.name}, sheet Ends: {', '.join(left_out)}"
-        tell(f"{message} not among the drawn rows, left out", err=True)
-    return lines
+    return None if path is None else read_typed_sheets(path)
 
 
 def _cover(

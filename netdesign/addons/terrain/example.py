@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +14,9 @@ from netdesign.addons.terrain.plan import ZONE
 from netdesign.addons.terrain.surface import Surface
 from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
-from netdesign.site.columns.all_tables import NETS
-from netdesign.site.template.workbook import render_workbook
+from netdesign.site.lists.targets import list_targets
+from netdesign.site.template.example import load_input_example
+from netdesign.site.template.office_workbook import render_input
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"
@@ -37,42 +36,18 @@ _ROWS = (
     *(("D1", (31.4, 138.5), 57.0), ("D2", (89.2, 138.8), 54.0)),
 )
 _OWN = {
-    "glide_factor": 1.3,
-    "snow_thickness": 2.5,
-    "mesh_strength": 400,
+    "glide_factor": 1.8,
+    "snow.normal": 2.5,
+    "net_type": "SN 3.0",
+    "net_height": 3.0,
     "post_spacing": 3.5,
-    "foot_anchor": "A40-tested",
-    "uphill_anchor": "A32-tested",
-    "downhill_anchor": "A28-tested",
-    "uphill_guy": "G24",
-    "downhill_guy": "G22",
-    "post": "HEB160",
-    "ridge_rope": "B40",
-    "lower_rope": "B44",
+    "foot_anchor": "SRA 26",
+    "uphill_anchor": "SRA 22",
+    "downhill_anchor": "SRA 18",
+    "end_anchor": "SRA 2x28",
+    "ground": "till",
 }
-_ENDS = {
-    "row": "all",
-    "support_types": "as inside",
-    "lateral_anchor": "A57-tested",
-    "end_guy": "E40",
-    "end_guy_anchor": "A57-tested",
-    "end_guy_angle": 30,
-    "lateral_distance": 1.6,
-    "lateral_axis": 50,
-}
-_PROJECT = {
-    "name": "Starting zone (example)",
-    "number": "EX-002",
-    "author": "A. Example",
-    "checker": "",
-    "revision": "0",
-    "standard": "nf-p-95-304-style",
-}
-_TYPES = ("Ranges", "Anchors", "Ropes", "Links", "Posts")
-_DERIVED = (
-    *("id", "slope_angle", "upslope_length", "altitude", "gap", "neighbour"),
-    *("post_count", "row_length"),
-)
+_TYPES = ("net_types", "anchor_types", "tests", "ropes", "posts", "links")
 
 
 def build_example() -> Grid:
@@ -117,13 +92,8 @@ def list_rows(grid: Grid) -> list[Feature]:
     """Rows of the made-up zone along its contours, and the zone."""
     surface = Surface(grid, 7, _NOISE)
     origin = np.array((_EAST, _NORTH))
-    (model,) = _load_types()["Nets"]
-    headings = {field.key: field.heading_for("en") for field in NETS.fields}
-    cells = {
-        headings[key]: value
-        for key, value in {**model, **_OWN}.items()
-        if key not in _DERIVED
-    }
+    headings = {x.field.key: x.heading(x.field.unit) for x in list_targets("rows")}
+    cells = {headings[key]: value for key, value in _OWN.items()}
     rows = [
         make_feature(
             LineString(follow_contour(surface, origin + np.array(start), length)),
@@ -151,13 +121,9 @@ def _turn(surface: Surface, place: Floats) -> Floats:
 
 
 def write_types() -> bytes:
-    """Workbook of the zone's types and of the ends of its rows."""
-    example = _load_types()
-    lines = {name: example[name] for name in _TYPES}
-    lines["Project"] = [{"item": key, "value": text} for key, text in _PROJECT.items()]
-    return render_workbook({**lines, "Ends": [_ENDS]})
-
-
-def _load_types() -> dict[str, list[dict[str, object]]]:
-    file = files("netdesign.addons.terrain").joinpath("types.toml")
-    return tomllib.loads(file.read_text(encoding="utf-8"))
+    """Workbook of the net types and anchors of the example site."""
+    example = load_input_example()
+    (project,) = example["project"]
+    named = {**project, "name": "Starting zone (example)"}
+    tables = {"project": [named], **{name: example[name] for name in _TYPES}}
+    return render_input(tables, "en", ("tests", "parts"), {("rows", "snow"): "normal"})

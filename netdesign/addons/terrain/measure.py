@@ -96,9 +96,6 @@ class MeasuredRow:
         At the posts inside the row [rad].
     above : FallLines
         Lines of fall, up to their ends.
-    has_row_above : bool or None
-        Some row of the plan stands above a post, however far; None where the lines of
-        fall are known for less than the anchors of two rows may reach.
     below_row, below_length : str, float or None
         Row below, and how far along the line of fall [m]; "" and None without one.
     """
@@ -114,7 +111,6 @@ class MeasuredRow:
     bends: Floats
     above: FallLines
     ends: tuple[Upslope, ...]
-    has_row_above: bool | None = None
     below_row: str = ""
     below_length: float | None = None
 
@@ -241,7 +237,6 @@ def _measure_row(
         bends=drawn.bends,
         above=above,
         ends=ends,
-        has_row_above=_find_row_above(crossed, above),
         below_row=row,
         below_length=length,
     )
@@ -375,16 +370,6 @@ def _list_zone_ends(plan: Plan, above: FallLines) -> list[float | None]:
     ends = [find_exit(above, post, zones) for post in posts]
     has_zone = any(end is not None for end in ends)
     return [0.0 if end is None and has_zone else end for end in ends]
-
-
-def _find_row_above(
-    crossed: Sequence[Mapping[str, float]], above: FallLines
-) -> bool | None:
-    """Presence of a row above any post, beyond the end of its snow, too."""
-    if any(crossed):
-        return True
-    least = min(map(above.find_length, range(len(crossed))))
-    return None if least < _FAR else False
 
 
 def _find_flat(

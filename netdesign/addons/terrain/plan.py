@@ -22,17 +22,18 @@ from netdesign.addons.terrain.grid import (
 from netdesign.edge.input_files import make_printable
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
-from netdesign.site.columns.all_tables import NETS, Lexicon
 from netdesign.site.columns.fields import (
     convert_unit,
-    normalise_unit,
+    normalise,
     split_heading,
 )
+from netdesign.site.columns.office import list_choices
+from netdesign.site.lists.targets import Target, list_targets
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TypedCells:
-    """Cells of a line of sheet Nets.
+    """Cells of a line of sheet Rows, and of its net type.
 
     Attributes
     ----------
@@ -49,38 +50,61 @@ class TypedCells:
     unread: tuple[str, ...] = ()
 
 
+# Of a column with several measures a key for each.
+_MEASURED = {
+    "snow.vertical": "snow_height",
+    "snow.normal": "snow_thickness",
+    "slack.slack": "slack",
+    "slack.sag": "sag",
+}
+
+
 def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
-    """Cells of a line of sheet Nets from values by their headings.
+    """Cells of a line of sheet Rows, and of its net type, from values by headings.
 
     Parameters
     ----------
-    given : mapping of str to object
+    properties : mapping of str to object
         Headings in any language, perhaps with a unit; None of an empty cell.
     """
     cells: dict[str, float | str] = {}
     faults, unread = [], []
-    lexicon = Lexicon.of(NETS.fields, NETS)
     for heading, value in properties.items():
-        meaning = lexicon.match(heading)
         if value is None or value == "":
             continue
-        if meaning.readings:
-            readings = ", ".join(str(reading.name) for reading in meaning.readings)
+        bracket = split_heading(heading)[1]
+        unit, measure = list_choices().get(normalise(bracket), (bracket, ""))
+        targets = _find_targets(heading, measure)
+        if len(targets) > 1:
+            readings = ", ".join(one.title("en") for one in targets)
             fault = f"property {heading!r:.60} may mean: {readings}"
             faults.append(f"{fault}; name it as the workbook does")
-        elif meaning.field is None:
+        elif not targets:
             unread.append(f"{heading!r:.60}")
         else:
-            converted = _convert(heading, value, meaning.field.unit)
-            if converted is None or meaning.field.key in cells:
+            (field,) = (one.field for one in targets)
+            key = _MEASURED.get(field.key, field.key)
+            converted = _convert(value, unit, field.unit)
+            if converted is None or key in cells:
                 fault = f"property {heading!r:.60} is given twice, or its value or unit"
                 faults.append(f"{fault} is not understood")
             else:
-                cells[meaning.field.key] = converted
+                cells[key] = converted
     return TypedCells(cells=cells, faults=tuple(faults), unread=tuple(unread))
 
 
-def _convert(heading: str, value: object, unit: str) -> float | str | None:
+def _find_targets(heading: str, measure: str) -> list[Target]:
+    """Columns of rows and net types that have the name."""
+    names = {normalise(heading), split_heading(heading)[0]}
+    return [
+        one
+        for one in list_targets("rows")
+        if not names.isdisjoint(one.field.names)
+        and (not measure or one.measure == measure)
+    ]
+
+
+def _convert(value: object, own: str, unit: str) -> float | str | None:
     """Number in the column's first unit, or words; None of what is neither."""
     if isinstance(value, str):
         return value.strip() or None
@@ -88,7 +112,6 @@ def _convert(heading: str, value: object, unit: str) -> float | str | None:
         return None
     if not math.isfinite(value):
         return None
-    own = normalise_unit(split_heading(heading)[1])
     try:
         return convert_unit(float(value), own, unit) if own and unit else float(value)
     except KeyError:
@@ -117,7 +140,7 @@ class NetLine:
     points : ndarray, shape (n, 2)
         Feet of the net along the row, east and north [m].
     cells : mapping of str to float or str
-        Columns of sheet Nets that its properties give, in their first units.
+        Columns that its properties give, in their first units.
     """
 
     id: str
@@ -167,7 +190,7 @@ class Plan:
     crs : str
         Reference system, as ``EPSG:2056`` or as WKT; empty where not known.
     unread : tuple of str
-        Properties of rows that are no columns of sheet Nets.
+        Properties of rows that are no columns of theirs.
     closed_gaps : tuple of ClosedGap
         Between its rows.
     """

@@ -1,4 +1,4 @@
-"""Lines of the site workbook that rows on terrain give, with a note on each cell.
+"""Input workbook that rows on terrain give, with a note on each cell of theirs.
 
 The gap beside a row is that to the nearest work along it.
 """
@@ -6,7 +6,7 @@ The gap beside a row is that to the nearest work along it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,80 +20,95 @@ from netdesign.addons.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
-from netdesign.outcome import SiteDataError
+from netdesign.outcome import SiteDataError, TerrainError
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ENDS, RANGES, SHEETS
-from netdesign.site.columns.fields import (
-    normalise,
-)
-from netdesign.site.headings import Table
-from netdesign.site.lines import ALL_ROWS
-from netdesign.site.reader import read_cells
-from netdesign.site.tables import find_table, read_rows
-from netdesign.site.template.workbook import list_starting_lines, render_workbook
+from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.office import Column, load_columns, load_plan
+from netdesign.site.office.project import read_lines
+from netdesign.site.office.rows import find_sag, find_slack
+from netdesign.site.office.sheets import find_office_tables
+from netdesign.site.readings import Reading, Row
+from netdesign.site.template.office_workbook import render_input
 from netdesign.words.catalogue import Language
 
-Lines = Mapping[str, Sequence[Mapping[str, object]]]
-_TAKEN = ("Project", "Ranges", "Anchors", "Ropes", "Posts", "Links", "Tests", "Ends")
+Line = Mapping[str, object]
+_PARTS = ("ropes", "posts", "links", "soils")
+_TAKEN = ("project", "net_types", "anchor_types", "tests", *_PARTS)
 
 
-def read_typed_sheets(path: Path, rows: Sequence[str]) -> tuple[Lines, tuple[str, ...]]:
-    """Lines of a workbook's project, ranges, types and row ends, as typed.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TypedSheets:
+    """Project, net types, anchors, tests and parts of another workbook.
 
-    Of sheet Ends those of some rows, or of all rows.
-
-    Parameters
+    Attributes
     ----------
-    path : Path
-        Workbook.
-    rows : sequence of str
-        Names of these rows.
+    file : str
+        Its name.
+    tables : mapping of str to sequence of mapping
+        Lines by table and column, as the workbook shows them.
+    measure : str
+        Of the net types: ``sag`` or ``slack``.
+    """
 
-    Returns
-    -------
-    mapping, tuple of str
-        Lines by sheet; names on sheet Ends that are left out.
+    file: str
+    tables: Mapping[str, Sequence[Line]]
+    measure: str = "slack"
+
+
+def read_typed_sheets(path: Path) -> TypedSheets:
+    """Lines of a workbook's project, net types, anchors, tests and parts.
 
     Raises
     ------
     SiteDataError
         If one of them cannot be read.
     """
-    workbook = read_cells(path)
+    plans = tuple(map(load_plan, _TAKEN))
+
+    def is_wanted(name: str) -> bool:
+        return any(plan.matches(name) for plan in plans)
+
+    workbook = read_workbook(path, is_wanted)
     findings: list[Finding] = []
-    lines: dict[str, list[Mapping[str, object]]] = {}
-    for plan in SHEETS:
-        table = find_table(workbook, plan, findings) if plan.name in _TAKEN else None
-        if table is None:
-            continue
-        if plan is RANGES:  # its units stand in a column of their own
-            lines[plan.name] = list(_list_as_typed(table))
-            continue
-        lines[plan.name] = [
-            {key: cell.value for key, cell in row.items() if cell.state == "given"}
-            for row in read_rows(table, findings)
-        ]
+    alone = tuple(one for one in _TAKEN if one not in _PARTS)
+    found = find_office_tables(workbook, findings, alone)
+    project = read_lines(
+        found.tables["project"], list(found.lines["project"]), findings
+    )
     errors = [finding for finding in findings if finding.severity == "error"]
     if errors:
         raise SiteDataError(errors)
-    ends = lines.get(ENDS.name, [])
-    lines[ENDS.name] = [line for line in ends if _is_of_rows(line, rows)]
-    others = (str(line.get("row")) for line in ends if not _is_of_rows(line, rows))
-    return lines, tuple(dict.fromkeys(others))
+    lines = {**found.lines, "project": [project]}
+    tables = {
+        table: [_show_line(table, line) for line in lines[table]] for table in _TAKEN
+    }
+    measure = found.measures.get(("net_types", "slack")) or "slack"
+    return TypedSheets(file=workbook.file, tables=tables, measure=measure)
 
 
-def _is_of_rows(line: Mapping[str, object], rows: Sequence[str]) -> bool:
-    name = str(line.get("row", ""))
-    return name in rows or normalise(name) in ALL_ROWS
+def _show_line(table: str, line: Row) -> dict[str, object]:
+    """Cells that are filled in, in the units that the workbook shows."""
+    columns = {one.field.key: one for one in load_columns(table)}
+    return {
+        key: _show(columns[key], reading)
+        for key, reading in line.items()
+        if reading.state == "given"
+    }
 
 
-def _list_as_typed(table: Table) -> Iterator[Mapping[str, object]]:
-    for row in table.rows:
-        cells = {
-            key: table.sheet.cell(row, column.number)
-            for key, column in table.columns.items()
-        }
-        yield {key: cell.value for key, cell in cells.items() if not cell.is_blank}
+def _show(column: Column, reading: Reading) -> object:
+    if reading.span is not None:
+        low, high = (_scale(column, end) for end in reading.span)
+        return f"{low:g} to {high:g}"
+    value = reading.value
+    return _scale(column, value) if isinstance(value, float) else value
+
+
+def _scale(column: Column, number: float) -> float:
+    """Number in the unit that the workbook shows."""
+    is_share = column.unit == "%" or column.choice == "sag_unit"
+    is_share = is_share and column.field.unit == "-"
+    return round(100.0 * number, 8) if is_share else number
 
 
 _FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
@@ -142,7 +157,7 @@ def _find_beside(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DerivedCell:
-    """A cell of sheet Nets that follows from the terrain, and how.
+    """A cell of sheet Rows that follows from the terrain, and how.
 
     Attributes
     ----------
@@ -162,7 +177,7 @@ class DerivedCell:
 def derive_cells(
     row: MeasuredRow, rows: Sequence[MeasuredRow], grid: str
 ) -> list[DerivedCell]:
-    """Cells of a row: slope, upslope length, altitude, length, posts, gap.
+    """Cells of a row: slope, upslope length, altitude, posts, gap.
 
     Of a band wider than a check cares about its severe end stands in the cell.
 
@@ -175,24 +190,18 @@ def derive_cells(
     grid : str
         Name of the grid's file, for the notes.
     """
-    of_row = f"From {grid}: posts at their spacing along the ground."
     cells = [
         _derive_slope(row, grid),
-        *_derive_snow(row, grid),
+        _derive_length(row, grid),
         DerivedCell(
             key="altitude",
             value=round(float(row.posts[:, 2].max()), 1),
             note=f"From {grid}: the highest post.",
         ),
         DerivedCell(
-            key="row_length",
-            value=round(row.length, 2),
-            note=of_row,
-        ),
-        DerivedCell(
             key="post_count",
             value=len(row.posts),
-            note=of_row,
+            note=f"From {grid}: posts at their spacing along the ground.",
         ),
     ]
     if "snow_height" in row.line.cells and "snow_thickness" not in row.line.cells:
@@ -231,33 +240,35 @@ def _derive_slope(row: MeasuredRow, grid: str) -> DerivedCell:
     )
 
 
-def _derive_snow(row: MeasuredRow, grid: str) -> Iterator[DerivedCell]:
-    """Longest snow above any post; and whether a row stands above any of them."""
+def _derive_length(row: MeasuredRow, grid: str) -> DerivedCell:
+    """Longest snow above any post."""
     length, end = row.upslope.length, describe_end(row.upslope)
-    yield DerivedCell(
+    return DerivedCell(
         key="upslope_length",
         value=round(_choose(length, CARED_LENGTH), 2),
         note=f"From {grid}: along the line of fall, {end}; the longest of the posts. "
         f"{length.low:.1f} to {length.high:.1f} m by the rule of 25°. "
         "Where the band is wider than 0.1 m its upper end stands here.",
     )
-    if row.has_row_above is not None:  # left empty, a row above alike is taken
-        yield DerivedCell(
-            key="row_above",
-            value="alike" if row.has_row_above else "none",
-            note=f"From {grid}: the upslope length goes {end}; "
-            "its anchors may stand near.",
-        )
 
 
 def _choose(band: Band, cared: float) -> float:
     return band.high if band.high - band.low > cared else band.value
 
 
+_ROW_KEYS = {"snow_thickness": "snow"}
+_ROWS = frozenset(one.field.key for one in load_columns("rows"))
+_NETS = {x.field.key: x for x in load_columns("net_types") if x.field.key != "id"}
+_STRUCTURE = {key for key, one in _NETS.items() if one.group == "structure"}
+
+
 def write_workbook(
-    rows: Sequence[MeasuredRow], grid: str, others: Lines | None, language: Language
+    rows: Sequence[MeasuredRow],
+    grid: str,
+    others: TypedSheets | None,
+    language: Language,
 ) -> bytes:
-    """Site workbook of rows on terrain, its derived cells with their notes.
+    """Input workbook of rows on terrain, its derived cells with their notes.
 
     Parameters
     ----------
@@ -265,23 +276,78 @@ def write_workbook(
         In their order.
     grid : str
         Name of the grid's file.
-    others : mapping or None
-        Lines of the other sheets.
+    others : TypedSheets or None
+        Of another workbook.
     language : str
         Of sheets and headings.
+
+    Raises
+    ------
+    TerrainError
+        Of rows that say of their net type something else than that workbook.
     """
-    lines, notes = [], []
+    tables = dict(others.tables) if others else {}
+    measure = others.measure if others else "slack"
+    nets = {str(one.get("id")): one for one in tables.get("net_types", ())}
+    lines, notes, faults = [], [], list[str]()
     for row in rows:
         derived = {cell.key: cell for cell in derive_cells(row, rows, grid)}
         typed = dict(row.line.cells)
-        if "snow_thickness" in derived:  # says the same, and the template takes one
-            del typed["snow_height"]
         values = {key: cell.value for key, cell in derived.items() if _is_told(cell)}
-        lines.append({**values, **typed, "id": row.line.id})
-        notes.append({key: _tell(cell, typed) for key, cell in derived.items()})
-    kept = {name: own for name, own in (others or {}).items() if own}
-    sheets = {**list_starting_lines(), **kept, "Nets": lines}
-    return render_workbook(sheets, language, notes={"Nets": notes})
+        named = str(typed.get("net_type", ""))
+        net = _name_net(_take_net(typed, measure), named, nets)
+        if isinstance(net, str):
+            lines.append(_take_row({**values, **typed, "net_type": net}, row.line.id))
+        else:
+            faults += [f"row {row.line.id}: {one}" for one in net]
+        notes.append(
+            {_ROW_KEYS.get(key, key): _tell(x, typed) for key, x in derived.items()}
+        )
+    if faults:
+        raise TerrainError("\n".join(faults))
+    tables |= {"rows": lines, "net_types": list(nets.values())}
+    more = [one for one in ("tests",) if tables.get(one)]
+    is_built = any(key in _STRUCTURE for net in nets.values() for key in net)
+    more += ["parts"] if is_built or any(map(tables.get, _PARTS)) else []
+    measures = {("rows", "snow"): "normal", ("net_types", "slack"): measure}
+    return render_input(tables, language, more, measures, notes)
+
+
+def _take_row(cells: Mapping[str, object], name: str) -> dict[str, object]:
+    """Cells of sheet Rows, the snow normal to the slope."""
+    named = {_ROW_KEYS.get(key, key): value for key, value in cells.items()}
+    return {key: one for key, one in named.items() if key in _ROWS} | {"id": name}
+
+
+def _take_net(cells: Mapping[str, float | str], measure: str) -> dict[str, object]:
+    """Cells of the row's net type, as the workbook shows them."""
+    typed, turn = dict(cells), {"sag": find_sag, "slack": find_slack}[measure]
+    other = typed.pop("slack" if measure == "sag" else "sag", None)
+    own = typed.pop(measure, None)
+    if isinstance(own, float) or isinstance(other, float):
+        typed["slack"] = own if isinstance(own, float) else turn(float(other or 0.0))
+    return {
+        key: _scale(_NETS[key], value) if isinstance(value, float) else value
+        for key, value in typed.items()
+        if key in _NETS
+    }
+
+
+def _name_net(
+    net: Mapping[str, object], named: str, nets: dict[str, Line]
+) -> str | list[str]:
+    """Id of a row's net type among those so far, or how it differs from that."""
+    if not named:
+        stem = f"D_K {net['net_height']:g}"
+        alike = [one for one in nets if one == stem or one.startswith(f"{stem} ")]
+        same = (one for one in alike if nets[one] == {"id": one, **net})
+        named = next(same, f"{stem} {len(alike) + 1}" if alike else stem)
+    known = nets.setdefault(named, {"id": named, **net})
+    return [
+        f"{key} is {value!r:.40}, and {known.get(key)!r:.40} of net type {named!r:.40}"
+        for key, value in net.items()
+        if known.get(key) != value
+    ] or named
 
 
 def _is_told(cell: DerivedCell) -> bool:

@@ -90,6 +90,7 @@ def render_input(
     language: Language = "en",
     more: Sequence[str] = (),
     measures: Mapping[tuple[str, str], str] | None = None,
+    notes: Sequence[Mapping[str, str]] = (),
 ) -> bytes:
     """Input workbook with some lines; the same bytes each time.
 
@@ -99,6 +100,8 @@ def render_input(
         As of `write_input_workbook`.
     measures : mapping, optional
         What the unit cell of a column says it measures, by table and key.
+    notes : sequence of mapping
+        On cells of the rows, in their order, by key.
     """
     content = BytesIO()
     book = start_book(content, language)
@@ -113,7 +116,13 @@ def render_input(
         if one in _FURTHER:
             write_sheet(book, _FURTHER[one], tables.get(_FURTHER[one].name, ()))
     write_notes(form)
-    book.workbook.worksheets()[1].activate()
+    rows = book.workbook.worksheets()[1]
+    keys = [one.field.key for one in list_shown(form, "rows")]
+    size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
+    for line, of_line in enumerate(notes, start=_FIRST):
+        for key, note in of_line.items():
+            rows.write_comment(line, keys.index(key), note, size)
+    rows.activate()
     book.workbook.close()
     return content.getvalue()
 

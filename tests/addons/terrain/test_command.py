@@ -7,11 +7,11 @@ import openpyxl
 import pytest
 
 from netdesign.addons.terrain.grid import read_grid
+from netdesign.site.reader import read_site
+from netdesign.site.template.example import write_site_workbook
 from tests.addons.terrain.map_files import write_rows as write_layer
 from tests.addons.terrain.map_files import write_tif
-from tests.old_example import write_old_example
 
-LEFT_OUT = "not among the drawn rows, left out"
 EAST, NORTH = 2_700_300.0, 1_180_200.0
 ROWS = (("A", 40, 40, 79), ("B", 62, 40, 79), ("C", 62, 80.5, 115))
 
@@ -27,7 +27,7 @@ def slope(tmp_path_factory):
     lines = "\n".join(" ".join(f"{one:.3f}" for one in row) for row in z[::-1])
     (folder / "slope.asc").write_text(head + lines + "\n")
     (folder / "rows.json").write_text(json.dumps(write_rows()))
-    write_old_example(folder / "types.xlsx")
+    write_site_workbook(folder / "types.xlsx", example=True)
     return folder
 
 
@@ -40,7 +40,7 @@ def write_rows(**special):
                 "net height [m]": 3.0,
                 "post spacing [m]": 3.0,
                 "snow thickness [m]": 2.8,
-                "ground law": "no-slip",
+                "glide factor N": 1.7,
                 "net stiffness [kN/m]": 12000,
                 "slack": 0.05,
                 **special,
@@ -67,8 +67,8 @@ def write_rows(**special):
 @pytest.mark.parametrize(
     ("language", "sheet", "heading", "note"),
     [
-        ("en", "Nets", "slope angle [deg]", "line of fall of each post"),
-        ("de", "Netze", "Hangneigung [deg]", "line of fall of each post"),
+        ("en", "Rows", "slope ψ", "line of fall of each post"),
+        ("de", "Reihen", "Hangneigung ψ", "line of fall of each post"),
     ],
 )
 def test_rows_become_lines_of_a_workbook_with_notes(
@@ -78,9 +78,8 @@ def test_rows_become_lines_of_a_workbook_with_notes(
     options = ("--out", out, "--types", slope / "types.xlsx", "--language", language)
     ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
     assert ended.code == 0, ended.err
-    nets = openpyxl.load_workbook(out)[sheet]
-    cells = {one.value: one.column for one in nets[1]}
-    cell = nets.cell(2, cells[heading])
+    rows = openpyxl.load_workbook(out)[sheet]
+    cell = rows.cell(6, find_column(rows, heading))
     assert 37.5 < cell.value < 39.0
     assert note in cell.comment.text
     assert "slope.asc" in cell.comment.text
@@ -191,22 +190,55 @@ def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
     ended = call("terrain", tmp_path / "flat.asc", slope / "rows.json", "--out", out)
     assert ended.code == 0, ended.err
     assert "stands on ground flatter than 25°" in ended.out
-    nets = openpyxl.load_workbook(out)["Nets"]
-    cells = {one.value: one.column for one in nets[1]}
-    assert nets.cell(2, cells["upslope length [m]"]).value is None
+    rows = openpyxl.load_workbook(out)["Rows"]
+    assert rows.cell(6, find_column(rows, "upslope length L")).value is None
 
 
-def test_ends_of_the_rows_come_with_the_types(slope, tmp_path, call):
-    types = openpyxl.load_workbook(slope / "types.xlsx")
-    ends = types["Ends"]
-    ends["A2"], ends["A3"] = "B", "all"
-    types.save(tmp_path / "types.xlsx")
+def find_column(sheet, heading):
+    return next(x.column for x in sheet[3] if x.value.replace("-\n", "") == heading)
+
+
+def list_nets(path):
+    sheet = openpyxl.load_workbook(path)["Net types"]
+    lines = [[x.value for x in row[:2]] for row in sheet.iter_rows(min_row=6)]
+    return {name: height for name, height in lines if name}
+
+
+def test_rows_with_the_same_net_share_a_net_type(slope, tmp_path, call):
+    rows = write_rows()
+    for number, height in enumerate((3.0, 2.5, 3.0)):
+        rows["features"][number]["properties"]["net height [m]"] = height
+    rows["features"][2]["properties"]["slack"] = 0.06
+    (tmp_path / "rows.json").write_text(json.dumps(rows))
     out = tmp_path / "site.xlsx"
-    options = ("--types", tmp_path / "types.xlsx", "--out", out)
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
+    ended = call("terrain", slope / "slope.asc", tmp_path / "rows.json", "--out", out)
     assert ended.code == 0, ended.err
-    written = openpyxl.load_workbook(out)["Ends"]
-    found = {written.cell(line, 1).value for line in range(2, 10)} - {None}
-    assert found == {"B", "all"}
-    told = [one for one in ended.err.splitlines() if "sheet Ends" in one]
-    assert told == ["note: types.xlsx, sheet Ends: R3, R4, R5, R6, R7 " + LEFT_OUT]
+    assert list_nets(out) == {"D_K 3": 3.0, "D_K 2.5": 2.5, "D_K 3 2": 3.0}
+    site = read_site(out)
+    assert [(row.net_height, row.slack) for row in site.rows] == [
+        (3.0, pytest.approx(0.05)),
+        (2.5, pytest.approx(0.05)),
+        (3.0, pytest.approx(0.06)),
+    ]
+
+
+def test_a_row_takes_its_net_type_from_the_other_workbook(slope, tmp_path, call):
+    kept = ("id", "net height [m]", "post spacing [m]", "net type")
+    rows = write_rows(**{"net type": "SN 3.0"})
+    for one in rows["features"][: len(ROWS)]:
+        given = one["properties"]
+        one["properties"] = {key: given[key] for key in kept}
+        one["properties"]["snow height [m vertical]"] = 3.3
+    (tmp_path / "rows.json").write_text(json.dumps(rows))
+    out = tmp_path / "site.xlsx"
+    asked = ("terrain", slope / "slope.asc", tmp_path / "rows.json", "--out", out)
+    ended = call(*asked, "--types", slope / "types.xlsx")
+    assert ended.code == 0, ended.err
+    for row in read_site(out).rows:
+        assert row.approval.document == "EX-TA 12-3"
+        assert 3.3 * 0.75 < row.snow_thickness < 3.3 * 0.81  # of 38 degrees or so
+    rows["features"][1]["properties"]["net height [m]"] = 3.2
+    (tmp_path / "rows.json").write_text(json.dumps(rows))
+    ended = call(*asked, "--types", slope / "types.xlsx", "--force")
+    assert ended.code == 3
+    assert "row B: net_height is 3.2, and 3.0 of net type 'SN 3.0'" in ended.err

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.addons.terrain.coverage import find_coverage
 from netdesign.addons.terrain.measure import measure_plan
-from netdesign.addons.terrain.site_lines import derive_cells, find_gap
+from netdesign.addons.terrain.site_lines import find_gap
 from tests.addons.terrain.surfaces import build_grid, draw_line, plan_of, plane
 
 PSI = math.radians(38.3)
@@ -46,28 +46,3 @@ def test_gap_of_rows_beside_and_above():
     assert find_gap(a, [a, b, c, d]) == pytest.approx(3.0)
     assert find_gap(a, [a, b, d]) is None  # one end is free
     assert find_gap(d, [a, b, c, d]) is None
-
-
-def test_a_row_above_some_posts_alone_is_one():
-    """The longest snow goes on beside it; the anchors of both may meet all the same."""
-    grid = build_grid(plane(PSI), size=160.0)
-    row = draw_line([(-15.0, -20.0), (15.0, -20.0)])
-    above = draw_line([(4.0, -6.0), (31.0, -6.0)], name="R2")
-    _, rows = measure_plan(grid, plan_of(row, above), most=50.0)
-    assert rows[0].upslope.end == "cap"
-    cells = {one.key: one.value for one in derive_cells(rows[0], rows, "g.asc")}
-    assert cells["row_above"] == "alike"
-    assert {one.key: one.value for one in derive_cells(rows[1], rows, "g.asc")}[
-        "row_above"
-    ] == "none"
-
-
-@pytest.mark.parametrize(("most", "value"), [(9.0, None), (50.0, "alike")])
-def test_a_row_beyond_the_cap_is_not_denied(most, value):
-    """A cap of 9 m does not see the row at 18 m: the cell stays empty."""
-    grid = build_grid(plane(PSI), size=160.0)
-    row = draw_line([(-15.0, -20.0), (15.0, -20.0)])
-    above = draw_line([(-20.0, -6.0), (20.0, -6.0)], name="R2")
-    _, rows = measure_plan(grid, plan_of(row, above), most=most)
-    cells = {one.key: one.value for one in derive_cells(rows[0], rows, "g.asc")}
-    assert cells.get("row_above") == value
