@@ -226,7 +226,7 @@ def init(site_file: Path, **asked: Any) -> None:
 @click.argument("site_file", type=click.Path(path_type=Path))
 @take_options("map")
 def map_headings(site_file: Path, **asked: Any) -> None:
-    """Write SITE.map.toml: which headings mean what, to be answered.
+    """Write LIST.map.toml: which headings of a list mean what, to be answered.
 
     \b
     netdesign map list.xlsx              a list of your own
@@ -238,12 +238,12 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     its first cells behind it. Change what is wrong, replace each question mark by a
     column of the workbook, or by "ignore". Later runs read the file by themselves.
 
-    With --out a workbook with a sheet Nets is written again with Rows and Net types;
-    what was done with its cells is listed.
+    With --out a workbook of version 0.1, with a sheet Nets, is written again with Rows
+    and Net types; what was done with its cells is listed.
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.site.lists.ask import is_own_list, write_list_map
-    from netdesign.site.questions import write_questions
+    from netdesign.site.reader import read_cells
     from netdesign.site.titles import name_map
 
     refuse_delimiter(site_file)
@@ -253,8 +253,10 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
     form = build_text_format(asked)
-    write = write_list_map if is_own_list(site_file, form) else write_questions
-    text, missing = write(site_file, form, asked["language"])
+    read_cells(site_file, form)  # one of version 0.1 is refused with what to do
+    if not is_own_list(site_file, form):
+        raise UsageRefusal(say("usage.map_new", file=str(site_file)))
+    text, missing = write_list_map(site_file, form, asked["language"])
     write_files({place: text.encode()}, overwrite=overwrite)
     tell(say("cli.wrote", path=str(place)), err=True)
     tell(
@@ -263,19 +265,17 @@ def map_headings(site_file: Path, **asked: Any) -> None:
 
 
 def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
-    """Write a workbook with sheet Nets again, as one with Rows and Net types."""
+    """Write a workbook of version 0.1 again, as one with Rows and Net types."""
     from netdesign.edge.output import require_free, write_files
-    from netdesign.site.office.rewrite import rewrite
-    from netdesign.site.office.sheets import is_office
-    from netdesign.site.reader import read_cells
+    from netdesign.site.office.rewrite import read_old, rewrite
     from netdesign.site.template.office_workbook import render_input
 
     if new.suffix.lower() != ".xlsx" or new.absolute() == old.absolute():
         raise UsageRefusal(say("usage.map_out", file=str(new)))
     require_free([new], overwrite=asked["force"])
-    workbook = read_cells(old, build_text_format(asked))
-    if is_office(workbook):
-        raise UsageRefusal(say("usage.map_new", file=str(old)))
+    workbook = read_old(old, build_text_format(asked))
+    if workbook is None:
+        raise UsageRefusal(say("usage.map_not_old", file=str(old)))
     made = rewrite(workbook, asked["language"])
     content = render_input(made.tables, asked["language"], made.sheets, made.measures)
     write_files({new: content}, overwrite=asked["force"])

@@ -63,8 +63,6 @@ def _read_anchor(line: Row, ground: str = "") -> AnchorType:
         across=line["head_across"].given_si,
         drilled=line["drilled_length"].given_si,
         bond=line["bond_length"].given_si,
-        least_cover=line["least_cover"].given_si,
-        least_edge=line["least_edge"].given_si,
         soil=_read_soil(line),
     )
 
@@ -84,11 +82,8 @@ def _read_soil(line: Row) -> Soil | None:
 
 def _yield_at_mouth(section: RoundSection, line: Row, ground: str) -> float:
     """Lever that the ground at the mouth of a bore adds, (R9a) and (R9b) [m]."""
-    return find_ground_lever(
-        section,
-        ground=line["ground"].word or ground,
-        modulus=line["ground_modulus"].given_si,
-    )
+    word = line["ground"].word or ground
+    return find_ground_lever(section, ground=word, modulus=None)
 
 
 def _build_section(line: Row) -> RoundSection | None:

@@ -1,4 +1,4 @@
-"""What a workbook holds, of whatever layout, before net rows are built."""
+"""What a workbook holds before net rows are built."""
 
 from __future__ import annotations
 

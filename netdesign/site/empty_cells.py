@@ -1,4 +1,4 @@
-"""Empty cells of a line of sheet Nets: the range, or the value, that counts instead.
+"""Empty cells of a net row: the range, or the value, that counts instead.
 
 No empty cell stops a row: knowing less widens its forces, and never hides them.
 """
@@ -17,9 +17,9 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.site.assumed import Assumed, assume, assume_ends
 from netdesign.site.columns.fields import from_si, to_si
-from netdesign.site.ranges import RangesSheet
+from netdesign.site.ranges import SiteRanges
 from netdesign.site.readings import Reading, Row
-from netdesign.site.statements import has_panel, list_open_ropes
+from netdesign.site.statements import list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import find_model_code_density
@@ -27,7 +27,6 @@ from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.words.message import say
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
-GLIDE = ("slip_length", "glide_factor")  # of sliding ground, one of them
 _SEVERE = {
     "slack": 0.0,
     "net_stiffness": 1.0,
@@ -43,7 +42,7 @@ def fill_in_assumed(row: Row) -> tuple[Row, tuple[Assumed, ...]]:
     Parameters
     ----------
     row : mapping of str to Reading
-        Line of sheet Nets, filled in by the ranges of the site.
+        Line of a net row.
 
     Returns
     -------
@@ -55,12 +54,8 @@ def fill_in_assumed(row: Row) -> tuple[Row, tuple[Assumed, ...]]:
     filled = {one.key: _place(row[one.key], one) for one in found if one.key in row}
     glide = (assume("glide_factor"),) if _lacks_glide(row) else ()
     for one in glide:
-        law, how = (
-            row["ground_law"],
-            say("assumed.any_class", low=one.low, high=one.high),
-        )
-        if law.state == "blank":
-            law = replace(law, state="given", value="sliding", derivation=how)
+        how = say("assumed.any_class", low=one.low, high=one.high)
+        law = replace(row["ground_law"], state="given", value="sliding", derivation=how)
         filled |= {"ground_law": law, one.key: _place(row[one.key], one)}
     return {**row, **filled}, (*found, *glide, *_list_of_support(row))
 
@@ -78,7 +73,7 @@ def _list_of_net(row: Row) -> Iterator[Assumed]:
     for key in ("slack", "net_stiffness"):
         if row[key].state == "blank":
             yield assume(key)
-    if row["post_base_distance"].state == row["post_tilt"].state == "blank":
+    if row["post_tilt"].state == "blank":
         yield assume("post_tilt")
     height = row["net_height"]
     for key in _DISTANCES:
@@ -87,10 +82,8 @@ def _list_of_net(row: Row) -> Iterator[Assumed]:
 
 
 def _lacks_glide(row: Row) -> bool:
-    """Neither glide nor a ground without glide is given."""
-    law = row["ground_law"]
-    is_open = law.state == "blank" or law.word == "sliding"
-    return is_open and all(row[key].state == "blank" for key in GLIDE)
+    """Neither a glide factor nor free gliding is given."""
+    return row["ground_law"].state == row["glide_factor"].state == "blank"
 
 
 def _list_of_support(row: Row) -> Iterator[Assumed]:
@@ -100,8 +93,7 @@ def _list_of_support(row: Row) -> Iterator[Assumed]:
         yield assume("guy_count")
     if count.given_count != 1 and row["guy_splay"].state == "blank":
         yield assume("guy_splay")
-    if has_panel(row):
-        yield from (assume(key) for key in _SAGS if row[key].state == "blank")
+    yield from (assume(key) for key in _SAGS if row[key].state == "blank")
 
 
 def assume_stiffness(row: Row, ropes: Mapping[str, Row]) -> tuple[Assumed, ...]:
@@ -110,7 +102,7 @@ def assume_stiffness(row: Row, ropes: Mapping[str, Row]) -> tuple[Assumed, ...]:
 
 
 def fill_in_snow(
-    row: Row, snow: Snow, ranges: RangesSheet, lines: Sequence[Row]
+    row: Row, snow: Snow, ranges: SiteRanges, lines: Sequence[Row]
 ) -> tuple[Row, tuple[Assumed, ...]]:
     """Line with a length of its snow, and what is assumed of its snow.
 
@@ -120,7 +112,7 @@ def fill_in_snow(
         Line of sheet Nets, without a fault.
     snow : tuple of float, tuple of Layer, GroundLaw
         Thickness, layers, on what.
-    ranges : RangesSheet
+    ranges : SiteRanges
         Of the site, which lists what it does not give.
     lines : sequence of Row
         Of sheet Snow.

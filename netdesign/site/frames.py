@@ -11,7 +11,6 @@ from typing import Any
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import NETS
 from netdesign.site.columns.fields import normalise
 from netdesign.site.columns.office import (
     PARTS,
@@ -24,9 +23,8 @@ from netdesign.site.columns.office import (
 )
 from netdesign.site.declared_sheet import put_cell
 from netdesign.site.model import ReplacedCell
-from netdesign.site.office.sheets import find_office_tables, is_office
+from netdesign.site.office.sheets import find_office_tables
 from netdesign.site.readings import Row
-from netdesign.site.tables import find_table, read_rows
 from netdesign.words.message import say
 
 Frames = Mapping[str, Any]
@@ -228,9 +226,6 @@ def _put(
 def _read_lines(workbook: Workbook) -> tuple[dict[str, Row], dict[str, Row]]:
     """Lines of the net rows and of the net types, by their ids."""
     unused: list[Finding] = []
-    if not is_office(workbook):
-        rows = read_rows(find_table(workbook, NETS, unused), unused)
-        return {line["id"].word: line for line in rows}, {}
     tables = find_office_tables(workbook, unused).lines
     return (
         {line["id"].word: line for line in tables["rows"]},

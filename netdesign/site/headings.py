@@ -1,17 +1,16 @@
-"""Finds the headings of a sheet, in any order, with their units."""
+"""Finds the headings of a sheet by their names, in any order, with their units."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
-from netdesign.site.cells.findings import Finding, Severity, quote
-from netdesign.site.columns.all_tables import Lexicon, Meaning, has_no_part, says_sag
+from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.columns.all_tables import has_no_part
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
-    UNCLEAR_UNITS,
     Field,
     SheetPlan,
     normalise,
@@ -20,17 +19,14 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.office import list_texts
 from netdesign.site.readings import refuse_stored
 from netdesign.site.titles import (
-    explain,
     find_heading_unit,
     find_near,
     find_own_unit,
-    is_asked,
     is_number,
     is_unit,
     quote_title,
     read_unit,
     refuse_unit,
-    understand,
 )
 from netdesign.words.message import say
 
@@ -52,7 +48,7 @@ class Column:
     unit: str | None
 
 
-Titles = Sequence[tuple[Cell, Meaning]]
+Titles = Sequence[tuple[Cell, Field | None]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,8 +59,8 @@ class Table:
     ----------
     sheet, plan
         As read, and what it should hold.
-    titles : sequence of Cell and Meaning
-        Its headings with what each is taken for.
+    titles : sequence of Cell and Field
+        Its headings with what each is taken for; None of others.
     heading_row, first_data_row : int
         The row that names the fields; the first below headings and units.
     units_row : int or None
@@ -88,12 +84,6 @@ class Table:
         """Cell of a field in a row; None without such a heading."""
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
-
-    def list_named(self) -> list[Cell]:
-        """Names in the lines of a table of items, and its headings."""
-        cells = [self.cell(row, self.plan.fields[0].key) for row in self.rows]
-        named = [one for one in cells if one is not None and not one.is_blank]
-        return [*named, *(title for title, _ in self.titles)]
 
     def examples(self, column: int) -> list[Cell]:
         """The first filled cells of a column below its heading."""
@@ -121,19 +111,13 @@ def find_headings(
     Table or None
         Without its lines; None if there is no row of headings, which is a finding.
     """
-    lexicon = Lexicon.of(plan.fields, plan)
-    row = _find_row(sheet, lexicon, plan)
-    if row is None and plan.has_pairs:
-        return _read_as_pairs(sheet, plan)
+    row = _find_row(sheet, plan)
     if row is None:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
         findings.append(sheet.finding(say("heading.no_row"), accepted))
         return None
-    findings.extend(_refuse_groups(sheet, row))
-    titles = [
-        (cell, understand(cell, lexicon, sheet.answers)) for cell in sheet.row(row)
-    ]
+    titles = [(cell, plan.find(str(cell.value))) for cell in sheet.row(row)]
     units_row = _find_units_row(sheet, titles, row, findings)
     merged_to = [
         merged.last_row
@@ -156,44 +140,16 @@ def find_headings(
     return replace(table, columns=_find_columns(table, findings))
 
 
-def _refuse_groups(sheet: Sheet, heading_row: int) -> Iterator[Finding]:
-    """Refuse merged cells above some of the headings each: a name is in one cell.
-
-    One that is merged alone in its row is the title of the table.
-    """
-    above = [one for one in sheet.merged if one.row == heading_row - 1]
-    for merged in above if len(above) > 1 else ():
-        cell = sheet.cell(merged.row, merged.column)
-        if merged.last_column > merged.column and not cell.is_blank:
-            rule = say("heading.group", range=merged.text)
-            yield cell.finding(rule, say("heading.whole_names"))
-
-
-def _read_as_pairs(sheet: Sheet, plan: SheetPlan) -> Table:
-    """Cover sheet: each line a name and, beside it, its value; no headings."""
-    starts = [cells[0].column for row in sheet.rows if len(cells := sheet.row(row)) > 1]
-    first = max(set(starts), key=starts.count, default=1)
-    return Table(
-        sheet=sheet,
-        plan=plan,
-        columns={
-            field.key: Column(number=number, unit="")
-            for number, field in enumerate(plan.fields, first)
-        },
-    )
-
-
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:
     """Most headings of a plan that one row of a sheet holds, whatever its name."""
-    return max(_count_known(sheet, Lexicon.of(plan.fields, plan)).values(), default=0)
+    return max(_count_known(sheet, plan).values(), default=0)
 
 
-def _find_row(sheet: Sheet, lexicon: Lexicon, plan: SheetPlan) -> int | None:
+def _find_row(sheet: Sheet, plan: SheetPlan) -> int | None:
     """Row with the most known headings, else with the most texts."""
     for counts, least in (
-        (_count_known(sheet, lexicon), 2),
-        # of a list whose names nobody knows yet
-        ({} if plan.has_pairs else _count_texts(sheet), _LEAST_TEXTS),
+        (_count_known(sheet, plan), 2),
+        (_count_texts(sheet), _LEAST_TEXTS),  # of a list whose names nobody knows
     ):
         best = max(counts, key=lambda row: counts[row], default=0)
         if best and counts[best] >= least:
@@ -201,9 +157,12 @@ def _find_row(sheet: Sheet, lexicon: Lexicon, plan: SheetPlan) -> int | None:
     return None
 
 
-def _count_known(sheet: Sheet, lexicon: Lexicon) -> dict[int, int]:
+def _count_known(sheet: Sheet, plan: SheetPlan) -> dict[int, int]:
     return {
-        row: sum(_is_known(cell, lexicon, sheet) for cell in sheet.row(row))
+        row: sum(
+            isinstance(x.value, str) and plan.find(x.value) is not None
+            for x in sheet.row(row)
+        )
         for row in _list_first_rows(sheet)
     }
 
@@ -222,14 +181,6 @@ def _list_first_rows(sheet: Sheet) -> range:
     return range(1, first + _HEADING_ROWS)
 
 
-def _is_known(cell: Cell, lexicon: Lexicon, sheet: Sheet) -> bool:
-    """A cell holds a heading, or what may be one."""
-    if not isinstance(cell.value, str):
-        return False
-    meaning = understand(cell, lexicon, sheet.answers)
-    return bool(meaning.field or meaning.readings or meaning.answer)
-
-
 def _find_units_row(
     sheet: Sheet, titles: Titles, heading_row: int, findings: list[Finding]
 ) -> int | None:
@@ -238,7 +189,7 @@ def _find_units_row(
     One unit that nobody knows does not make it a line of the table, which would have
     a number somewhere.
     """
-    by_column = {cell.column: (cell, one.field) for cell, one in titles}
+    by_column = {cell.column: (cell, one) for cell, one in titles}
     below = sheet.row(heading_row + 1)
     cells = [
         (cell, field)
@@ -278,72 +229,27 @@ def _heads_on(cells: tuple[Cell, ...]) -> bool:
 
 def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     columns: dict[str, Column] = {}
-    claimed: set[str] = set()  # by headings that are refused as unclear
     unknown: list[Cell] = []
-    for cell, meaning in table.titles:
-        field = meaning.field
+    for cell, field in table.titles:
         if field is None:
-            claimed |= {one.key for one in meaning.readings}
-            refusal = explain(meaning, table.sheet)
-            if refusal:
-                severity: Severity = "note" if meaning.is_ignored else "error"
-                findings.append(cell.finding(*refusal, severity=severity))
-            else:
-                unknown.append(cell)
+            unknown.append(cell)
         elif field.key in columns:
             first = name_column(columns[field.key].number)
             rule = say("heading.twice", name=field.name, column=first)
             findings.append(cell.finding(rule, say("heading.one_column")))
         else:
-            unit = _find_unit(table, cell, meaning, field, findings)
+            unit = _find_unit(table, cell, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
-            findings.extend(_note_answer(table, cell, meaning, field))
-    _judge_rest(table, columns, claimed, unknown, findings)
+    missing = [field for field in table.plan.fields if field.key not in columns]
+    judged = _judge_all_unknown(unknown, missing)
+    findings.extend(finding for finding, _ in judged)
+    near = {field.key for _, field in judged if field}
+    _report_missing(table, {*columns, *near}, findings)
     return columns
 
 
-def _note_answer(
-    table: Table, cell: Cell, meaning: Meaning, field: Field
-) -> Iterator[Finding]:
-    """Notes on a heading that is read as somebody answered."""
-    if not meaning.answer:
-        return
-    file = table.sheet.answered_in
-    rule = say("heading.answered", name=field.name, file=file)
-    yield cell.finding(rule, severity="note")
-    if field.key == "slack" and says_sag(str(cell.value)):
-        yield cell.finding(say("heading.is_sag"), severity="note")
-
-
-def _judge_rest(
-    table: Table,
-    columns: Mapping[str, Column],
-    claimed: set[str],
-    unknown: list[Cell],
-    findings: list[Finding],
-) -> None:
-    """Judge headings that are not read, and tell those that are missing."""
-    plan = table.plan
-    missing = [field for field in plan.fields if field.key not in columns]
-    judged = _judge_all_unknown(table, unknown, missing)
-    findings.extend(finding for finding, _ in judged)
-    claimed |= {field.key for _, field in judged if field}
-    _report_missing(table, {*columns, *claimed}, findings)
-    if not plan.items:
-        refuse_unused_answers(table, findings)
-
-
-def refuse_unused_answers(table: Table, findings: list[Finding]) -> None:
-    """Refuse answers to what the sheet does not have: it has changed since."""
-    known = table.list_named()
-    for key in table.sheet.answers:
-        if not any(is_asked(cell, key) for cell in known):
-            rule = say("heading.unused_answer", file=table.sheet.answered_in)
-            findings.append(table.sheet.finding(rule, quote(key)))
-
-
 def _judge_all_unknown(
-    table: Table, unknown: list[Cell], missing: list[Field]
+    unknown: list[Cell], missing: list[Field]
 ) -> list[tuple[Finding, Field | None]]:
     """Judge columns that are not read, each with the missing field it may be.
 
@@ -356,10 +262,7 @@ def _judge_all_unknown(
         if one.severity == "note" and not has_no_part(one.text)
     )
     first = next(sought, -1)
-    given = {field.key for field in table.plan.fields} - {one.key for one in missing}
-    needed = [
-        field for field in missing if field.required and not _has_instead(field, given)
-    ]
+    needed = [field for field in missing if field.required]
     if first >= 0 and needed:
         names = tuple(quote_title(field) for field in needed)
         known = say("heading.known", headings=names)
@@ -380,13 +283,9 @@ def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | N
 
 
 def _find_unit(
-    table: Table,
-    heading: Cell,
-    meaning: Meaning,
-    field: Field,
-    findings: list[Finding],
+    table: Table, heading: Cell, field: Field, findings: list[Finding]
 ) -> str | None:
-    """Take the unit of a column from its heading, the row of units, or its answer."""
+    """Take the unit of a column from its heading, or from the row of units."""
     cell, text = heading, str(heading.value)
     own, whole = split_heading(text)[0], normalise(text)
     is_name = own != whole in field.names  # brackets and all
@@ -405,12 +304,6 @@ def _find_unit(
             findings.append(below.finding(rule, say("accepted.one_unit")))
             return None
         unit, cell = unit_below, below
-    if meaning.unit and unit in ("", *UNCLEAR_UNITS):
-        unit = meaning.unit
-    elif meaning.unit and meaning.unit != unit:
-        rule = say("heading.other_unit", heading=quote(meaning.answer))
-        findings.append(cell.finding(rule, say("accepted.one_unit")))
-        return None
     if not unit and "-" in field.units:
         return "-"
     if unit in field.units:
@@ -425,20 +318,13 @@ def _find_unit(
 def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> None:
     plan = table.plan
     for field in plan.fields:
-        is_given = field.key in known or _has_instead(field, known)
-        if field.required and not is_given:
+        if field.required and field.key not in known:
             rule = say("heading.lacks", heading=field.title)
             findings.append(table.sheet.finding(rule))
     if plan.one_of and known.isdisjoint(plan.one_of):
         fields = [field for field in plan.fields if field.key in plan.one_of]
         rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
         findings.append(table.sheet.finding(rule))
-
-
-def _has_instead(field: Field, found: set[str]) -> bool:
-    """Another column gives what a missing one would: a range both of its ends."""
-    is_end_of_range = field.key in ("low", "high") and "span" in found
-    return is_end_of_range or not found.isdisjoint(field.instead)
 
 
 def find_cover(sheet: Sheet, row: int, column: int) -> MergedRange | None:

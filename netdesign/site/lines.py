@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
-from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
-from netdesign.site.ranges import RangesSheet
+from netdesign.site.ranges import SiteRanges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import Message, say
 
@@ -37,8 +36,8 @@ class Lines:
     absent, unreadable : collection of str
         Type sheets that the workbook does not have, under whatever name; and those,
         too, whose ids cannot be read.
-    ranges : RangesSheet
-        Of sheet Ranges.
+    ranges : SiteRanges
+        That its rows share.
     links, tests : sequence of Row
         Of sheets Links and Tests.
     """
@@ -49,7 +48,7 @@ class Lines:
     types: Types
     absent: Sequence[str]
     unreadable: Sequence[str]
-    ranges: RangesSheet
+    ranges: SiteRanges
     links: Sequence[Row] = ()
     tests: Sequence[Row] = ()
 
@@ -72,23 +71,6 @@ def index_lines(
         elif reading.word:
             found[reading.word] = line
     return found
-
-
-def spread_over_rows(lines: Sequence[Row], ids: Sequence[str]) -> list[Row]:
-    """Lines of a sheet; one that is of all net rows stands for each without its own.
-
-    A net row of that name is meant before all of them.
-    """
-    named = {line["row"].word for line in lines}
-    spread: list[Row] = []
-    for line in lines:
-        word = line["row"].word
-        if word in ids or normalise(word) not in ALL_ROWS:
-            spread.append(line)
-            continue
-        others = [one for one in ids if one not in named]
-        spread += [{**line, "row": replace(line["row"], value=one)} for one in others]
-    return spread
 
 
 def refuse_unknown_ids(

@@ -1,4 +1,4 @@
-"""From lines of sheet Nets to net rows: the rules between several cells."""
+"""From lines of net rows to net rows: the rules between several cells."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.empty_cells import (
-    GLIDE,
     Snow,
     assume_stiffness,
     fill_in_assumed,
@@ -36,20 +35,16 @@ from netdesign.site.model import (
     InputEcho,
     NetRow,
 )
-from netdesign.site.ranges import fill_in_ranges
-from netdesign.site.readings import Reading, Row, choose_given, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_sheets import (
     build_layers,
     echo_layers,
-    fits_slope,
     measure_normal,
     resolve_thickness,
 )
 from netdesign.site.statements import (
     build_panels,
-    check_statements,
     echo_ends,
-    explain_panel_lack,
     has_same_types,
     list_assumed,
     list_fixed,
@@ -63,19 +58,16 @@ from netdesign.site.support_types import (
 )
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
-    GROUND_KINDS,
     GroundLaw,
     build_ground_from_glide_factor,
     find_glide_step,
 )
 from netdesign.snow.snowpack import Layer
-from netdesign.structure.layout import DEFAULT_POST_TILT, SupportLayout
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member, NetPart
 from netdesign.words.message import Message, say
 
-_CLOSE = 0.02  # of a post spacing, by which a length may be longer without one more
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
-_SIZES = ("snow_thickness", "snow_height")
 # Columns by which rows are alike, numbers within a tenth.
 _ALIKE = 0.1
 _OF_NET = (
@@ -97,7 +89,7 @@ def build_net_rows(
     Parameters
     ----------
     table : Table
-        Sheet Nets.
+        Sheet Rows.
     lines : Lines
         Of all sheets.
     findings : list of Finding
@@ -141,7 +133,7 @@ def _separate_unlike(
 
 
 def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
-    """Columns of sheet Nets by which two rows are not loaded and built alike.
+    """Columns by which two rows are not loaded and built alike.
 
     Only alike rows load each other's ends as if the nets went on.
     """
@@ -163,7 +155,7 @@ def _list_compared(row: NetRow) -> tuple[float | int | str, ...]:
         *(row.slope_angle, row.snow_thickness, row.net_height),
         *(layout.post_spacing, ground.kind, row.glide_factor or ground.slip_length),
         *(row.net_stiffness_per_m, row.slack),
-        *(layout.post_base_distance or layout.post_tilt, row.guys.count),
+        *(layout.post_tilt, row.guys.count),
         *(types.get(member, "") for member in _OF_NET),
     )
 
@@ -186,17 +178,12 @@ def _judge_count(count: int) -> Refusal | None:
 
 
 def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow | None:
-    count_before, ranged = len(findings), lines.ranges.ends
+    count_before = len(findings)
     snow, end = lines.snow.get(line["id"].word, ()), lines.ends.get(line["id"].word)
-    row = fill_in_ranges(line, ranged, findings)
-    law = {"ground_law": _read_ground_law(row)}
-    line, row = {**line, **law}, {**row, **law}
-    row, assumed = fill_in_assumed(row)
-    check_statements(row, snow, end, findings)
-    _check_length(row, findings)
+    line = {**line, "ground_law": _read_ground_law(line)}
+    row, assumed = fill_in_assumed(line)
     layers = build_layers(snow, row["slope_angle"], findings)
-    is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
-    thickness = _understand_thickness(row, snow, layers, findings, is_ranged=is_ranged)
+    thickness = _understand_thickness(row, snow, layers, findings)
     ground = _understand_ground(row, thickness, findings)
     _ask_for_length(row, findings)
     named: list[Row] = [row, end] if end else [row]
@@ -266,15 +253,13 @@ def _compose_net_row(
         end_anchors=read_anchor_types(at_end, types) if is_other else None,
         inputs=inputs,
         length=_find_length(row),
-        post_count=_count_posts(row),
+        post_count=row["post_count"].given_count,
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
-        edge_distance=row["edge_distance"].given_si,
         design_life=row["design_life"].given_count or int(assume("design_life").high),
         glide_factor=row["glide_factor"].known_si,
         guys=read_guys(row),
-        has_row_above=row["row_above"].word != "none",
         axes=read_axes(row),
         anchors=read_anchor_types(row, types),
         panels=build_panels(row, types["Ropes"]),
@@ -282,40 +267,13 @@ def _compose_net_row(
         assumed=list_fixed(row, end, types),
         row_end=build_row_end(at_end, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
-        panel_lack=explain_panel_lack(row),
     )
 
 
 def _find_length(row: Row) -> float | None:
-    """Length of the row [m]; by its posts where only their number is given."""
-    length, count = row["row_length"].given_si, row["post_count"]
-    if length is None and count.state == "given":
-        return (count.number - 1.0) * row["post_spacing"].si
-    return length
-
-
-def _count_posts(row: Row) -> int | None:
-    """Posts of the row; by its length where their number is not given."""
-    length, count = row["row_length"].given_si, row["post_count"].given_count
-    if count is not None or length is None:
-        return count
-    return 1 + math.ceil(length / row["post_spacing"].si - _CLOSE)
-
-
-def _check_length(row: Row, findings: list[Finding]) -> None:
-    """Refuse a length that does not have room for the posts, or for more."""
-    length, count, spacing = row["row_length"], row["post_count"], row["post_spacing"]
-    if any(one.state != "given" for one in (length, count, spacing)):
-        return
-    fields = count.number - 1.0
-    if not fields - 1.0 < length.si / spacing.si < fields + 1.0:
-        rule = say(
-            "nets.other_length",
-            count=int(count.number),
-            place=count.place,
-            length=fields * spacing.si,
-        )
-        refuse(length, rule, say("nets.length_of_posts"), findings)
+    """Length of the row by its posts [m]."""
+    count = row["post_count"].given_count
+    return None if count is None else (count - 1.0) * row["post_spacing"].si
 
 
 def _understand_thickness(
@@ -323,38 +281,22 @@ def _understand_thickness(
     lines: Sequence[Row],
     layers: tuple[Layer, ...],
     findings: list[Finding],
-    *,
-    is_ranged: bool,
 ) -> float | None:
-    """Snow thickness normal to the slope [m]: of one column, or of the layers.
-
-    Where it ranges, the layers follow the range.
-    """
-    sizes = [row[key] for key in _SIZES]
-    if any(one.state == "faulty" for one in sizes):
+    """Snow thickness normal to the slope [m], which its layers add up to."""
+    vertical = row["snow_height"]
+    given = row["snow_thickness"] if vertical.state == "blank" else vertical
+    if given.state != "given" or (lines and not layers):  # a finding already
         return None
-    if lines and not layers:  # a line of sheet Snow is faulty: a finding already
-        return None
-    is_blank = all(one.state != "given" for one in sizes)
-    blank = sizes[0] if lines and not is_ranged and is_blank else None
-    is_twice = all(one.state == "given" for one in (*sizes, row["slope_angle"]))
-    if is_twice and fits_slope(sizes[0], sizes[1], row["slope_angle"]):
-        blank = sizes[0]  # the height says the same
-    given = blank or choose_given(row, _SIZES, findings)
-    if given is None:
-        return None
-    if lines and not is_ranged:
+    if lines:
         return resolve_thickness(layers, given, row["slope_angle"], findings)
     return measure_normal(given, row["slope_angle"])
 
 
 def _read_ground_law(row: Row) -> Reading:
-    """Ground law as typed; where nobody types one beside a glide, the ground slides."""
-    law = row["ground_law"]
-    given = [row[key] for key in GLIDE if row[key].state == "given"]
-    if law.state != "blank" or len(given) != 1:
+    """Ground law: free, or of a glide factor, on which the ground slides."""
+    law, glide = row["ground_law"], row["glide_factor"]
+    if glide.state != "given":
         return law
-    (glide,) = given
     how = say("column.ground_of_glide", name=glide.field.name, place=glide.place)
     return replace(law, state="given", value="sliding", cell=glide.cell, derivation=how)
 
@@ -362,21 +304,12 @@ def _read_ground_law(row: Row) -> Reading:
 def _understand_ground(
     row: Row, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
-    law, slip, glide = row["ground_law"], row["slip_length"], row["glide_factor"]
-    if "faulty" in (law.state, slip.state, glide.state):
+    glide = row["glide_factor"]
+    if glide.state == "faulty":
         return None
-    given = [reading for reading in (slip, glide) if reading.state == "given"]
-    if law.state == "blank":  # both are given
-        choose_given(row, GLIDE, findings)
-        return None
-    if law.word != "sliding":
-        kind = next(kind for kind in GROUND_KINDS if kind == law.word)
-        return None if given else GroundLaw(kind=kind)
-    is_assumed = glide.state == "default"
-    chosen = glide if is_assumed else choose_given(row, GLIDE, findings)
-    if chosen is slip:
-        return GroundLaw(kind="sliding", slip_length=slip.si)
-    return _build_sliding_ground(glide, thickness, findings) if chosen else None
+    if row["ground_law"].word == "free":
+        return GroundLaw(kind="free")
+    return _build_sliding_ground(glide, thickness, findings)
 
 
 def _ask_for_length(row: Row, findings: list[Finding]) -> None:
@@ -401,13 +334,11 @@ def _build_sliding_ground(
 
 
 def _build_layout(row: Row) -> SupportLayout:
-    tilt = row["post_tilt"].known_si  # of no matter beside a base distance
     return SupportLayout(
         post_spacing=row["post_spacing"].si,
-        post_tilt=DEFAULT_POST_TILT if tilt is None else tilt,
+        post_tilt=row["post_tilt"].si,
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
-        post_base_distance=row["post_base_distance"].given_si,
     )
 
 
@@ -422,11 +353,13 @@ def _echo_inputs(
         if key == "snow_height" and reading.state == "given" and is_alone:
             slope = row["slope_angle"].number
             how = say("column.thickness_of_height", height=reading.si, slope=slope)
-            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading, how))
+            name = row["snow_thickness"].field.name
+            echoes.append(_echo_derived(name, thickness, reading, how))
         if key == "glide_factor" and reading.state == "given":
             table = _derive_slip(reading.number, thickness)
             slip = ground.slip_length
-            echoes.append(_echo_derived(row["slip_length"], slip, reading, table))
+            name = say("column.Nets.slip_length")
+            echoes.append(_echo_derived(name, slip, reading, table))
     return tuple(echoes)
 
 
@@ -448,10 +381,9 @@ def _derive_slip(glide_factor: float, thickness: float) -> Message | None:
 
 
 def _echo_derived(
-    what: Reading, value: float, reading: Reading, how: Message | None
+    name: Message, value: float, reading: Reading, how: Message | None
 ) -> InputEcho:
-    name, given = what.field.name, reading.field.name
-    label = say("column.derived_from", name=name, given=given)
+    label = say("column.derived_from", name=name, given=reading.field.name)
     return InputEcho(
         label=label,
         unit="m",

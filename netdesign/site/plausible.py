@@ -19,13 +19,10 @@ from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
 from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.snow_sheets import find_vertical, fits_slope
-from netdesign.site.support_types import find_assumed_eccentricity
-from netdesign.site.type_lines import name_bare
+from netdesign.site.type_lines import find_depth, name_bare
 from netdesign.site.type_resistances import (
     find_bond,
     find_proof_limit,
-    list_beside,
 )
 from netdesign.words.message import Message, say
 
@@ -114,7 +111,6 @@ Doubt: TypeAlias = tuple[Reading, Message]
 
 _LEAST_STRUCK = 2  # cells of a line, of which most are struck out
 _TOLERANCE = 0.05  # of a value of the catalogue
-_APART = 0.1  # between a resistance and what its dimensions give
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")
 _TESTED = ("pull_out", "test_mean")
@@ -137,18 +133,12 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         told = _doubt_alone(reading)
         if told and key not in alone:
             alone[key] = told
-    for reading, computed in list_beside(line):
-        told = _doubt_computed(reading, computed)
-        if told and reading.field.key not in alone:
-            alone[reading.field.key] = told
     for key, reading in typed.items():
         told = alone.get(key) or _doubt_beside(reading, line, alone)
         told = told or _doubt_tested(reading, key, line)
         if told:
             alone[key] = told
             yield reading, told
-    if told := _doubt_height(line, alone):
-        yield line["vertical_height"], told
     meant = {key: one for key, one in typed.items() if key not in alone}
     yield from _list_eccentric(meant, line)
     for key in _TESTED if _TESTED[0] in line else ():
@@ -220,14 +210,6 @@ def _doubt_beside(
     return None
 
 
-def _doubt_computed(reading: Reading, computed: float) -> Message | None:
-    """A resistance is far from what the dimensions beside it give."""
-    if abs(reading.si - computed) <= _APART * computed:
-        return None
-    unit = reading.field.unit
-    return say("plausible.computed", number=from_si(computed, unit), unit=unit)
-
-
 def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
     if key not in _TESTED or (key == "pull_out" and line["basis"].word != "tested"):
@@ -248,29 +230,11 @@ def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
     for key in _ECCENTRICITIES:
         if key not in typed or any(line[one].state != "given" for one in needed):
             continue
-        reading, most = typed[key], find_assumed_eccentricity(line, key)
+        reading, most = typed[key], 0.5 * find_depth(line)
         if reading.si > most * (1.0 + 1e-9):
             unit = reading.field.unit
             number = from_si(most, unit)
             yield reading, say("plausible.eccentric", number=number, unit=unit)
-
-
-def _doubt_height(line: Row, doubted: Container[str]) -> Message | None:
-    """The vertical height of a net is not that of its height and slope."""
-    keys = ("net_height", "vertical_height", "slope_angle")
-    cells = [line[key] for key in keys if key in line and key not in doubted]
-    if len(cells) < len(keys) or any(one.state != "given" for one in cells):
-        return None
-    if fits_slope(*cells):
-        return None
-    low, high = find_vertical(cells[0], cells[2])
-    return say(
-        "plausible.beside",
-        others=tuple(_name_with_value(cells[n]) for n in (0, 2)),
-        low=low,
-        high=high,
-        unit="m",
-    )
 
 
 def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
@@ -327,8 +291,7 @@ def _list_unlike(
     }
     if not columns:
         return
-    section = line["section"].word if "section" in line else ""
-    product = find_product(section) or find_product(line["id"].word)
+    product = find_product(line["id"].word)
     if product is None:
         return
     for key, names in columns.items():

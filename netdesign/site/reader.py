@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -20,18 +21,13 @@ from netdesign.site.cells.cells import (
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
-    ANCHORS,
     MONITORING,
     NETS,
-    POSTS,
     QUIET_SHEETS,
-    ROPES,
-    SHEETS,
-    UNANSWERED,
     UNCERTAINTY,
     WINTER,
-    is_heading,
 )
+from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.content import Content
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
@@ -46,39 +42,24 @@ from netdesign.site.lists.list_map import (
 )
 from netdesign.site.model import NetRow, Project, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
-from netdesign.site.nets_workbook import read_nets_workbook
 from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
-from netdesign.site.office.sheets import is_office, keep_sheets, may_be_office
+from netdesign.site.office.sheets import is_old, is_read
 from netdesign.site.plausible import ask
-from netdesign.site.snow_sheets import (
-    check_layers,
-    read_winter,
-)
+from netdesign.site.snow_sheets import check_layers, read_winter
 from netdesign.site.support_types import list_catalogue
-from netdesign.site.titles import (
-    give_answers,
-    is_meant,
-    is_near,
-    judge_answers,
-    list_meant,
-    read_answers,
-)
-from netdesign.site.type_lines import (
-    read_links,
-)
+from netdesign.site.titles import list_meant
+from netdesign.site.type_lines import read_links
 from netdesign.words.message import say
 
-# Headings of sheet Nets, at least, on a sheet that holds net rows.
+# Headings of sheet Rows, at least, on a sheet that holds net rows.
 _LEAST_KNOWN = 4
-_TYPE_PLANS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(
     path: str | Path,
     text_format: TextFormat = UNDECLARED,
     instead: Mapping[str, str] = MappingProxyType({}),
-    sheets: Mapping[str, str] = MappingProxyType({}),
     net_types: Path | None = None,
     change: Change = MappingProxyType({}),
 ) -> Site:
@@ -88,13 +69,11 @@ def read_site(
     ----------
     path : str or Path
         An xlsx, xlsm or csv file, or a folder of csv files, laid out as
-        `netdesign.site.columns.all_tables` says.
+        `netdesign.site.columns.office` says, or an own list with its answers.
     text_format : TextFormat
         What is declared of the file's text.
     instead : mapping of str to str
-        Texts that are read in the place of those of some cells (``Nets!P8``).
-    sheets : mapping of str to str
-        Answers about sheets beside those of the file of answers.
+        Texts that are read in the place of those of some cells (``Rows!C8``).
     net_types : Path, optional
         Workbook whose net types and parts count beside those of the site.
     change : mapping of str to mapping of str to object
@@ -109,29 +88,26 @@ def read_site(
     Raises
     ------
     SiteDataError
-        With all findings of all sheets, if any of them is an error.
+        With all findings of all sheets, if any of them is an error; of a workbook of
+        version 0.1 with the command that writes it again, alone.
     """
-    found = read_list_map(Path(path))
+    path = Path(path)
+    found = read_list_map(path)
     if found:
-        cells = _read_list(Path(path), found, text_format)
+        cells = _read_list(path, found, text_format)
     else:
-        cells = read_cells(Path(path), text_format, sheets)
+        cells = read_cells(path, text_format)
     workbook, replaced = replace_cells(cells, instead)
     workbook, changed = change_values(workbook, change)
     replaced += changed
     workbook = doubt_results(workbook)
-    findings = [*workbook.remarks, *judge_answers(workbook)]
+    findings = [*workbook.remarks]
     if found:
         workbook = join_list(workbook, found, findings)
     else:
-        findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
-    if is_office(workbook):
-        library = read_library(net_types, text_format, findings) if net_types else None
-        content = read_office(workbook, findings, library)
-    else:
-        content = read_nets_workbook(workbook, findings)
-        if net_types:
-            findings.append(workbook.finding(say("office.no_library")))
+        findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
+    library = read_library(net_types, text_format, findings) if net_types else None
+    content = read_office(workbook, findings, library)
     return replace(_build_site(content, replaced, findings), text_format=text_format)
 
 
@@ -217,36 +193,24 @@ def _refuse(content: Content, findings: list[Finding]) -> SiteDataError:
     return SiteDataError(findings, fold_findings(findings, workbook.file))
 
 
-def _ask_for_rows_elsewhere(
+def _refuse_rows_elsewhere(
     path: Path, workbook: Workbook, text_format: TextFormat
 ) -> Iterator[Finding]:
-    """Sheets with net rows under a name that nobody knows: half a site must not vanish.
+    """Sheets with net rows under another name: half a site must not vanish.
 
-    They are read only where a workbook holds sheets that have no part in a check, and
-    asked about until somebody answers for them.
+    They are read only where a workbook holds sheets that have no part in a check.
     """
-    given = workbook.answers.sheets
-    names = {
-        name
-        for name in workbook.unread
-        if given.get(name, UNANSWERED) == UNANSWERED
-        and name not in (*workbook.hidden, *QUIET_SHEETS)
-        and not NETS.begins(name)  # asked about by its name
-    }
-    if not names or not list_meant(workbook, NETS):
+    plan = load_plan("rows")
+    names = {*workbook.unread} - {*workbook.hidden, *QUIET_SHEETS}
+    if not names or not list_meant(workbook, plan):
         return
     try:
-        every = read_workbook(
-            path,
-            names.__contains__,
-            is_heading=is_heading,
-            text_format=text_format,
-        )
+        every = read_workbook(path, names.__contains__, is_heading, text_format)
     except SiteDataError:  # what has no part in the check may be damaged
         return
-    accepted = say("table.copy_accepted", name=NETS.title)
     for sheet in every.sheets:
-        if sheet.name in names and count_known(sheet, NETS) >= _LEAST_KNOWN:
+        if sheet.name in names and count_known(sheet, plan) >= _LEAST_KNOWN:
+            accepted = say("table.copy_accepted", name=plan.title)
             yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
@@ -275,34 +239,32 @@ def _build_rows(content: Content, findings: list[Finding]) -> tuple[NetRow, ...]
     """Net rows without a fault, held against what ranges over the whole site."""
     lines = content.lines
     rows = build_net_rows(content.nets, lines, findings) if content.nets else ()
-    findings.extend(lines.ranges.findings)
     if lines.ranges.ranges:
         check_layers(rows, lines.snow, lines.ranges.ranges, findings)
     approvals = content.approvals
     return tuple(replace(row, approval=approvals.get(row.id)) for row in rows)
 
 
-def read_cells(
-    path: Path,
-    text_format: TextFormat = UNDECLARED,
-    sheets: Mapping[str, str] = MappingProxyType({}),
-) -> Workbook:
-    """Cells of the sheets that a site workbook has; nothing is understood yet."""
-    answers = read_answers(path)
-    answers = replace(answers, sheets={**answers.sheets, **sheets})
-    if not text_format.decimal_mark:
-        text_format = replace(text_format, decimal_mark=answers.decimal_mark)
+def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
+    """Cells of the sheets that an input workbook has; nothing is understood yet.
 
-    def is_wanted(sheet_name: str) -> bool:
-        is_known = any(is_meant(sheet_name, plan, answers) for plan in SHEETS)
-        return is_known or may_be_office(sheet_name)
+    Raises
+    ------
+    SiteDataError
+        Of a workbook of version 0.1, and of what cannot be read at all.
+    """
 
-    def is_name(text: str) -> bool:
-        return is_wanted(text) or any(is_near(text, plan) for plan in SHEETS)
+    def is_wanted(name: str) -> bool:
+        return is_read(name) or NETS.matches(name)
 
-    workbook = read_workbook(path, is_wanted, is_name, is_heading, text_format)
-    workbook = give_answers(workbook, answers)
-    return keep_sheets(workbook, of_office=is_office(workbook))
+    workbook = read_workbook(path, is_wanted, is_heading, text_format)
+    if is_old(workbook):
+        new = path.with_name(f"{path.stem}-new.xlsx")
+        told = say("office.old", old=shlex.quote(str(path)), new=shlex.quote(str(new)))
+        raise SiteDataError([workbook.finding(told)])
+    kept = tuple(one for one in workbook.sheets if is_read(one.name))
+    left = tuple(one.name for one in workbook.sheets if one not in kept)
+    return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
 
 
 def _shorten(finding: Finding) -> Finding:

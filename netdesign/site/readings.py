@@ -327,7 +327,7 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
 
 
 def _refuse_blank(field: Field) -> Refusal | None:
-    if not field.required or field.instead:  # whoever knows those columns refuses it
+    if not field.required:
         return None
     return Refusal(say("cell.empty"), field.accepted)
 

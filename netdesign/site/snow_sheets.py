@@ -32,11 +32,6 @@ LayersByRow = Mapping[str, Sequence[Row]]  # lines from the ground up, by net ro
 _SUM_TOLERANCE = 0.0101  # [m]
 
 
-def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
-    """Lines of sheet Snow by net row, from the ground up; faults go to ``findings``."""
-    return order_layers(read_rows(table, findings), findings)
-
-
 def order_layers(rows: Sequence[Row], findings: list[Finding]) -> LayersByRow:
     """Lines by net row, from the ground up."""
     by_row: dict[str, list[Row]] = {}
@@ -195,35 +190,6 @@ def measure_normal(given: Reading, slope_angle: Reading) -> float | None:
     if slope_angle.state == "faulty":
         return None
     return given.si * math.cos(slope_angle.si)
-
-
-_UNEVEN = 0.005  # by which heights of one slope may differ beside their rounding
-_ROUNDED = 0.05  # at most, of a height that is typed in full metres [m]
-
-
-def find_vertical(normal: Reading, slope_angle: Reading) -> tuple[float, float]:
-    """Vertical heights that fit one normal to the slope, as they are rounded [m]."""
-    half = _find_rounding(slope_angle.number, 0.5)
-    near, far = (math.cos(slope_angle.si + math.radians(one)) for one in (-half, half))
-    size, rounding = normal.si, _find_rounding(normal.si, _ROUNDED)
-    low, high = (size - rounding) / near, (size + rounding) / far
-    return low * (1.0 - _UNEVEN), high * (1.0 + _UNEVEN)
-
-
-def fits_slope(normal: Reading, vertical: Reading, slope_angle: Reading) -> bool:
-    """Two heights, one normal to the slope and one vertical, are those of the slope.
-
-    As far as the digits that are typed tell: H cos psi = d.
-    """
-    low, high = find_vertical(normal, slope_angle)
-    rounding = _find_rounding(vertical.si, _ROUNDED)
-    return low - rounding <= vertical.si <= high + rounding
-
-
-def _find_rounding(number: float, most: float) -> float:
-    """Half a unit of the last digit of a number."""
-    decimals = f"{number:.6f}".rstrip("0").partition(".")[2]
-    return float(min(0.5 * 10.0 ** -len(decimals), most))
 
 
 def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:

@@ -1,4 +1,4 @@
-"""Statements of a line of sheet Nets, and of its line of sheet Ends.
+"""What a net row leaves open, and what stands for it.
 
 What a row leaves empty of net, snow and support is a range: `empty_cells.py`. What its
 verdicts lack besides is listed once, `list_missing`.
@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
 
 from netdesign.panel.inputs import (
-    CUTS,
     OF_BREAKING,
     STIFFNESSES,
     Ends,
@@ -23,18 +22,12 @@ from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
 from netdesign.site.assumed import Assumed, assume
-from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
 from netdesign.site.lines import Types
 from netdesign.site.model import InputEcho, NetRow, Resistance
 from netdesign.site.readings import (
-    Reading,
     Row,
-    refuse,
-    refuse_beside,
-    refuse_misfits,
-    refuse_with,
 )
 from netdesign.site.type_resistances import TEST_COLUMNS, find_breaking
 from netdesign.structure.members import (
@@ -47,85 +40,16 @@ from netdesign.structure.members import (
 )
 from netdesign.words.message import Message, say
 
-_LAYERED = ("layered", "layered with temperatures")
 _ROPES = ("ridge_rope", "lower_rope")
-_OF_PANEL = (
-    "net_cut",
-    "ridge_rope",
-    "ridge_sag",
-    "lower_rope",
-    "lower_sag",
-    "mid_anchors",
-)
+_OF_PANEL = ("ridge_rope", "ridge_sag", "lower_rope", "lower_sag", "mid_anchors")
+# Of a panel, without a column: the worst of what is built counts.
+_NEVER = (say("column.Nets.panel_system"), say("column.Nets.net_cut"))
 # Columns of sheets Nets and Ends that name a type of the support.
 _TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
-def check_statements(
-    row: Row, lines: Sequence[Row], end: Row | None, findings: list[Finding]
-) -> None:
-    """Refuse statements of a line that something else contradicts.
-
-    Parameters
-    ----------
-    row : mapping of str to Reading
-        Line of sheet Nets.
-    lines : sequence of Row
-        Its layers in sheet Snow.
-    end : Row or None
-        Its line in sheet Ends.
-    findings : list of Finding
-        Appended to.
-    """
-    _check_layers(row["snow_layers"], lines, findings)
-    of_ropes = (*EndMember, "end_guy_angle", "lateral_distance", "lateral_axis")
-    if end and row["panel_system"].word == "none":  # nothing pulls along the row
-        for one in (end[key] for key in of_ropes if end[key].state == "given"):
-            refuse_with(one, row["panel_system"], ("none",), findings)
-    for line in (row, end or {}):
-        refuse_misfits(line, findings)
-    for reading, beside in _list_contradictions(row, end):
-        refuse_beside(reading, beside, findings)
-    said, neighbour = row["row_end"], row["neighbour"]
-    if said.word == "continuous" and neighbour.state == "blank":
-        refuse(said, say("nets.without_neighbour"), say("nets.other_ids"), findings)
-
-
-def _check_layers(said: Reading, lines: Sequence[Row], findings: list[Finding]) -> None:
-    has_temperatures = any(one["temperature"].state == "given" for one in lines)
-    expected = _LAYERED[has_temperatures] if lines else "uniform"
-    if said.word and said.word != expected:
-        word = said.field.name_word(expected)
-        place = lines[0]["row"].place if lines else say("sheet.Snow")
-        rule = say("nets.other_layers", place=place)
-        refuse(said, rule, say("accepted.words", words=(word,)), findings)
-
-
-def _list_contradictions(
-    row: Row, end: Row | None
-) -> Iterator[tuple[Reading, Reading]]:
-    """Cells of a line, or of its row's end, that cannot both be true."""
-    said, gap = row["row_end"], row["gap"]
-    has_gap = gap.state == "given" and gap.si > 0.0
-    has_none = gap.state == "given" and gap.si == 0.0
-    if said.word == "continuous":
-        if has_gap:
-            yield gap, said
-        if end is not None:
-            yield end["row"], said
-    elif row["neighbour"].state == "given" and said.state != "faulty":
-        yield row["neighbour"], said
-    if said.word == "free" and has_none:
-        yield gap, said
-
-
-def explain_panel_lack(row: Row) -> Message | None:
-    """Reason why the pull of a row's ropes is not known; None also without ropes."""
-    return say("panel.triangular") if row["panel_system"].word == "triangular" else None
-
-
 def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
-    """Panels that a net row without a fault may have; what is not given is assumed.
+    """Panels that a net row may have; what is not given is assumed.
 
     Parameters
     ----------
@@ -133,37 +57,22 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
         Line of sheet Nets.
     ropes : mapping of str to mapping of str to Reading
         Lines of sheet Ropes by id.
-
-    Returns
-    -------
-    tuple of Panel
-        None of a row without ropes between its posts.
     """
-    if not has_panel(row):
-        return ()
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     return list_panels(
         row["post_spacing"].si,
-        cut=next((cut for cut in CUTS if cut == row["net_cut"].word), None),
+        cut=None,
         sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
         stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
         has_mid_anchors=row["mid_anchors"].word == "yes",
     )
 
 
-def has_panel(row: Row) -> bool:
-    """There are ropes between the posts, or nobody says that there are none."""
-    return row["panel_system"].word not in ("none", "triangular")
-
-
 def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
     """Names of what is assumed of the panel of a net row."""
-    if not has_panel(row):
-        return ()
-    keys = ("panel_system", *_OF_PANEL)
-    lacking = [row[key].field.name for key in keys if row[key].state != "given"]
+    lacking = [row[key].field.name for key in _OF_PANEL if row[key].state != "given"]
     open_ropes = list_open_ropes(row, ropes)
-    return (*lacking, *(say("panel.stiffness_of", id=one) for one in open_ropes))
+    return (*_NEVER, *lacking, *(say("panel.stiffness_of", id=x) for x in open_ropes))
 
 
 def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
@@ -254,11 +163,6 @@ def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
     )
 
 
-# Columns of sheet Nets with one value for an empty cell; those of a panel, where one
-# may be between the posts.
-_FIXED, _FIXED_OF_PANEL = ("design_life",), ("panel_system", "mid_anchors", "net_cut")
-
-
 def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
     """Words and single values that stand for empty cells of a row and its types.
 
@@ -269,9 +173,12 @@ def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
     types : mapping of str to mapping of str to Row
         Lines of the type sheets.
     """
-    keys = [key for key in _FIXED if _is_empty(row, key)]
-    if has_panel(row):
-        keys += [key for key in _FIXED_OF_PANEL if _is_empty(row, key)]
+    keys = ["design_life"] if _is_empty(row, "design_life") else []
+    keys += [
+        "panel_system",
+        *(["mid_anchors"] if _is_empty(row, "mid_anchors") else []),
+    ]
+    keys += ["net_cut"]
     if row["guy_count"].given_count != 1 and _is_empty(row, "guy_anchors"):
         keys.append("guy_anchors")
     has_end = row["row_end"].word != "continuous" and row["gap"].given_si != 0.0
@@ -280,7 +187,7 @@ def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
         said = (*_TYPES, "support_types")
         is_typed = end is not None and any(not _is_empty(end, one) for one in said)
         keys += [] if is_typed else ["support_types"]
-        if has_panel(row) and (end is None or _is_empty(end, "end_guy_angle")):
+        if end is None or _is_empty(end, "end_guy_angle"):
             keys.append("end_guy_angle")
     found = [*keys, *_list_fixed_of_types(row, end or {}, types)]
     return tuple(assume(key) for key in dict.fromkeys(found))
@@ -295,7 +202,7 @@ _BORES = ("foot_axis", "uphill_axis", "downhill_axis")
 
 def _list_fixed_of_types(row: Row, end: Row, types: Types) -> Iterator[str]:
     """What is assumed of anchors and posts, by key."""
-    if _is_empty(row, "anchor_axes") and any(_is_empty(row, one) for one in _BORES):
+    if any(_is_empty(row, one) for one in _BORES):
         yield "anchor_axes"
     named = (one.word for line in (row, end) for one in line.values()
              if one.field.refers_to == ANCHORS.name)  # fmt: skip
@@ -312,9 +219,7 @@ def _list_fixed_of_types(row: Row, end: Row, types: Types) -> Iterator[str]:
             yield from empty
     posts = {row[Member.POST].word, end[Member.POST].word if end else ""} - {""}
     lines = [types["Posts"][one] for one in posts if one in types["Posts"]]
-    if not lines or any(
-        _is_empty(one, "base_friction") and _is_empty(one, "sliding") for one in lines
-    ):
+    if not lines or any(_is_empty(one, "base_friction") for one in lines):
         yield "base_friction"
 
 

@@ -27,17 +27,15 @@ from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
 from netdesign.site.statements import list_stiffnesses
-from netdesign.site.type_lines import find_depth, read_bond
+from netdesign.site.type_lines import find_depth
 from netdesign.site.type_resistances import (
     SECTION,
     compute_buckling,
     find_proof_limit,
     find_tests,
-    lacks_ground,
     lacks_inner,
     may_be_rope,
     read_inner,
-    read_plate,
     reduce_breaking,
     reduce_loop,
 )
@@ -55,8 +53,7 @@ from netdesign.structure.members import (
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 
-TURNING = ("hinge", "ball")  # joints of a post's foot that bring no moment
-_OF_LOAD = ("efficiency", "head_eccentricity", "foot_eccentricity")
+_ENDS = ("head_eccentricity", "foot_eccentricity")
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By type sheet: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
@@ -118,14 +115,11 @@ def _list_beside_axis(
             yield _open(row[one], one, "direction", of_one)
 
 
-def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
+def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd:
     """Members that hold a row along itself, all of them, given or not.
 
-    None of a row without ropes between its posts. ``at_end`` is its line with the types
-    of its first and last support.
+    ``at_end`` is its line with the types of its first and last support.
     """
-    if at_end["panel_system"].word == "none":
-        return None
     steepest = assume("end_guy_angle").high
     if end is None:
         lack = say("row_end.no_members")
@@ -143,9 +137,7 @@ def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd | None:
     return RowEnd(
         guy_angle=steepest if angle is None else angle,
         stiffnesses=list_stiffnesses(at_end, end, types),
-        guy_from_base=end["end_guy_place"].given_si,
         ropes_slide=_read_sliding(end["ropes_at_supports"].word),
-        lateral_distance=end["lateral_distance"].given_si,
         lateral_axis=end["lateral_axis"].given_si,
         resistances=(
             *(_find_resistance(end[one], mode, one, types) for one, mode in END_MODES),
@@ -160,7 +152,7 @@ def _read_sliding(word: str) -> bool | None:
 
 
 def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
-    """Resistances of a row's mesh, and of its border ropes where it has some."""
+    """Resistances of a row's mesh, and of its border ropes."""
     strength = row["mesh_strength"]
     mesh = Resistance(
         member=NetPart.MESH,
@@ -169,8 +161,6 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
         value=strength.given_si,
         basis="declared" if strength.state == "given" else "",
     )
-    if row["panel_system"].word == "none":
-        return (mesh,)
     return mesh, *(
         _find_resistance(row[part], mode, part, types)
         for part, mode in NET_MODES
@@ -198,10 +188,7 @@ def _find_resistance(
     if not reading.word:
         return Resistance(member=member, mode=mode, source=reading.place or "Nets")
     sheet = reading.field.refers_to
-    found = _describe_type(types[sheet][reading.word], mode, member, sheet)
-    if mode == "bearing" and found.basis == "computed":
-        return replace(found, dimensions=read_plate(types[sheet][reading.word]))
-    return found
+    return _describe_type(types[sheet][reading.word], mode, member, sheet)
 
 
 def _describe_type(
@@ -223,10 +210,7 @@ def _describe_type(
     is_rope = mode == "tendon" and may_be_rope(kind)
     place = (resistance if is_given or not tests else kind["test_least"]).place
     is_anchor = "ground" in kind
-    key = _find_lacking(kind, mode) if not (is_given or tests) else ""
-    if is_pulled and basis == "computed" and is_given and not tests:
-        key = "type.sleeve_untested" if kind["sleeve"].word == "yes" else ""
-        value, derivation = (None, None) if key else (value, derivation)
+    lacks = mode == "tendon" and not is_given and lacks_inner(kind)
     return Resistance(
         member=member,
         mode=mode,
@@ -236,16 +220,14 @@ def _describe_type(
         source=place or kind["id"].place or sheet,
         derivation=derivation,
         tests=tests,
-        lack=say(key, id=kind["id"].word) if key else None,
+        lack=say("type.no_inner", id=kind["id"].word) if lacks else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
         drilled_length=kind["drilled_length"].given_si if is_anchor else None,
-        flattest_test=kind["tested_dip"].given_si if is_anchor else None,
         ground=kind["ground"].word if is_anchor else "",
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
-        bond=read_bond(kind) if is_pulled and is_derived else None,
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
-        may_be_sleeved=is_pulled and not (tests or kind["sleeve"].word),
+        may_be_sleeved=is_pulled and not tests,
     )
 
 
@@ -254,7 +236,7 @@ def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
     given = kind[mode]
     if given.state != "given":
         return None, None
-    if mode == "rope" and given.derivation is None:
+    if mode == "rope":
         return reduce_breaking(kind)
     if mode == "tendon" and may_be_rope(kind):
         return reduce_loop(kind)
@@ -266,7 +248,7 @@ def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
 def _read_wear(kind: Row, mode: str) -> Wear | None:
     """Corrosion of a type's steel; None of posts, and of the grout in the ground."""
     if mode == "rope":
-        return Wear(kind="rope", protected_years=kind["protected_years"].given_count)
+        return Wear(kind="rope")
     if "protection" not in kind or mode == "pull_out":
         return None
     outer = kind["bar_diameter"].given_si
@@ -274,17 +256,9 @@ def _read_wear(kind: Row, mode: str) -> Wear | None:
         kind=kind["kind"].word,
         protection=kind["protection"].word,
         soil=kind["soil"].word,
-        protected_years=kind["protected_years"].given_count,
         outer=outer,
         inner=None if outer is None or lacks_inner(kind) else read_inner(kind),
     )
-
-
-def _find_lacking(kind: Row, mode: str) -> str:
-    """Text of what an anchor's dimensions lack for a resistance; empty of others."""
-    if mode == "tendon" and lacks_inner(kind):
-        return "type.no_inner"
-    return "type.no_ground" if mode == "pull_out" and lacks_ground(kind) else ""
 
 
 def _bend_anchor(
@@ -350,42 +324,22 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         buckling=buckling.value,
         at_head=_find_eccentricity(line, "head_eccentricity"),
         at_foot=_find_eccentricity(line, "foot_eccentricity"),
-        efficiency=line["efficiency"].given_si,
-        efficiency_place=line["efficiency"].place,
-        assumed=tuple(one for one in _OF_LOAD if _is_assumed(line, one)),
+        assumed=("efficiency", *(x for x in _ENDS if line[x].given_si is None)),
     )
     place = line["post_width"].place
     found = _open(named, Member.POST, mode, section, source=place)
     return replace(found, buckling_length=section.length)
 
 
-def _turns(line: Row, key: str) -> bool:
-    """Foot that turns freely, so that no moment comes of its eccentricity."""
-    return key == "foot_eccentricity" and line["foot_joint"].word in TURNING
-
-
-def _is_assumed(line: Row, key: str) -> bool:
-    return line[key].given_si is None and not _turns(line, key)
-
-
 def _find_eccentricity(line: Row, key: str) -> float:
-    """Eccentricity of a post's compression at one end [m]."""
+    """Eccentricity of a post's compression at one end [m]: half the depth, if empty."""
     typed = line[key].given_si
-    return find_assumed_eccentricity(line, key) if typed is None else typed
-
-
-def find_assumed_eccentricity(line: Row, key: str) -> float:
-    """That which nobody gives [m]: none at a foot that turns, else half the depth."""
-    return 0.0 if _turns(line, key) else 0.5 * find_depth(line)
+    return 0.5 * find_depth(line) if typed is None else typed
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:
-    """Resistance of a post's base to sliding: by its friction, or as declared."""
+    """Resistance of a post's base to sliding: by its friction."""
     friction = line["base_friction"] if line else None
-    given = line["sliding"] if line else None
-    if given is not None and given.state == "given":
-        declared = _open(named, Member.POST_BASE, "sliding", source=given.place)
-        return replace(declared, value=given.si, basis="declared")
     typed = friction.given_si if friction else None
     friction_si = assume("base_friction").low if typed is None else typed
     place = friction.place if friction and typed is not None else ""

@@ -9,20 +9,8 @@ from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import (
-    IGNORE,
-    NETS,
-    UNANSWERED,
-    UNKNOWN,
-    Lexicon,
-    Meaning,
-)
-from netdesign.site.columns.fields import (
-    Field,
-    SheetPlan,
-    find_item,
-    normalise,
-)
+from netdesign.site.columns.all_tables import IGNORE
+from netdesign.site.columns.fields import Field, SheetPlan, find_item, normalise
 from netdesign.site.headings import Table, find_cover, find_headings
 from netdesign.site.readings import (
     Reading,
@@ -32,14 +20,7 @@ from netdesign.site.readings import (
     read_without_unit,
     refuse,
 )
-from netdesign.site.titles import (
-    explain,
-    find_near,
-    list_meant,
-    list_near,
-    quote_title,
-    understand,
-)
+from netdesign.site.titles import find_near, list_meant, list_near
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 
@@ -64,32 +45,19 @@ def find_table(
         None if the sheet or its row of headings is missing; that is a finding
         unless the plan does not require the sheet.
     """
-    return next(iter(find_tables(workbook, plan, findings)), None)
-
-
-def find_tables(
-    workbook: Workbook, plan: SheetPlan, findings: list[Finding]
-) -> tuple[Table, ...]:
-    """All sheets of one plan, with their headings; of net rows one a structure."""
     sheets = list_meant(workbook, plan)
-    if sheets:
-        findings.extend(_ask_for_copies(workbook, plan, sheets[0].name))
-    else:
+    if not sheets:
         findings.extend(_judge_missing(workbook, plan))
-    is_one = plan.name != NETS.name
-    plain = [sheet for sheet in sheets if is_one or plan.matches(sheet.name)]
-    for double in plain[1:]:
-        rule = say("table.second_sheet", name=plan.title, first=plain[0].name)
+        return None
+    for double in sheets[1:]:
+        rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
         findings.append(double.finding(rule))
-    read = [sheet for sheet in sheets if sheet not in plain[1:]]
-    tables = []
-    for sheet in read:
-        table = find_headings(sheet, plan, findings)
-        if table is not None:
-            table = replace(table, rows=find_data_rows(table, findings))
-            _inspect_layout(table, findings)
-            tables.append(table)
-    return tuple(tables)
+    table = find_headings(sheets[0], plan, findings)
+    if table is None:
+        return None
+    table = replace(table, rows=find_data_rows(table, findings))
+    _inspect_layout(table, findings)
+    return table
 
 
 def read_rows(table: Table | None, findings: list[Finding]) -> list[Row]:
@@ -105,19 +73,12 @@ def read_rows(table: Table | None, findings: list[Finding]) -> list[Row]:
     ]
 
 
-def read_field(table: Table, key: str, row: int, findings: list[Finding]) -> Reading:
-    """Read one field of one line; a fault goes to ``findings``."""
-    field = next(field for field in table.plan.fields if field.key == key)
-    return _read_field(table, field, row, findings)
-
-
 def _read_field(
     table: Table, field: Field, row: int, findings: list[Finding]
 ) -> Reading:
     column = table.columns.get(field.key)
     if column is None:
-        has_instead = any(key in table.columns for key in field.instead)
-        if field.required and not has_instead:  # a finding already
+        if field.required:  # a finding already
             return Reading(field=field, state="faulty")
         return read_nothing(field, None)
     cell = table.sheet.cell(row, column.number)
@@ -129,25 +90,11 @@ def _read_field(
 def read_answered(
     sheet: Sheet, cell: Cell, field: Field, unit: str, findings: list[Finding]
 ) -> Reading:
-    """Read one cell; a word that nobody knows as somebody has answered."""
-    answer = _find_word(sheet, field, cell)
-    if answer:
-        return _read_word(sheet, field, cell, answer, findings)
-    return read_cell(cell, field, unit, findings)
-
-
-def _find_word(sheet: Sheet, field: Field, cell: Cell) -> str:
-    """Answer to a word that nobody knows; empty where none is needed."""
-    if field.kind != "word" or cell.is_blank:
-        return ""
+    """Read one cell; a word of an office's list as somebody has answered."""
     answers = {normalise(text): word for text, word in sheet.words.items()}
-    answer = answers.get(normalise(cell.text), "")
-    return "" if answer == UNANSWERED else answer
-
-
-def _read_word(
-    sheet: Sheet, field: Field, cell: Cell, answer: str, findings: list[Finding]
-) -> Reading:
+    answer = answers.get(normalise(cell.text), "") if field.kind == "word" else ""
+    if not answer or cell.is_blank:
+        return read_cell(cell, field, unit, findings)
     file = sheet.answered_in
     if answer == IGNORE:
         rule = say("heading.word_ignored", file=file)
@@ -160,28 +107,6 @@ def _read_word(
     rule = say("heading.word_answered", word=word, file=file)
     findings.append(cell.finding(rule, severity="note"))
     return replace(reading, text=cell.text, cell=cell)
-
-
-def _ask_for_copies(
-    workbook: Workbook, plan: SheetPlan, first: str
-) -> Iterator[Finding]:
-    """Refuse sheets named as the planned one and something more, until answered."""
-    for name in workbook.unread:
-        is_open = workbook.answers.sheets.get(name, UNANSWERED) == UNANSWERED
-        if is_open and name not in workbook.hidden and plan.begins(name):
-            rule = say("table.copy", name=first)
-            accepted = say("table.copy_accepted", name=first)
-            yield workbook.finding(rule, accepted, name)
-
-
-def is_about(name: Cell, table: Table) -> bool:
-    """A name may mean an item of a table, though perhaps misspelt or unclear."""
-    lexicon = Lexicon.of(table.plan.items, table.plan)
-    meaning = understand(name, lexicon, table.sheet.answers)
-    is_known = bool(meaning.field or meaning.readings or meaning.answer)
-    start = _MARKS.split(str(name.value))[0]
-    near = (find_item(start, table.plan.items), find_near(start, table.plan.items))
-    return is_known or any(near)
 
 
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
@@ -239,32 +164,17 @@ _NOT_ASKED = ("Project", "Declared", "Winter", "Monitoring", "Uncertainty")
 
 
 def _note_lines_above(table: Table) -> Iterator[Finding]:
-    """Lines above the headings: a title block, or lines of a table put too high.
-
-    On a sheet of net rows one that names a column is no title.
-    """
-    is_of_nets = table.plan.name == NETS.name
+    """Lines above the headings: a title block, or lines of a table put too high."""
     for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
         if len(cells) < 2:
             continue
-        name = str(cells[0].value)
-        column = find_item(name, table.plan.fields) if is_of_nets else None
-        item = find_item(name, table.plan.items)
-        if column and column.key != "id":
-            yield cells[0].finding(say("item.once"), say_place(column, NETS))
-            continue
+        item = find_item(str(cells[0].value), table.plan.items)
         yield cells[0].finding(
             say("table.above_headings"),
             say("table.below_headings") if item else "",
             severity="error" if item else "note",
         )
-
-
-def say_place(field: Field, plan: SheetPlan) -> Message:
-    """Where a value of net rows is typed: in a column, or in a line of sheet Ranges."""
-    key = "item.in_lines" if plan.items else "item.in_column"
-    return say(key, name=field.title, sheet=plan.title)
 
 
 def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:
@@ -290,60 +200,15 @@ def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> Non
 
 
 def match_item(
-    name: Reading, table: Table, what: str, findings: list[Finding]
-) -> Meaning:
-    """Item that a line names.
-
-    Parameters
-    ----------
-    name : Reading
-        Cell with the item's name.
-    table : Table
-        Its plan lists the items.
-    what : str
-        ``item`` or ``quantity``; for the finding.
-    findings : list of Finding
-        Appended to, where no item has that name: a line that cannot be read must
-        not end as a default.
-
-    Returns
-    -------
-    Meaning
-        Without a field where there is a finding.
-    """
-    if name.cell is None:
-        return UNKNOWN
-    lexicon = Lexicon.of(table.plan.items, table.plan)
-    meaning = understand(name.cell, lexicon, table.sheet.answers)
-    if meaning.is_ignored:
-        rule = say("item.ignored", file=table.sheet.answered_in)
-        refuse(name, rule, "", findings, severity="note")
-    elif meaning.answer and meaning.field:
-        file = table.sheet.answered_in
-        rule = say("heading.answered", name=meaning.field.name, file=file)
-        refuse(name, rule, "", findings, severity="note")
-    elif meaning.field is None:
-        refuse(name, *_explain(name.word, table, what, meaning), findings)
-    return meaning
-
-
-def _explain(
-    text: str, table: Table, what: str, meaning: Meaning
-) -> tuple[Message, Message | str]:
-    """Rule and what is accepted."""
-    start = _MARKS.split(text)[0]
-    lexicon = Lexicon.of(table.plan.items, table.plan)
-    for one in (meaning, lexicon.match(start)):
-        if refusal := explain(one, table.sheet):
-            return refusal
-    both = find_item(start, table.plan.items)
-    if both and start != text:
-        is_item = what == "item"
-        rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
-        return rule, say("item.alone", name=quote_title(both))
-    rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
-    likely = find_near(start, table.plan.items) or table.plan.items
-    return rule, say("item.accepted", names=tuple(one.title for one in likely))
+    name: Reading, items: tuple[Field, ...], findings: list[Finding]
+) -> Field | None:
+    """Item that a line names; none is a finding: it must not end as a default."""
+    field = find_item(name.word, items)
+    if field is None:
+        likely = find_near(name.word, items) or items
+        accepted = say("item.accepted", names=tuple(one.title for one in likely))
+        refuse(name, say("item.unknown"), accepted, findings)
+    return field
 
 
 # What makes a single text below a table a note and not the start of another line.
@@ -366,7 +231,6 @@ _SECTION = re.compile(
     re.IGNORECASE,
 )
 _LINE_OVER_SUM = 4  # numbers of a line, at least, for each of a sum
-_MARKS = re.compile(r"[;,|:=\t]")  # what may stand between an item and its value
 _WIDE = 3  # columns of a merged cell that heads a part of a table
 
 
@@ -491,7 +355,7 @@ def _is_whole(table: Table, row: int) -> bool:
     needed = [
         table.columns[field.key].number
         for field in table.plan.fields
-        if field.required and not field.instead and field.key in table.columns
+        if field.required and field.key in table.columns
     ]
     return len(needed) > 1 and not any(
         table.sheet.cell(row, column).is_blank for column in needed

@@ -14,15 +14,15 @@ from dataclasses import replace
 from statistics import fmean
 
 from netdesign.resistance.catalogue import Product
-from netdesign.resistance.ground import Bond, SingleTest
+from netdesign.resistance.ground import SingleTest
 from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
-from netdesign.site.lines import Types, index_lines, refuse_unknown_ids
+from netdesign.site.lines import Types, refuse_unknown_ids
 from netdesign.site.readings import Reading, Row, choose_given, refuse
-from netdesign.site.type_resistances import TEST_COLUMNS, lacks_ground, may_be_rope
-from netdesign.words.message import say
+from netdesign.site.type_resistances import TEST_COLUMNS
+from netdesign.words.message import Message, say
 
 _ANCHORS = "Anchors"
 _WITH_GROUND = re.compile(r"(.+) \(([^()]*)\)")
@@ -56,8 +56,8 @@ def place_in_ground(
     lines: Sequence[Row],
     grounds: Mapping[str, Reading],
     findings: list[Finding],
-) -> tuple[list[Row], list[Row]]:
-    """Rows whose anchors are those of their ground, and lines of the types so far.
+) -> list[Row]:
+    """Rows whose anchors are those of their ground.
 
     Parameters
     ----------
@@ -72,40 +72,37 @@ def place_in_ground(
 
     Returns
     -------
-    list of Row, list of Row
-        The rows; and lines that a type without a ground gets by that of a row, to
-        work out its bond.
+    list of Row
+        The rows.
     """
     by_id: dict[str, _ByGround] = {}
     for line in lines:
         by_id.setdefault(line["id"].word, {})[line["ground"].word] = line
-    made: dict[str, Row] = {}
     placed: list[Row] = []
     for row in rows:
         ground = grounds.get(row.get("row", row.get("id")).word)  # type: ignore[union-attr]
         named = {
-            key: _resolve(one, by_id, ground, made, findings)
+            key: _resolve(one, by_id, ground, findings)
             for key, one in row.items()
             if one.field.refers_to == _ANCHORS
         }
         placed.append({**row, **named})
-    return placed, list(made.values())
+    return placed
 
 
 def _resolve(
     named: Reading,
     by_id: Mapping[str, _ByGround],
     ground: Reading | None,
-    made: dict[str, Row],
     findings: list[Finding],
 ) -> Reading:
     """Cell that names a type, alone or with its ground: "A32 (scree)"."""
     whole = _WITH_GROUND.fullmatch(named.word)
     if named.word in by_id or whole is None or whole[1] not in by_id:
         known = by_id.get(named.word)
-        return _choose(named, known, ground, made, findings) if known else named
+        return _choose(named, known, ground, findings) if known else named
     bare = replace(named, value=whole[1])
-    chosen = _choose(bare, by_id[whole[1]], ground, made, findings)
+    chosen = _choose(bare, by_id[whole[1]], ground, findings)
     if chosen.state == "faulty" or chosen.word == named.word:
         return chosen
     rule = say("nets.other_ground", ground=chosen.word)
@@ -117,7 +114,6 @@ def _choose(
     named: Reading,
     of_type: _ByGround,
     ground: Reading | None,
-    made: dict[str, Row],
     findings: list[Finding],
 ) -> Reading:
     """Cell that names the line of a type in a ground."""
@@ -126,10 +122,6 @@ def _choose(
         line = _rename(of_type[word], of_type[word]["ground"])
         return replace(named, value=line["id"].word)
     (line, *others) = of_type.values()
-    if not others and not line["ground"].word and ground and _has_bond(line):
-        line = _rename(line, ground)
-        made.setdefault(line["id"].word, line)
-        return replace(named, value=line["id"].word)
     if not others and (word in ("", line["ground"].word) or not line["ground"].word):
         return named
     known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
@@ -138,12 +130,6 @@ def _choose(
         rule = say("nets.other_ground", ground=ground.text)
     refuse(named, rule, say("nets.grounds", grounds=known), findings)
     return replace(named, state="faulty")
-
-
-def _has_bond(line: Row) -> bool:
-    """A bond is to be worked out, once its ground is known."""
-    is_open = all(line[key].state == "blank" for key in ("pull_out", "test_count"))
-    return is_open and lacks_ground(line)
 
 
 def count_in_tests(
@@ -165,7 +151,6 @@ def count_in_tests(
     """
     places = {line["id"].word: line["id"].place for line in lines}
     refuse_unknown_ids((test["type"] for test in tests), places, findings)
-    index_lines(tests, "anchor", say("tests.anchor_once"), findings)
     by_place: dict[tuple[str, str], list[Row]] = {}
     for test in tests:
         if test["force"].state == "given":
@@ -258,70 +243,44 @@ def _read_single(test: Row) -> SingleTest:
     )
 
 
-_LEAST_BAR = 6.0  # widest hole over its bar [-]
-
-
-def read_bond(line: Row) -> Bond | None:
-    """Bond of an anchor type, of which nothing else says its pull-out resistance.
-
-    A bar whose diameter nobody gives may be as thin as the widest hole has one.
-    """
-    length, drilled = line["bond_length"].given_si, line["drilled_length"].given_si
-    hole, bar = line["drill_diameter"].given_si, line["bar_diameter"].given_si
-    if length is None or hole is None:
-        return None
-    return Bond(
-        length=length,
-        free=max((drilled or length) - length, 0.0),
-        steel=None if line["kind"].word == "rope anchor" else bar or hole / _LEAST_BAR,
-    )
-
-
-_STEEL = ("bar_diameter", "bar_strength", "inner_diameter")  # of an anchor
-
-
 def fill_in_section(row: Row) -> Row:
-    """Line of a type sheet with the section that its name means, where none is typed.
+    """Line of a post's type with the section that its name means, where none is typed.
 
-    Of a post the weaker axis counts, and the wider side against the snow; of a bar the
-    least steel that has its name.
+    The weaker axis counts, and the wider side against the snow.
     """
-    if "buckling_length" in row and row["compression"].state != "given":
-        typed, product = find_section(row)
-        told = "derivation.product"
-        keys = [key for key in row if row[key].state == "blank"]
-    elif "bar_diameter" in row and not may_be_rope(row):
-        typed, told, keys = row["id"], "derivation.named_bar", list(_STEEL)
-        product = find_product(typed.word)
-    else:
+    product = find_section(row)
+    keys = [key for key in row if row[key].state == "blank"]
+    if product is None:
         return row
-    is_open = all(row[key].state == "blank" for key in keys)
-    if product is None or not is_open or product.family == "rope":
-        return row
-    filled = dict(row)
-    how = say(told, product=product.id, sources=product.sources)
+    how = say("derivation.product", product=product.id, sources=product.sources)
+    return {**row, **name_values(row, keys, product, ("post_width",), how)}
+
+
+def name_values(
+    row: Row,
+    keys: Sequence[str],
+    product: Product,
+    largest: Sequence[str],
+    how: Message,
+) -> dict[str, Reading]:
+    """Values that a product gives to columns: the least of each, or the largest."""
+    found: dict[str, Reading] = {}
     for key in keys:
-        names = row[key].field.of_product
-        spans = [product.values[one] for one in names if one in product.values]
-        if spans:
-            is_largest = key in ("post_width", "inner_diameter")
-            value = max(high for _, high in spans) if is_largest else min(spans)[0]
-            filled[key] = replace(
-                row[key],
-                state="given",
-                value=from_si(value, row[key].field.unit),
-                derivation=how,
-                cell=typed.cell,
-            )
-    return filled
+        field = row[key].field
+        spans = [product.values[x] for x in field.of_product if x in product.values]
+        if not spans:
+            continue
+        ends = [end for span in spans for end in span]
+        value = max(ends) if key in largest else min(ends)
+        named = replace(row[key], state="given", value=from_si(value, field.unit))
+        found[key] = replace(named, derivation=how, cell=row["id"].cell)
+    return found
 
 
-def find_section(row: Row) -> tuple[Reading, Product | None]:
-    """Cell that names the section of a post, and the product that it names."""
-    typed = row["section"] if row["section"].state == "given" else row["id"]
-    product = find_product(typed.word)
-    is_section = product is not None and product.family == "section"
-    return typed, product if is_section else None
+def find_section(row: Row) -> Product | None:
+    """Section that the name of a post's type means."""
+    product = find_product(row["id"].word)
+    return product if product is not None and product.family == "section" else None
 
 
 def find_depth(row: Row) -> float:
@@ -330,7 +289,7 @@ def find_depth(row: Row) -> float:
     By its name; else the width that the snow presses on, or 4 W / A: hollow sections
     have that depth, I-sections less. Theory: resistance/THEORY.md, (R11).
     """
-    _, product = find_section(row)
+    product = find_section(row)
     if product is not None and "depth" in product.values:
         return max(product.values["depth"][1], row["post_width"].si)
     return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
@@ -385,5 +344,4 @@ def _read_link(line: Row) -> Link:
         count=line["count"].given_count or 1,
         angle=line["angle"].given_si,
         source=(breaking if breaking.state == "given" else limit).place,
-        is_of_whole=bool(line["chain"].word),
     )

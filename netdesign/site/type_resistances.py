@@ -3,44 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import replace
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
     Datum,
-    find_bond_stress,
     find_imperfection,
     find_loop_efficiency,
-    find_rope_factor,
     find_termination,
-    list_constructions,
     load_catalogue,
 )
 from netdesign.resistance.ground import (
     PullOutTests,
-    compute_pull_out_from_bond,
     limit_proof_load,
 )
 from netdesign.resistance.post import (
-    BasePlate,
     BucklingResistance,
-    compute_bearing_resistance,
     compute_buckling_resistance,
 )
 from netdesign.resistance.products import find_product
-from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
+from netdesign.resistance.steel import compute_bar_resistance
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.fields import to_si
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
-# What says something without the columns beside it.
-_ALONE = ("ground", "bar_strength", "yield_strength")
-_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "wedge", "d"
+_DEFAULT_TERMINATION, _DEFAULT_CURVE = "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given
 _SPIRAL = "1x"  # how the name of a spiral rope's construction begins
 _SOLID = "bar"
@@ -49,26 +39,61 @@ TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 SOIL_COLUMNS = ("soil_cohesion", "soil_friction", "soil_weight")
 
 
-def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
-    """Line of a type sheet with the resistances that its dimensions give.
+def compute_tendon(line: Row, findings: list[Finding]) -> Row:
+    """Line of an anchor type with the tendon that its steel has, where none is typed.
 
     Parameters
     ----------
-    row : Row
-        As read.
+    line : Row
+        With the steel that its name means.
     findings : list of Finding
-        Appended to: a number beside its dimensions, dimensions without the others.
-
-    Returns
-    -------
-    Row
-        A computed resistance stands in the place of the empty cell; its
-        derivation says how it came about, its cell is that of the first dimension.
+        Appended to: steel that cannot be.
     """
-    for key in _RULES:
-        if key in row:
-            row = _apply(key, row, findings)
-    return row
+    steel = (line["bar_diameter"], line["bar_strength"])
+    is_open = line["tendon"].state != "blank" or lacks_inner(line)
+    if is_open or any(one.state != "given" for one in steel):
+        return line
+    return _compute("tendon", _bar, line, steel[0], findings)
+
+
+def compute_compression(line: Row, findings: list[Finding]) -> Row:
+    """Line of a post's type with the compression that its section bears.
+
+    Parameters
+    ----------
+    line : Row
+        As read; the compression stays open without all of its section.
+    findings : list of Finding
+        Appended to: a section that cannot be.
+    """
+    if any(line[key].state != "given" for key in SECTION):
+        return line
+    if line["buckling_curve"].state == "faulty":
+        return line
+    return _compute("compression", _buckling, line, line["area"], findings)
+
+
+def _compute(
+    key: str,
+    rule: Callable[[Row], tuple[float, Message]],
+    line: Row,
+    first: Reading,
+    findings: list[Finding],
+) -> Row:
+    """Line with a resistance that follows from dimensions, at the first's cell."""
+    try:
+        value, derivation = rule(line)
+    except ModelError as error:
+        refuse(first, say("type.no_resistance"), error.message, findings)
+        return line
+    computed = replace(
+        line[key],
+        state="given",
+        value=kilonewton_from_newton(value),
+        derivation=derivation,
+        cell=first.cell,
+    )
+    return {**line, key: computed}
 
 
 def find_tests(row: Row) -> PullOutTests | None:
@@ -79,8 +104,7 @@ def find_tests(row: Row) -> PullOutTests | None:
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
     one = row["pull_out"]
-    is_typed = one.state == "given" and one.derivation is None
-    if is_typed and row["basis"].word == "tested":
+    if one.state == "given" and row["basis"].word == "tested":
         return PullOutTests(count=1, least=one.si, mean=one.si)
     if least.state != "given" or "faulty" in (count.state, mean.state):
         return None
@@ -97,12 +121,9 @@ def find_tests(row: Row) -> PullOutTests | None:
 
 def check_tests(row: Row, findings: list[Finding]) -> None:
     """Refuse tests, or a ground's strength, that are incomplete or contradictory."""
-    if "soil_cohesion" in row:
-        _is_ready(row, SOIL_COLUMNS, findings)
-    if "test_count" not in row:
-        return
+    _refuse_incomplete(row, SOIL_COLUMNS, findings)
     if row["test_least"].state != "given":  # the others say nothing without it
-        _is_ready(row, TEST_COLUMNS, findings)
+        _refuse_incomplete(row, TEST_COLUMNS, findings)
         return
     mean = row["test_mean"].given_si
     if mean is not None and row["test_least"].si > mean:
@@ -110,105 +131,24 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
         refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
 
 
+def _refuse_incomplete(
+    row: Row, keys: tuple[str, ...], findings: list[Finding]
+) -> None:
+    """Refuse some columns without the others."""
+    given = [row[key] for key in keys if row[key].state == "given"]
+    lacking = [row[key] for key in keys if row[key].state == "blank"]
+    if given and lacking and len(given) + len(lacking) == len(keys):
+        rule = say("type.needs_more", names=tuple(one.field.name for one in lacking))
+        refuse(given[0], rule, say("type.all_or_none"), findings)
+
+
 def check_ends(row: Row, findings: list[Finding]) -> None:
     """Refuse U-bolt grips on a spiral rope: EN 13411-5 is not for these."""
-    if row.get("termination") is None or row["termination"].word != "clips":
-        return
-    product, typed = find_product(row["id"].word), row["construction"].word
-    rope = typed or (product.id if product else "")
-    if rope.startswith(_SPIRAL):
+    product = find_product(row["id"].word)
+    rope = product.id if product else ""
+    if row["termination"].word == "clips" and rope.startswith(_SPIRAL):
         rule = say("type.clips_on_spiral", rope=rope)
         refuse(row["termination"], rule, say("type.other_end"), findings)
-
-
-def check_section(row: Row, findings: list[Finding]) -> None:
-    """Refuse a section that is another than the one that its type is named after."""
-    typed = row.get("section")
-    if typed is None or typed.state != "given":
-        return
-    given, named = find_product(typed.word), find_product(row["id"].word)
-    if given and named and given.id != named.id:
-        place = row["id"].place
-        rule = say("type.other_section", section=given.id, place=place, name=named.id)
-        refuse(typed, rule, say("accepted.one_of_two"), findings)
-
-
-def _apply(key: str, row: Row, findings: list[Finding]) -> Row:
-    field = row[key].field
-    governing = _find_governing(key, row)
-    if governing:
-        _tell_governing(row, field.computed_from, governing, findings)
-        return row
-    if key == "pull_out" and lacks_ground(row):  # a net row may give it
-        return row
-    if not _is_ready(row, field.computed_from, findings):
-        return row
-    first = row[field.computed_from[0]]
-    if any(row[one].state == "faulty" for one in field.computed_with):
-        return row
-    if key == "tendon" and lacks_inner(row):  # may be a tube: not known
-        return row
-    try:
-        value, derivation = _RULES[key](row)
-    except ModelError as error:
-        refuse(first, say("type.no_resistance"), error.message, findings)
-        return row
-    computed = replace(
-        row[key],
-        state="given",
-        value=kilonewton_from_newton(value),
-        derivation=derivation,
-        cell=first.cell,
-    )
-    return {**row, key: computed}
-
-
-def _find_governing(key: str, row: Row) -> Reading | None:
-    """Reading that governs over dimensions: the resistance itself, or tests of it."""
-    tests = TEST_COLUMNS if key == "pull_out" else ()
-    given = (row[one] for one in (key, *tests) if row[one].state == "given")
-    return next(given, None)
-
-
-def _tell_governing(
-    row: Row, needed: tuple[str, ...], governing: Reading, findings: list[Finding]
-) -> None:
-    """Say that dimensions beside a resistance are kept, and do not count."""
-    typed = (row[key] for key in needed if row[key].derivation is None)
-    beside = next((one for one in typed if one.state == "given"), None)
-    if beside and beside.field.key not in _ALONE:
-        name, place = governing.field.name, governing.place
-        rule_text = say("type.governs", name=name, place=place)
-        refuse(beside, rule_text, "", findings, severity="note")
-
-
-# What has to be given for a bound from above; the rest may be the best there is.
-_LEAST_KNOWN = {"rope": ("rope_diameter",)}
-
-
-def list_beside(row: Row) -> Iterator[tuple[Reading, float]]:
-    """Resistances as given, with what their dimensions give [N]; not of the bond.
-
-    Where some of these are not given, with the most that they may give, if it is less.
-    """
-    for key in ("tendon", "rope", "compression", "bearing"):
-        given = row.get(key)
-        if given is None or given.state != "given" or given.derivation:
-            continue
-        field = given.field
-        lacking = [one for one in field.computed_from if row[one].state != "given"]
-        parts = (*field.computed_from, *field.computed_with)
-        is_faulty = any(row[one].state == "faulty" for one in parts)
-        if any(row[one].derivation for one in parts):  # of a product: asked elsewhere
-            continue
-        is_open = bool(lacking) or (key == "tendon" and lacks_inner(row))
-        needed = _LEAST_KNOWN.get(key, field.computed_from)
-        if is_faulty or not set(needed).isdisjoint(lacking):
-            continue
-        with suppress(ModelError):  # no resistance at all: nothing to compare
-            most = _compute_bare_rope(row) if key == "rope" else _RULES[key](row)[0]
-            if not is_open or given.si > most:
-                yield given, most
 
 
 def find_bond(row: Row, pull_out: float) -> float | None:
@@ -221,24 +161,6 @@ def find_bond(row: Row, pull_out: float) -> float | None:
         return None
     surface = math.pi * parts[0].si * parts[1].si
     return pull_out / surface / 1e3
-
-
-def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
-    """All columns are given; some without the others are a finding.
-
-    A ground may stand alone, and says where a type was tested; so may a steel.
-    """
-    present = [row[key] for key in keys if key in row]
-    asking = [row[key] for key in keys if key in row and key not in _ALONE]
-    given = [reading for reading in asking if reading.state == "given"]
-    if any(reading.state == "faulty" for reading in present) or not given:
-        return False
-    lacking = [key for key in keys if row[key].state == "blank"]
-    if lacking:
-        names = tuple(row[key].field.name for key in lacking)
-        rule = say("type.needs_more", names=names)
-        refuse(given[0], rule, say("type.all_or_none"), findings)
-    return not lacking
 
 
 def _describe_origin(datum: Datum) -> Message:
@@ -260,27 +182,6 @@ def _bar(row: Row) -> tuple[float, Message]:
         )
     return value, say(
         "derivation.bar", diameter=diameter.number, strength=strength.number
-    )
-
-
-def _bond(row: Row) -> tuple[float, Message]:
-    ground, grouting = row["ground"].word, row["grouting"].word or _DEFAULT_GROUTING
-    ground_name = row["ground"].field.name_word(ground)
-    bond = find_bond_stress(ground, grouting, ground_name=ground_name)
-    diameter, length = row["drill_diameter"], row["bond_length"]
-    value = compute_pull_out_from_bond(
-        drill_diameter=diameter.si,
-        bond_length=length.si,
-        bond_stress=1e3 * bond.value,
-    )
-    return value, say(
-        "derivation.bond",
-        diameter=diameter.number,
-        length=length.number,
-        stress=bond.value,
-        ground=ground_name,
-        grouting=grouting,
-        origin=_describe_origin(bond),
     )
 
 
@@ -317,10 +218,8 @@ def may_be_rope(line: Row) -> bool:
 
 def reduce_loop(row: Row) -> tuple[float, Message]:
     """Resistance of a rope anchor's tendon with its loop [N], and how; (R31)."""
-    force, given = row["tendon"], row["loop_efficiency"]
-    loss, how = find_loop_loss(row), say("derivation.loop_given", place=given.place)
-    if given.given_si is None:
-        how = _describe_origin(find_loop_efficiency())
+    force, loss = row["tendon"], find_loop_loss(row)
+    how = _describe_origin(find_loop_efficiency())
     return loss * force.si, say(
         "derivation.loop", force=force.number, loss=loss, origin=how
     )
@@ -328,10 +227,7 @@ def reduce_loop(row: Row) -> tuple[float, Message]:
 
 def find_loop_loss(row: Row) -> float:
     """Loss factor k_e of an anchor's loop [-]; 1 of one that has none."""
-    given = row["loop_efficiency"].given_si
-    if not may_be_rope(row):
-        return 1.0
-    return find_loop_efficiency().value if given is None else given
+    return find_loop_efficiency().value if may_be_rope(row) else 1.0
 
 
 def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
@@ -357,53 +253,9 @@ def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
     return limit_proof_load(tendon, max(tendon, ultimate))
 
 
-def _rope(row: Row) -> tuple[float, Message]:
-    construction = row["construction"].word
-    kind = name_termination(row)
-    if kind == _INCLUDED:  # there is no breaking force that could include it
-        kind = _DEFAULT_TERMINATION
-    factor, loss = find_rope_factor(construction, "K"), find_termination(kind)
-    diameter, grade = row["rope_diameter"], row["grade"]
-    value = compute_rope_resistance(
-        diameter=diameter.si,
-        grade=grade.si,
-        breaking_factor=factor.value,
-        termination=loss.value,
-    )
-    return value, say(
-        "derivation.rope",
-        factor=factor.value,
-        diameter=diameter.number,
-        grade=grade.number,
-        loss=loss.value,
-        construction=construction,
-        origin=_describe_origin(factor),
-        termination=row["termination"].field.name_word(kind),
-        loss_origin=_describe_origin(loss),
-    )
-
-
 def find_breaking(row: Row) -> float | None:
     """Breaking force of a rope without the loss of its ends [N]; None if not known."""
-    rope = row["rope"]
-    return rope.given_si if rope.derivation is None else _compute_bare_rope(row)
-
-
-def _compute_bare_rope(row: Row) -> float:
-    """Breaking force by dimensions, without ends [N]; the most that it may be."""
-    grade, construction = row["grade"], row["construction"].word
-    factors = [
-        find_rope_factor(one, "K").value
-        for one in ([construction] if construction else list_constructions())
-    ]
-    return compute_rope_resistance(
-        diameter=row["rope_diameter"].si,
-        grade=to_si(grade.field.bounds[1], grade.field.unit)
-        if grade.given_si is None
-        else grade.si,
-        breaking_factor=max(factors),
-        termination=1.0,
-    )
+    return row["rope"].given_si
 
 
 def _buckling(row: Row) -> tuple[float, Message]:
@@ -425,34 +277,6 @@ def _buckling(row: Row) -> tuple[float, Message]:
     )
 
 
-def read_plate(row: Row) -> BasePlate:
-    """Base plate of a post, all of it given."""
-    return BasePlate(
-        length=row["plate_length"].si,
-        width=row["plate_width"].si,
-        stress=row["bearing_stress"].si,
-    )
-
-
-def _bearing(row: Row) -> tuple[float, Message]:
-    return compute_bearing_resistance(read_plate(row)), say(
-        "derivation.bearing",
-        length=row["plate_length"].number,
-        width=row["plate_width"].number,
-        stress=row["bearing_stress"].number,
-    )
-
-
-# Of a resistance its value [N] and how it follows from what ``columns.toml`` names.
-_RULES: Mapping[str, Callable[[Row], tuple[float, Message]]] = {
-    "tendon": _bar,
-    "pull_out": _bond,
-    "rope": _rope,
-    "compression": _buckling,
-    "bearing": _bearing,
-}
-
-
 def lacks_inner(line: Row) -> bool:
     """Lack of an inner diameter of an anchor that may be hollow.
 
@@ -464,14 +288,6 @@ def lacks_inner(line: Row) -> bool:
         and line["bar_diameter"].derivation is None
         and line["inner_diameter"].state != "given"
         and not is_solid
-    )
-
-
-def lacks_ground(line: Row) -> bool:
-    """Lack of nothing but the ground for the bond of an anchor."""
-    bond = ("drill_diameter", "bond_length")
-    return line["ground"].state == "blank" and all(
-        line[key].state == "given" for key in bond
     )
 
 

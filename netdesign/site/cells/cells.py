@@ -45,32 +45,18 @@ UNDECLARED = TextFormat()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answers:
-    """Answers of the engineer about a workbook, from the file of `site.titles`.
+    """File of answers to an office's own list, as `site.lists` reads it.
 
     Attributes
     ----------
     file, sha256 : str
-        Of the file of answers; empty where there is none.
-    sheets : mapping of str to str
-        Name of a planned sheet, or ``ignore``, by name of a sheet as typed.
-    headings : mapping of str to mapping of str to str
-        By sheet as typed, then heading or item as typed: a heading with its unit, or
-        ``ignore``.
-    words : mapping of str to mapping of str to str
-        By sheet as typed, then text of a cell: one of the words of its column, or
-        ``ignore``.
-    ranges : mapping of str to str
-        Lowest and highest value of a quantity, by its name with its unit.
+        Of the file; empty where there is none.
     decimal_mark : str
         Of numbers stored as text.
     """
 
     file: str = ""
     sha256: str = ""
-    sheets: Mapping[str, str] = field(default_factory=dict)
-    headings: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    words: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    ranges: Mapping[str, str] = field(default_factory=dict)
     decimal_mark: DecimalMark = ""
 
 
@@ -184,7 +170,6 @@ class Sheet:
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
-    answers: Mapping[str, str] = field(default_factory=dict)  # by heading as typed
     words: Mapping[str, str] = field(default_factory=dict)  # answers, by text
     answered_in: str = ""  # the file of the answers
 

@@ -14,11 +14,6 @@ from netdesign.words.message import Message, say
 Severity = Literal["error", "question", "note"]
 
 _LONGEST_QUOTE = 60
-# Rules that an answer settles, beside all of headings and items.
-_ASKED = (
-    *("table.lacks_sheet", "table.close_to_missing", "table.second_sheet"),
-    *("table.copy", "cell.unknown_word"),
-)
 _ALIKE = (
     "number.ambiguous",
     "type.governs",
@@ -85,10 +80,8 @@ class Finding:
 
     @property
     def is_asked(self) -> bool:
-        """An answer in a file beside the workbook can settle it."""
-        area = self.rule.key.partition(".")[0]
-        is_asked = area in ("heading", "item") or self.rule.key in _ASKED
-        return self.severity == "error" and is_asked
+        """The workbook may be a list, which answers in a file beside it can settle."""
+        return self.rule.key == "table.lacks_sheet"
 
     def __str__(self) -> str:
         """The message in English."""

@@ -38,11 +38,10 @@ from netdesign.site.cells.cells import (
 )
 from netdesign.site.cells.findings import Finding, note_file, refuse_file
 from netdesign.site.cells.xlsx import read_xlsx
-from netdesign.site.columns.fields import KNOWN_UNITS, normalise_unit
 from netdesign.words.message import Message, say
 
 DELIMITERS = (";", ",", "\t", "|")
-_DEFAULT_SHEET = "Nets"
+_DEFAULT_SHEET = "Rows"
 _NAMES = {";": "semicolon", ",": "comma", "\t": "tab", "|": "bar", " ": "space"}
 _BOMS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 
@@ -52,7 +51,6 @@ _Records = list[list[str]]
 def read_delimited(
     contents: Mapping[str, bytes],
     is_wanted: Callable[[str], bool],
-    is_name: Callable[[str], bool],
     is_heading: Callable[[str], bool],
     text_format: TextFormat,
     *,
@@ -64,17 +62,17 @@ def read_delimited(
     ----------
     contents : mapping of str to bytes
         Content of each file by its name.
-    is_wanted, is_name, is_heading : callable
-        Tell whether a text is the name of a sheet, or one misspelt, and a heading.
+    is_wanted, is_heading : callable
+        Tell whether a text is the name of a sheet, and a heading.
     text_format : TextFormat
         What is declared of the files.
     by_name : bool
-        Whether a file is the sheet that its own name says; otherwise it is sheet Nets.
+        Whether a file is the sheet that its own name says; otherwise it is sheet Rows.
 
     Raises
     ------
     SiteDataError
-        If a file is no text, its delimiter cannot be told, or it holds a second sheet.
+        If a file is no text, or its delimiter cannot be told.
     """
     sheets: list[Sheet] = []
     unread: list[str] = []
@@ -97,7 +95,6 @@ def read_delimited(
         if not is_wanted(name):
             unread.append(name)
             continue
-        _refuse_second_sheet(file, records, is_wanted, is_name)
         sheets.append(_make_sheet(file, name, records, text_format))
     return tuple(sheets), tuple(unread), tuple(remarks)
 
@@ -197,31 +194,6 @@ def _make_sheet(
     return Sheet(file=file, name=name, rows=group_by_row(cells), is_delimited=True)
 
 
-def _refuse_second_sheet(
-    file: str,
-    records: _Records,
-    is_wanted: Callable[[str], bool],
-    is_name: Callable[[str], bool],
-) -> None:
-    """Refuse a line that names a sheet: those below it are no lines of this one.
-
-    Above the table it may be a title. A name in brackets that nobody knows names a
-    sheet, too, and a misspelt one below an empty line.
-    """
-    is_begun = False
-    for row, record in enumerate(records, start=1):
-        filled = [text.strip() for text in record if text.strip()]
-        if len(filled) == 1:
-            name = filled[0].strip("[]#: ")
-            in_brackets = record[0].strip().startswith("[") and filled[0].endswith("]")
-            is_apart = row == 1 or not any(map(str.strip, records[row - 2]))
-            is_named = is_begun and is_name(name) and (is_apart or is_wanted(name))
-            if is_named or (in_brackets and normalise_unit(name) not in KNOWN_UNITS):
-                rule = say("csv.second_sheet", row=row, name=name)
-                raise refuse_file(file, rule, say("csv.one_sheet"))
-        is_begun = is_begun or bool(filled)
-
-
 _OLE_MAGIC = b"\xd0\xcf\x11\xe0"
 _ZIP_MAGIC = b"PK"
 # Of defusedxml, by name: it is imported where XML is read.
@@ -240,7 +212,6 @@ _Content = tuple[
 def read_workbook(
     path: Path,
     is_wanted: Callable[[str], bool],
-    is_name: Callable[[str], bool] = lambda _: False,
     is_heading: Callable[[str], bool] = lambda _: False,
     text_format: TextFormat = UNDECLARED,
 ) -> Workbook:
@@ -252,9 +223,6 @@ def read_workbook(
         The file. It is read once; guards, hash and content see the same bytes.
     is_wanted : callable
         Tells from a sheet's name whether to read it.
-    is_name : callable
-        Tells whether a text alone in a line of a csv file names a sheet, perhaps
-        misspelt.
     is_heading : callable
         Tells from a cell's text whether it is a known heading; finds the
         delimiter of a csv file.
@@ -281,7 +249,6 @@ def read_workbook(
         sheets, unread, remarks = read_delimited(
             contents,
             is_wanted,
-            is_name,
             is_heading,
             text_format,
             by_name=is_folder,

@@ -1,31 +1,27 @@
-"""The site workbook as one table: sheets, headings, units, bounds, defaults.
+"""The quantities of a site as one table: their units, bounds, words, what is usual.
 
-What a column is: ``columns.toml``. Names of sheets and columns, and words of cells,
-stand in ``netdesign/words``; notes on headings in ``words/``. How offices write them
-stands in ``headings/``; a test says where one heading would stand for two fields.
+What a quantity is: ``columns.toml``. The input workbook (`office`) takes its columns
+from there; sheets of add-ons are read as they stand there. Names of sheets and columns,
+and words of cells, stand in ``netdesign/words``; notes on headings in ``words/``. How
+offices write headings stands in ``headings/``, for guesses of ``netdesign map``.
 A heading is known by its whole name, in which case, accents and punctuation do not
-count. Nothing is made of its words: what is no name is asked for by ``netdesign map``.
+count.
 """
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
 from netdesign.site.columns.fields import (
-    KNOWN_UNITS,
-    LONGEST_HEADING,
     Field,
     SheetPlan,
     Usual,
     name_word,
     normalise,
-    split_heading,
 )
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
@@ -34,6 +30,7 @@ Data = Mapping[str, Any]
 
 READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 
+_TOLD = ("empty", "symbol", "column", "is_old")  # of documents, or of a plan
 _OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them too
 
 
@@ -44,30 +41,32 @@ def load_file(name: str) -> Data:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def _read_plan(name: str) -> SheetPlan:
-    """Sheet with its columns, also those that the template does not offer."""
+def _read_plan(name: str, *, is_old: bool = False) -> SheetPlan:
+    """Sheet with its columns, of a workbook of version 0.1 with all that it had."""
     entry = dict(load_file("columns")["sheets"][name])
-    items = _read_fields(entry.pop("items")) if "items" in entry else ()
+    items = entry.pop("items", "")
     return SheetPlan(
         name=name,
-        fields=_read_fields(name),
-        unclear=_list_unclear(name),
+        fields=_read_fields(name, is_old=is_old),
         names=list_names(f"sheet.{name}", "sheets", name),
-        items=items,
+        items=_read_fields(items, is_old=is_old) if items else (),
         **{key: _freeze(value) for key, value in entry.items()},
     )
 
 
-def _read_fields(table: str) -> tuple[Field, ...]:
+def _read_fields(table: str, *, is_old: bool) -> tuple[Field, ...]:
     """Columns of a sheet, or what its lines may name, in the order of the file."""
-    return tuple(_read_field(table, key) for key in load_file("columns")[table])
+    entries: Data = load_file("columns")[table]
+    return tuple(
+        _read_field(table, key, entry)
+        for key, entry in entries.items()
+        if is_old or not entry.get("is_old")
+    )
 
 
-def _read_field(table: str, key: str) -> Field:
-    data = load_file("columns")
-    entry = data[table][key]
+def _read_field(table: str, key: str, entry: Data) -> Field:
     if "column" in entry:
-        column = data["Nets"][entry["column"]]
+        column = load_file("columns")["Nets"][entry["column"]]
         entry = {**{one: column[one] for one in _OF_COLUMN if one in column}, **entry}
     return build_field(table, key, entry)
 
@@ -82,7 +81,11 @@ def build_field(table: str, key: str, entry: Data) -> Field:
     entry : mapping
         Its keys, as the file says.
     """
-    values = {one: _READ.get(one, _freeze)(value) for one, value in entry.items()}
+    values = {
+        one: _READ.get(one, _freeze)(value)
+        for one, value in entry.items()
+        if one not in _TOLD
+    }
     return Field(
         key=key,
         table=table,
@@ -103,7 +106,6 @@ def _freeze(value: Any) -> Any:
 # Reader of a key's value, where it is not taken as it is.
 _READ: Mapping[str, Any] = {
     "units": lambda name: tuple(load_file("columns")["units"][name]),
-    "empty": lambda name: load_file("columns")["empty"][name],
     "bounds": lambda span: tuple(map(float, span)),
     "usual": lambda usual: Usual(float(usual[0]), float(usual[1]), usual[2]),
     "beside": lambda values: tuple(
@@ -138,14 +140,11 @@ def _list_spellings(key: str, words: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _list_unclear(sheet: str) -> Mapping[str, tuple[str, ...]]:
-    """Headings that may mean several fields of a sheet, with the keys of these."""
-    found: dict[str, tuple[str, ...]] = {}
-    for language in READ_LANGUAGES:
-        for key, names in _load_headings(language)["unclear"].get(sheet, {}).items():
-            for name in names:
-                found[name] = (*found.get(name, ()), key)
-    return found
+def list_unclear(sheet: str) -> frozenset[str]:
+    """Headings, normalised, that may mean several columns of a sheet."""
+    every = (_load_headings(one)["unclear"].get(sheet, {}) for one in READ_LANGUAGES)
+    lists = (names for one in every for names in one.values())
+    return frozenset(normalise(name) for names in lists for name in names)
 
 
 def _load_headings(language: str) -> Data:
@@ -153,24 +152,23 @@ def _load_headings(language: str) -> Data:
 
 
 _PLANS = {name: _read_plan(name) for name in load_file("columns")["sheets"]}
-NETS, RANGES, SNOW = _PLANS["Nets"], _PLANS["Ranges"], _PLANS["Snow"]
+NETS, SNOW, DECLARED = _PLANS["Nets"], _PLANS["Snow"], _PLANS["Declared"]
 # The keys of the resistances are the modes of `model.MEMBER_MODES`.
 ANCHORS, ROPES, POSTS = _PLANS["Anchors"], _PLANS["Ropes"], _PLANS["Posts"]
 TESTS, LINKS, ENDS = _PLANS["Tests"], _PLANS["Links"], _PLANS["Ends"]
-MONITORING, DECLARED = _PLANS["Monitoring"], _PLANS["Declared"]
-WINTER, UNCERTAINTY = _PLANS["Winter"], _PLANS["Uncertainty"]
-PROJECT = _PLANS["Project"]
-PROJECT_ITEMS = PROJECT.items
+MONITORING, WINTER = _PLANS["Monitoring"], _PLANS["Winter"]
+UNCERTAINTY = _PLANS["Uncertainty"]
+FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons
 SHEETS: tuple[SheetPlan, ...] = tuple(_PLANS.values())
-RANGE_QUANTITIES = RANGES.items
-# What else may range: then no line of sheet Nets gives it. Keys are those of
-# `envelope.parameters.PARAMETERS`.
-FURTHER_QUANTITIES: tuple[Field, ...] = tuple(
-    one for one in RANGE_QUANTITIES if one.column
-)
-USUAL_QUANTITIES: tuple[Field, ...] = tuple(
-    one for one in RANGE_QUANTITIES if not one.column
-)
+USUAL_QUANTITIES = _PLANS["Ranges"].items[:3]
+
+
+@lru_cache(maxsize=1)
+def load_old_plans() -> Mapping[str, SheetPlan]:
+    """Sheets of a workbook of version 0.1, by name."""
+    return {name: _read_plan(name, is_old=True) for name in _PLANS}
+
+
 # The sheet that an annotated copy lists its findings on, by language.
 FINDINGS_SHEETS: Mapping[Language, str] = {
     language: render(say("annotated.findings_sheet"), language)
@@ -182,19 +180,6 @@ QUIET_SHEETS: tuple[str, ...] = (
     *FINDINGS_SHEETS.values(),
 )
 
-
-def is_heading(text: str) -> bool:
-    """A text is a heading of some sheet."""
-    return split_heading(text)[0] in _known_headings()
-
-
-@lru_cache(maxsize=1)
-def _known_headings() -> frozenset[str]:
-    fields = (field for plan in SHEETS for field in plan.fields)
-    return frozenset(name for field in fields for name in field.names)
-
-
-_NUMBER_SIGN = re.compile("[Nn][°º]|#")  # names the ids; a plain N is a glide factor
 
 # Answers to a heading: it is not to be read; it is not yet answered.
 IGNORE, UNANSWERED = "ignore", "?"
@@ -218,97 +203,3 @@ def is_allowable(text: str) -> bool:
     """
     stems = tuple(load_file("heading_words")["allowable"]["stems"])
     return any(normalise(word).startswith(stems) for word in text.split())
-
-
-def says_sag(text: str) -> bool:
-    """A heading speaks of sag, which is several times the slack.
-
-    >>> says_sag("Flèche du filet"), says_sag("Mou")
-    (True, False)
-    """
-    words = load_file("heading_words")["sag"]["words"]
-    return any(normalise(word) in normalise(text) for word in words)
-
-
-@dataclass(frozen=True, slots=True)
-class Meaning:
-    """Meaning of a heading, and what it follows from.
-
-    Attributes
-    ----------
-    field : Field or None
-        The one field that it means; None where it is unknown, unclear or ignored.
-    readings : tuple of Field
-        Where it is unclear, the fields that it may mean.
-    answer : str
-        Text of the answer to it; empty where none was needed or none is there.
-    unit : str
-        That of the answer; empty where it gives none.
-    """
-
-    field: Field | None = None
-    readings: tuple[Field, ...] = ()
-    answer: str = ""
-    unit: str = ""
-
-    @property
-    def is_ignored(self) -> bool:
-        """Somebody answered that it is not to be read."""
-        return self.answer == IGNORE
-
-
-UNKNOWN = Meaning()
-
-
-@dataclass(frozen=True, slots=True)
-class Lexicon:
-    """Names of the fields of one sheet, or of the quantities that its lines may name.
-
-    Attributes
-    ----------
-    fields : mapping of str to Field
-        By key.
-    names : mapping of str to str
-        Key of the field by normalised heading.
-    unclear : mapping of str to frozenset of str
-        Keys of the fields that a normalised heading may mean; it is asked for.
-    """
-
-    fields: Mapping[str, Field]
-    names: Mapping[str, str]
-    unclear: Mapping[str, frozenset[str]]
-
-    @classmethod
-    def of(cls, fields: Iterable[Field], plan: SheetPlan) -> Lexicon:
-        """Lexicon of some fields of a sheet, or of its items."""
-        by_key = {field.key: field for field in fields}
-        names = {name: key for key, one in by_key.items() for name in one.names}
-        unclear = {
-            normalise(heading): frozenset(keys).intersection(by_key)
-            for heading, keys in plan.unclear.items()
-        }
-        return cls(by_key, names, unclear)
-
-    def match(self, text: str) -> Meaning:
-        """Meaning of a heading, which may have a unit in brackets behind its name."""
-        typed = text.strip()
-        if "id" in self.fields and _NUMBER_SIGN.fullmatch(typed):
-            return Meaning(self.fields["id"])
-        whole = normalise(typed) if len(typed) <= LONGEST_HEADING else ""
-        if whole in self.names or whole in self.unclear:
-            return self._conclude(whole)
-        own, bracket = split_heading(typed)
-        found = self._conclude(own)
-        # Behind a number a bracket is a unit; an unknown one is told elsewhere.
-        is_unit = not bracket or bracket in KNOWN_UNITS
-        if found.field and not (is_unit or found.field.units):
-            return Meaning(readings=(found.field,))
-        return found
-
-    def _conclude(self, name: str) -> Meaning:
-        if name in self.names:
-            return Meaning(self.fields[self.names[name]])
-        keys = self.unclear.get(name, frozenset())
-        return Meaning(
-            readings=tuple(one for key, one in self.fields.items() if key in keys)
-        )

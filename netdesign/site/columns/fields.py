@@ -125,10 +125,6 @@ def from_si(value: float, unit: str) -> float:
 Kind = Literal["number", "count", "word", "id", "date", "text"]
 LONGEST_HEADING = 100
 _NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
-_STRUCTURE = re.compile(
-    r"[A-Za-z]|[IVX]{1,4}|\d{1,2}|[A-Za-z]\d"
-    r"|(?i:north|south|east|west|nord|sud|süd|est|ouest|ost)"
-)
 _BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 
@@ -177,8 +173,6 @@ class Field:
         Keys of columns that a resistance follows from, and of those that may be empty.
     required : bool
         Whether the heading and every cell below it must be there.
-    instead : tuple of str
-        Keys of columns of which one says what a missing cell or heading would.
     not_beside : tuple of str
         Keys of columns that say the same, or the contrary.
     not_with : mapping of str to sequence of str
@@ -191,22 +185,11 @@ class Field:
         Whether a cell may name a steel grade instead of its strength.
     refers_to : str
         Sheet that defines the id, for ids of another sheet.
-    alternative_to : str
-        Key of the column in whose stead it stands, alone or with others.
-    column : str
-        Key of the column of sheet Nets in whose stead a quantity ranges.
-    empty : mapping of str to str
-        What an empty cell means, and why it is never better than a filled one; empty
-        of a required column.
-    is_offered : bool
-        Whether the template has it.
-    symbol : str
-        In the drawing of the template.
     headings : mapping of str to tuple of str
         Accepted headings by language, its name first; also of a language that the
         program only reads.
     notes : mapping of str to str
-        Note on its heading, by language.
+        Note on its heading, by language; of a sheet of an add-on.
     spellings : mapping of str to str
         Word by each of its spellings in every language.
     named : Message or None
@@ -230,18 +213,12 @@ class Field:
     computed_from: tuple[str, ...] = ()
     computed_with: tuple[str, ...] = ()
     required: bool = False
-    instead: tuple[str, ...] = ()
     not_beside: tuple[str, ...] = ()
     not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
     needs: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     is_grade: bool = False
     refers_to: str = ""
-    alternative_to: str = ""
-    column: str = ""
-    empty: Mapping[str, str] = field(default_factory=dict)
-    is_offered: bool = True
-    symbol: str = ""
     headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: Mapping[Language, str] = field(default_factory=dict)
     spellings: Mapping[str, str] = field(default_factory=dict)
@@ -317,8 +294,6 @@ class SheetPlan:
     fields: tuple[Field, ...]
     required: bool = False
     one_of: tuple[str, ...] = ()  # keys of which at least one heading must be there
-    # Headings that may mean any of several fields: refused with their readings.
-    unclear: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     # Accepted names by language, the sheet's own first; as the headings of a field.
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
@@ -334,15 +309,21 @@ class SheetPlan:
             or (all(parts) and known.issuperset(parts))
         )
 
-    def is_structure(self, sheet_name: str) -> bool:
-        """A name is that of a sheet with a letter, number or quarter: "Nets A"."""
-        start, _, last = sheet_name.strip().rpartition(" ")
-        return bool(_STRUCTURE.fullmatch(last)) and self.matches(start)
+    def find(self, heading: str) -> Field | None:
+        """Column of that name, which may have a unit in brackets behind it.
 
-    def begins(self, sheet_name: str) -> bool:
-        """A name begins with that of the planned sheet: "Nets (old)"."""
-        words = re.split(r"[\s_(\[-]+", sheet_name.strip())
-        return any(self.matches(" ".join(words[:n])) for n in range(1, len(words)))
+        Behind a column without units brackets are no unit: they are part of the name.
+        """
+        if len(heading.strip()) > LONGEST_HEADING:
+            return None
+        whole, (own, bracket) = normalise(heading), split_heading(heading)
+        for one in self.fields:
+            if whole in one.names:
+                return one
+            is_unit = not bracket or bracket in KNOWN_UNITS or bool(one.units)
+            if own in one.names and is_unit:
+                return one
+        return None
 
     @property
     def raw_names(self) -> tuple[str, ...]:
@@ -365,11 +346,6 @@ class SheetPlan:
             for one in self.fields
         )
         return replace(self, fields=fields)
-
-    @property
-    def has_pairs(self) -> bool:
-        """Its lines are names with a value, which need no headings."""
-        return [one.key for one in self.fields] == ["item", "value"]
 
 
 def name_word(key: str, word: str) -> Message | str:

@@ -12,12 +12,18 @@ from functools import cache
 from itertools import product
 
 from netdesign.site.columns.all_tables import (
+    SHEETS,
     Data,
     build_field,
     list_names,
     load_file,
 )
-from netdesign.site.columns.fields import Field, SheetPlan, normalise
+from netdesign.site.columns.fields import (
+    Field,
+    SheetPlan,
+    normalise,
+    split_heading,
+)
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
 
@@ -82,8 +88,7 @@ def _read_column(table: str, key: str, of: str) -> Column:
     entry = {key: own[key] for key in own if key not in _OF_TEMPLATE}
     if "unit" in own and not like.get("units") and own["unit"] in ("m", "-", "kN"):
         entry["units"] = {"m": "length", "-": "factor", "kN": "force"}[own["unit"]]
-    for absent in ("instead", "required", "is_offered"):
-        like.pop(absent, None)
+    like.pop("required", None)
     field = build_field(
         table, key, {**like, **entry, "required": own.get("need") == "yes"}
     )
@@ -112,6 +117,18 @@ def load_plan(table: str) -> SheetPlan:
         return SheetPlan(name=table, fields=heads, names=names, items=fields)
     is_needed = table in ("rows", "net_types")
     return SheetPlan(name=table, fields=fields, names=names, required=is_needed)
+
+
+def is_heading(text: str) -> bool:
+    """A text is a heading of some sheet."""
+    return split_heading(text)[0] in _known_headings()
+
+
+@cache
+def _known_headings() -> frozenset[str]:
+    plans = (*SHEETS, *map(load_plan, TABLES))
+    fields = (field for plan in plans for field in plan.fields)
+    return frozenset(name for field in fields for name in field.names)
 
 
 PARTS = ("ropes", "posts", "links", "soils")  # blocks of sheet Parts

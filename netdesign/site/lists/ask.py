@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-from netdesign.edge.input_files import is_there, make_printable
+from netdesign.edge.input_files import make_printable
 from netdesign.site.cells.cells import (
     UNDECLARED,
     Cell,
@@ -22,19 +22,22 @@ from netdesign.site.cells.cells import (
     name_column,
 )
 from netdesign.site.columns.all_tables import (
-    ANCHORS,
     IGNORE,
-    NETS,
     SHEETS,
-    TESTS,
     UNANSWERED,
-    Lexicon,
     has_no_part,
     is_allowable,
+    list_unclear,
 )
-from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.fields import KNOWN_UNITS, normalise, split_heading
 from netdesign.site.columns.office import load_plan
-from netdesign.site.lists.join import find_list_unit, find_units, list_lacking
+from netdesign.site.lists.guess import guess
+from netdesign.site.lists.join import (
+    find_list_unit,
+    find_units,
+    list_lacking,
+    name_asked,
+)
 from netdesign.site.lists.list_map import (
     SCHEMA,
     ListMap,
@@ -49,9 +52,8 @@ from netdesign.site.lists.targets import (
     list_targets,
     read_answer,
 )
-from netdesign.site.questions import guess, is_open
 from netdesign.site.readings import knows_word
-from netdesign.site.titles import find_own_unit, name_asked, name_map
+from netdesign.site.titles import find_own_unit
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -59,7 +61,9 @@ _FIRST_LINES = 20  # in which headings stand
 _LEAST_TEXTS = 3  # in a line of headings
 _LEAST_KNOWN = 2  # of them, in a sheet that is read
 _EXAMPLES = 3
-_OLD = {"rows": NETS, "net_types": NETS, "anchor_types": ANCHORS, "tests": TESTS}
+_OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
+    ("rows", "net_types"), "Nets"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,13 +132,17 @@ def write_list_map(
     return "\n".join(lines) + "\n", count
 
 
-def is_own_list(path: Path, text_format: TextFormat) -> bool:
-    """A workbook is an office's own: few of its headings are those of a template.
+# A line of the file whose answer has a question mark, one that was left before too.
+_OPEN = re.compile(r'^(?:"(?:[^"\\]|\\.)*"|\w+) = "(?:[^"\\]|\\.)*\?', re.MULTILINE)
 
-    Where a file of answers stands beside it already, that says what it is.
-    """
-    if is_there(name_map(path)):
-        return read_list_map(path) is not None
+
+def is_open(line: str) -> bool:
+    """A line of a file of answers waits for an answer."""
+    return _OPEN.match(line) is not None
+
+
+def is_own_list(path: Path, text_format: TextFormat) -> bool:
+    """A workbook is an office's own: few of its headings are those of a template."""
     workbook = read_list(path, text_format)
     counts = [_count_of_template(sheet) for sheet in workbook.sheets]
     known, every = (sum(one) for one in zip(*counts, strict=True)) if counts else (0, 0)
@@ -350,8 +358,13 @@ def _is_unclear(text: str, becomes: str) -> bool:
     """A heading is known to mean several things."""
     if _NUMBER.fullmatch(text.strip()):
         return True
-    plan = _OLD[becomes]
-    return bool(Lexicon.of(plan.fields, plan).match(text).readings)
+    own, bracket = split_heading(text)
+    if not list_unclear(_OLD[becomes]).isdisjoint((normalise(text), own)):
+        return True
+    # behind a number a bracket is a unit, behind a word part of the name
+    named = [x.field for x in list_targets(becomes) if own in x.field.names]
+    is_word = bool(named) and not any(one.units for one in named)
+    return is_word and bracket not in ("", *KNOWN_UNITS)
 
 
 def _complete(

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from netdesign.site.cells.cells import Cell, Sheet, Workbook
+from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
 from netdesign.site.cells.findings import Finding, quote
-from netdesign.site.columns.fields import KNOWN_UNITS, Field
+from netdesign.site.columns.fields import (
+    KNOWN_UNITS,
+    Field,
+    normalise,
+    split_heading,
+)
 from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.lists.list_map import ListMap, ListTable
 from netdesign.site.lists.targets import GROUPS, Target, list_targets, read_answer
-from netdesign.site.titles import (
-    find_heading_unit,
-    is_asked,
-    is_unit,
-    read_unit,
-)
+from netdesign.site.titles import find_heading_unit, is_unit, read_unit
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
+_COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
@@ -114,7 +116,7 @@ def map_sheet(
     columns = []
     seen: set[str] = set()
     for cell in cells:
-        key = next((one for one in table.headings if is_asked(cell, one)), None)
+        key = next((one for one in table.headings if _is_asked(cell, one)), None)
         if key is None:
             rule = say("list_map.new_heading", file=found.answers.file)
             findings.append(cell.finding(rule, say("list_map.again")))
@@ -144,6 +146,22 @@ def map_sheet(
         lines=tuple(lines),
         file=found.answers.file,
     )
+
+
+def name_asked(cell: Cell) -> str:
+    """Heading as a file of answers names it."""
+    return " ".join(str(cell.value).split())
+
+
+def _is_asked(cell: Cell, key: str) -> bool:
+    """A key of the answers names this heading."""
+    in_column = _COLUMN.fullmatch(key)
+    if in_column and in_column[1] != name_column(cell.column):
+        return False
+    asked = normalise(in_column[2] if in_column else key)
+    text = str(cell.value)
+    names = {normalise(one) for one in (text, text.partition("[")[0])}
+    return asked in names | {split_heading(text)[0]}
 
 
 def find_list_unit(cell: Cell, units: Mapping[int, str]) -> str:

@@ -19,7 +19,8 @@ from netdesign.outcome import ContentError, SiteDataError
 from netdesign.site.cells.cells import Answers, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding, quote, refuse_file
 from netdesign.site.cells.spreadsheet import read_workbook
-from netdesign.site.columns.all_tables import UNANSWERED, is_heading
+from netdesign.site.columns.all_tables import UNANSWERED
+from netdesign.site.columns.office import is_heading
 from netdesign.site.lists.targets import Answer, find_table, read_answer
 from netdesign.site.titles import MARKS, name_map
 from netdesign.words.message import Message, say
@@ -69,7 +70,7 @@ class ListMap:
 
 
 def read_list_map(site_file: Path) -> ListMap | None:
-    """Answers beside a list; None where none of this kind stand there.
+    """Answers beside a list; None where none stand there.
 
     Raises
     ------
@@ -87,7 +88,8 @@ def read_list_map(site_file: Path) -> ListMap | None:
         rule = say("map.faulty", cause=cause or explain_cause(error))
         raise refuse_file(path.name, rule, _WANTED) from error
     if table.get("schema") != SCHEMA:
-        return None
+        rule = say("map.other_schema", schema=SCHEMA)
+        raise refuse_file(path.name, rule, _WANTED)
     if fault := _find_fault(table):
         raise refuse_file(path.name, fault, _WANTED)
     mark = MARKS[table.get("decimal_mark", "")]

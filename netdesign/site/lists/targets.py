@@ -8,9 +8,9 @@ from functools import cache
 
 from netdesign.site.columns.all_tables import (
     IGNORE,
-    SHEETS,
     UNANSWERED,
     load_file,
+    load_old_plans,
 )
 from netdesign.site.columns.fields import Field, normalise, normalise_unit
 from netdesign.site.columns.office import (
@@ -137,8 +137,8 @@ def _find_like(table: str, key: str) -> Field | None:
 
 
 def _find_old(sheet: str, key: str) -> Field | None:
-    plans = (one for one in SHEETS if one.name == sheet)
-    fields = (field for plan in plans for field in plan.fields)
+    plan = load_old_plans().get(sheet)
+    fields = plan.fields if plan else ()
     return next((one for one in fields if one.key == key), None)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import SNOW
+from netdesign.site.columns.all_tables import FURTHER, SNOW
 from netdesign.site.content import Content
 from netdesign.site.lines import (
     Lines,
@@ -17,8 +17,8 @@ from netdesign.site.lines import (
 from netdesign.site.office.declared import list_declared
 from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import (
-    build_office_ranges,
     build_project,
+    build_site_ranges,
     list_documents,
     read_lines,
 )
@@ -28,8 +28,9 @@ from netdesign.site.office.rows import (
     join_rows,
     read_approval,
 )
-from netdesign.site.office.sheets import FURTHER, OfficeTables, find_office_tables
+from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.office.types import (
+    fill_in_anchor,
     find_field,
     join_anchors,
     join_links,
@@ -43,11 +44,11 @@ from netdesign.site.office.types import (
     settle_ids,
     take,
 )
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import LayersByRow, order_layers
 from netdesign.site.tables import find_table
 from netdesign.site.type_lines import count_in_tests, name_by_ground, place_in_ground
-from netdesign.site.type_sheets import read_types
+from netdesign.site.type_resistances import check_ends, check_tests
 from netdesign.words.message import say
 
 # Columns of net rows and of their ends that name a type, by the sheet of the types.
@@ -215,28 +216,46 @@ def _collect(
     grounds = {
         row["id"].word: row["ground"] for row in rows if row["ground"].state == "given"
     }
-    rows, _ = place_in_ground(rows, anchors, grounds, findings)
-    ends, _ = place_in_ground(ends, anchors, grounds, findings)
+    rows = place_in_ground(rows, anchors, grounds, findings)
+    ends = place_in_ground(ends, anchors, grounds, findings)
+    posts = join_posts(lines["posts"], project, lines["net_types"], findings)
     of_types = {
-        "Anchors": name_by_ground(anchors),
-        "Ropes": join_ropes(lines["ropes"]),
-        "Posts": join_posts(lines["posts"], project, lines["net_types"]),
+        "Anchors": _check_anchors(name_by_ground(anchors), findings),
+        "Ropes": _check_ropes(join_ropes(lines["ropes"]), findings),
+        "Posts": posts,
     }
-    found = {
-        sheet: read_types(tables.tables[_BLOCKS[sheet]], of, findings)
-        for sheet, of in of_types.items()
-    }
+    found = {sheet: tables.tables[block] for sheet, block in _BLOCKS.items()}
+    accepted = say("nets.ids_once")
     joined = Lines(
         nets=rows,
-        ends=index_lines(ends, "row", say("ends.one_line"), findings),
+        ends={end["row"].word: end for end in ends},
         snow=snow,
-        types={sheet: of or {} for sheet, of in found.items()},
-        absent=[one for one, block in _BLOCKS.items() if not tables.tables[block]],
-        unreadable=[one for one, of in found.items() if of is None],
-        ranges=build_office_ranges(project),
+        types={
+            sheet: index_lines(of, "id", accepted, findings) if found[sheet] else {}
+            for sheet, of in of_types.items()
+        },
+        absent=[one for one, table in found.items() if not table],
+        unreadable=[x for x, of in found.items() if not of or "id" not in of.columns],
+        ranges=build_site_ranges(project),
         links=join_links(lines["links"]),
         tests=tests,
     )
     for of_row in snow.values():
         refuse_unknown_ids([of_row[0]["row"]], joined.places, findings)
     return joined
+
+
+def _check_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:
+    """Lines of the anchor types with their steel; what they lack is told."""
+    for line in lines:
+        refuse_misfits(line, findings)
+    filled = [fill_in_anchor(line, findings) for line in lines]
+    for line in filled:
+        check_tests(line, findings)
+    return filled
+
+
+def _check_ropes(lines: Sequence[Row], findings: list[Finding]) -> Sequence[Row]:
+    for line in lines:
+        check_ends(line, findings)
+    return lines

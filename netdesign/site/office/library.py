@@ -9,8 +9,7 @@ from pathlib import Path
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
-from netdesign.site.columns.all_tables import is_heading
-from netdesign.site.columns.office import load_plan
+from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import say
@@ -45,7 +44,7 @@ def read_library(
     def is_wanted(name: str) -> bool:
         return any(plan.matches(name) for plan in plans)
 
-    workbook = read_workbook(path, is_wanted, is_wanted, is_heading, text_format)
+    workbook = read_workbook(path, is_wanted, is_heading, text_format)
     found = find_office_tables(workbook, findings, ("net_types",))
     lines = {
         name: [_place(line, workbook.file) for line in found.lines[name]]

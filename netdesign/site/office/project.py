@@ -7,16 +7,11 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import USUAL_QUANTITIES
 from netdesign.site.columns.fields import Field, normalise_unit
 from netdesign.site.columns.office import load_plan
 from netdesign.site.headings import Table
 from netdesign.site.model import Project
-from netdesign.site.ranges import (
-    RangesSheet,
-    collect_ranges,
-    split_reading,
-)
+from netdesign.site.ranges import SiteRanges, build_ranges
 from netdesign.site.readings import Reading, Row, explain_unit, read_nothing, refuse
 from netdesign.site.tables import match_item, read_answered
 from netdesign.words.message import say
@@ -43,7 +38,7 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
         item = line["item"]
         if not item.word:
             continue
-        field = match_item(item, table, "item", findings).field
+        field = match_item(item, table.plan.items, findings)
         if field is None:
             continue
         if field.key in found:
@@ -85,16 +80,9 @@ def list_documents(lines: Row) -> Mapping[str, str]:
     return {key: lines[key].word for key in _DOCUMENTS if lines[key].word}
 
 
-def build_office_ranges(lines: Row) -> RangesSheet:
-    """Ranges of the usual three quantities; the assumed ones where a line is empty."""
-    found = {}
-    for field in USUAL_QUANTITIES:
-        reading = lines[field.key]
-        if reading.state == "faulty":
-            return RangesSheet()
-        if reading.state == "given":
-            found[field.key] = split_reading(field, reading)
+def build_site_ranges(lines: Row) -> SiteRanges:
+    """Ranges of the site, with the documents that they are from."""
+    ranges = build_ranges(lines)
     documents = (lines[key] for key in _DOCUMENTS if lines[key].state == "given")
-    ranges = collect_ranges(found)
     echoes = tuple(one.echo() for one in documents)
     return replace(ranges, inputs=(*ranges.inputs, *echoes))

@@ -8,38 +8,37 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
-from netdesign.site.cells.cells import Workbook
+from netdesign.site.cells.cells import Cell, TextFormat, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import (
-    DECLARED,
-    MONITORING,
-    NETS,
-    PROJECT,
-    RANGES,
-    SHEETS,
-    UNCERTAINTY,
-    WINTER,
+from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.all_tables import FURTHER, load_old_plans
+from netdesign.site.columns.fields import (
+    Field,
+    SheetPlan,
+    find_item,
+    normalise_unit,
+    split_heading,
 )
-from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.columns.office import load_text
+from netdesign.site.columns.office import is_heading, load_text
 from netdesign.site.declared_sheet import split_replacement
-from netdesign.site.headings import Table
 from netdesign.site.office.rewrite_rows import rewrite_rows
 from netdesign.site.office.rewrite_types import rewrite_types
+from netdesign.site.office.sheets import is_old
 from netdesign.site.office.told import Told, copy_cells, show
-from netdesign.site.project_sheet import read_project
-from netdesign.site.ranges import read_line
-from netdesign.site.readings import Reading, Row
-from netdesign.site.tables import find_table, find_tables, read_field, read_rows
+from netdesign.site.readings import Reading, Row, read_cell
+from netdesign.site.tables import find_table, read_rows
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
-_FURTHER = {
-    MONITORING.name: "monitoring",
-    WINTER.name: "winter",
-    UNCERTAINTY.name: "reliability",
-}
+_FURTHER = dict(
+    zip(
+        (one.name for one in FURTHER),
+        ("monitoring", "winter", "reliability"),
+        strict=True,
+    )
+)
 _PARTS = ("ropes", "posts", "links", "soils")
 _SHEETS = {"layers": "snow", "tests": "tests", "declared": "declared"}
 _OF_PROJECT = ("density", "friction_angle", "inclination")
@@ -48,6 +47,7 @@ _DOCUMENTS = {
     "glide_factor": "glide_document",
 }
 _LEFT = ("Nets", "Ends", "Anchors", "Ropes", "Posts", "Tests", "Links", "Snow")
+_UNHEARD = ("heading.unknown", "heading.close_to_missing", "table.no_heading_unread")
 _Ranged = dict[str, tuple[str, Reading]]  # text of the new cell, justification
 
 
@@ -73,32 +73,39 @@ class Rewritten:
     done: Sequence[Message]
 
 
+def read_old(path: Path, text_format: TextFormat) -> Workbook | None:
+    """Workbook of version 0.1; None of any other."""
+    plans = load_old_plans().values()
+
+    def is_wanted(name: str) -> bool:
+        return any(plan.matches(name) for plan in plans)
+
+    workbook = read_workbook(path, is_wanted, is_heading, text_format)
+    return workbook if is_old(workbook) else None
+
+
 def rewrite(workbook: Workbook, language: Language) -> Rewritten:
     """Rewrite a workbook; cells that cannot be understood are copied as they are.
 
     Parameters
     ----------
     workbook : Workbook
-        As read.
+        As `read_old` gives it.
     language : str
         Of the workbook that is written, also of the words in its ranges.
     """
     told, unheard = Told(), list[Finding]()
-    tables = {
-        plan.name: find_table(workbook, _free_all(plan), unheard)
-        for plan in SHEETS
-        if plan not in (NETS, PROJECT)
+    lines = {
+        name: read_rows(find_table(workbook, _free_all(plan), unheard), unheard)
+        for name, plan in load_old_plans().items()
     }
-    lines = {name: read_rows(table, unheard) for name, table in tables.items()}
-    nets = find_tables(workbook, _free_all(NETS), unheard)
-    lines["Nets"] = [line for table in nets for line in read_rows(table, unheard)]
-    ranged = _read_ranges(tables[RANGES.name], language, told)
+    ranged = _read_ranges(lines["Ranges"], language, told)
     texts = {key: text for key, (text, _) in ranged.items()}
     made, measures = rewrite_rows(lines, texts, told)
     made |= rewrite_types(lines, told)
     common = made.pop("project")[0]
-    made["project"] = [_rewrite_project(workbook, ranged, common, told)]
-    made["declared"] = list(_rewrite_declared(lines[DECLARED.name], told))
+    made["project"] = [_rewrite_project(lines["Project"], ranged, common, told)]
+    made["declared"] = list(_rewrite_declared(lines["Declared"], told))
     for name in _FURTHER:
         made[name] = [copy_cells(line, list(line), told) for line in lines[name]]
     measures["layers", "thickness"] = _measure_layers(lines["Snow"])
@@ -107,15 +114,16 @@ def rewrite(workbook: Workbook, language: Language) -> Rewritten:
         told.leave_rest(name, lines[name])
     sheets = [name for table, name in _SHEETS.items() if made.get(table)]
     sheets += ["parts"] if any(made.get(one) for one in _PARTS) else []
-    sheets += [name for plan, name in _FURTHER.items() if lines[plan]]
-    done = tuple(told.list_done())
+    sheets += [sheet for name, sheet in _FURTHER.items() if lines[name]]
+    left = (one.message for one in unheard if one.rule.key in _UNHEARD)
+    done = (*told.list_done(), *left)
     return Rewritten(tables=made, measures=measures, sheets=sheets, done=done)
 
 
 def _free_all(plan: SheetPlan) -> SheetPlan:
     """Plan that needs no column: what is not there is left empty."""
-    freed = plan.free({one.key for one in plan.fields})
-    return replace(freed, required=False, one_of=())
+    fields = tuple(replace(one, required=False) for one in plan.fields)
+    return replace(plan, fields=fields, required=False, one_of=())
 
 
 def _measure_layers(lines: Sequence[Row]) -> str:
@@ -143,31 +151,45 @@ def _add_up_layers(
         row["snow"] = round(total, 3)
 
 
-def _read_ranges(table: Table | None, language: Language, told: Told) -> _Ranged:
+def _read_ranges(lines: Sequence[Row], language: Language, told: Told) -> _Ranged:
     """Ranges as texts of cells in the first unit of their column."""
+    items = load_old_plans()["Ranges"].items
+    to, mark = f" {load_text('to', language)} ", load_text("comma", language)
     ranged: _Ranged = {}
-    for row in table.rows if table else ():
-        assert table is not None
-        found: dict[str, object] = {}
-        names: dict[str, Reading] = {}
-        read_line(table, row, found, names, [])  # type: ignore[arg-type]
-        typed = {
-            key: read_field(table, key, row, []) for key in ("low", "high", "span")
-        }
-        why = read_field(table, "justification", row, [])
-        for key, one in found.items():
-            if one is None:
-                for cell in typed.values():
-                    if cell.cell is not None and not cell.cell.is_blank:
-                        told.leave(cell, say("rewrite.of_range"))
-                continue
-            ends = (one.low.number, one.high.number)  # type: ignore[attr-defined]
-            to = f" {load_text('to', language)} "
-            mark = load_text("comma", language)
-            text = to.join(f"{_scale(key, end):g}".replace(".", mark) for end in ends)
-            ranged[key] = (text, why)
-            told.do(say("rewrite.range"), names[key])
+    for line in lines:
+        name = line["quantity"]
+        field = find_item(name.word, items)
+        ends = _read_ends(line, field) if field else []
+        if field is None or not ends:
+            for one in line.values():
+                if one.cell is not None and not one.cell.is_blank:
+                    told.leave(one, say("rewrite.of_range"))
+            continue
+        texts = (f"{_scale(field.key, end):g}".replace(".", mark) for end in ends)
+        ranged[field.key] = (to.join(texts), line["justification"])
+        told.do(say("rewrite.range"), name)
     return ranged
+
+
+def _read_ends(line: Row, field: Field) -> list[float]:
+    """Low and high end of a line, in the first unit of its quantity."""
+    typed = normalise_unit(line["unit"].word.strip(" []()"))
+    unit = typed or split_heading(line["quantity"].word)[1] or field.unit
+    span = line["span"].cell
+    if span is not None and not span.is_blank:
+        both = read_cell(span, replace(field, may_range=True), unit, [])
+        return list(both.span or ())
+    cells = (line["low"].cell, line["high"].cell)
+    ends = [_read_end(cell, field, unit) for cell in cells if cell]
+    known = [one for one in ends if one is not None]
+    return known if len(known) == len(cells) else []
+
+
+def _read_end(cell: Cell, field: Field, unit: str) -> float | None:
+    if unit not in field.units:
+        return None
+    reading = read_cell(cell, field, unit, [])
+    return reading.number if reading.state == "given" else None
 
 
 def _scale(key: str, end: float) -> float:
@@ -176,18 +198,21 @@ def _scale(key: str, end: float) -> float:
 
 
 def _rewrite_project(
-    workbook: Workbook, ranged: _Ranged, common: Mapping[str, object], told: Told
+    lines: Sequence[Row], ranged: _Ranged, common: Mapping[str, object], told: Told
 ) -> dict[str, object]:
     """Lines of sheet Project: what identifies the study, and holds for the site."""
-    project, cells = read_project(workbook, [])
-    number = ", ".join(filter(None, (project.number, project.revision)))
-    if place := cells.get("accepted_law"):
-        told.done[say("rewrite.creep_law")] = [place]
-    found: dict[str, object] = {
-        **{"name": project.name, "number": number, "author": project.author},
-        **{"checker": project.checker, "standard": project.standard},
-        **common,
+    items = load_old_plans()["Project"].items
+    named = {
+        field.key: line["value"]
+        for line in lines
+        if line["value"].word and (field := find_item(line["item"].word, items))
     }
+    if law := named.pop("accepted_law", None):
+        told.done[say("rewrite.creep_law")] = [law.place]
+    texts = {key: one.word for key, one in named.items()}
+    numbers = (texts.get("number", ""), texts.pop("revision", ""))
+    texts["number"] = ", ".join(filter(None, numbers))
+    found: dict[str, object] = {**texts, **common}
     for key, (text, why) in ranged.items():
         if key in _OF_PROJECT:
             found[key] = text

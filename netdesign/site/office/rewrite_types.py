@@ -8,11 +8,7 @@ from netdesign.site.columns.fields import from_si
 from netdesign.site.office.rewrite_rows import Line, Lines
 from netdesign.site.office.told import Told, copy_cells, show
 from netdesign.site.readings import Reading, Row
-from netdesign.site.type_lines import fill_in_section
-from netdesign.site.type_resistances import (
-    fill_in_resistances,
-    find_breaking,
-)
+from netdesign.site.type_resistances import compute_tendon
 from netdesign.structure.row_position import find_dip
 from netdesign.words.message import Message, say
 
@@ -21,6 +17,7 @@ _OF_ANCHOR = (
     *("drilled_length", "bond_length", "tube_diameter", "tube_wall", "head_across"),
     *("lever_arm", "protection"),
 )
+_OF_ROPE = ("id", "rope", "termination", "axial_stiffness")
 _OF_POST = (
     *("id", "yield_strength", "area", "second_moment", "section_modulus"),
     *("post_width", "buckling_curve", "buckling_length", "head_eccentricity"),
@@ -42,16 +39,12 @@ _BASES = {"tested": "tests", "report": "report", "computed": "calculated"}
 
 def rewrite_types(lines: Lines, told: Told) -> dict[str, list[Line]]:
     """Tables of types, and those of sheet Project that hold for all of them."""
-    computed = {
-        name: [fill_in_resistances(fill_in_section(one), []) for one in lines[name]]
-        for name in ("Anchors", "Ropes", "Posts")
-    }
     made: dict[str, list[Line]] = {
-        "anchor_types": [_rewrite_anchor(one, told) for one in computed["Anchors"]],
-        "ropes": [_rewrite_rope(one, told) for one in computed["Ropes"]],
-        "posts": [_rewrite_post(one, told) for one in computed["Posts"]],
+        "anchor_types": [_rewrite_anchor(one, told) for one in lines["Anchors"]],
+        "ropes": [copy_cells(one, _OF_ROPE, told) for one in lines["Ropes"]],
+        "posts": [_rewrite_post(one, told) for one in lines["Posts"]],
         "links": [_rewrite_link(one, told) for one in lines["Links"]],
-        "soils": _list_soils(computed["Anchors"], told),
+        "soils": _list_soils(lines["Anchors"], told),
         "tests": [_copy_whole(one, told) for one in lines["Tests"]],
         "layers": [_rewrite_layer(one, told) for one in lines["Snow"]],
     }
@@ -66,24 +59,13 @@ def _copy_whole(line: Row, told: Told) -> Line:
     return copy_cells(line, keys, told)
 
 
-def _take_computed(line: Row, key: str, made: Line, told: Told) -> None:
-    """Resistance that follows from dimensions, as a number."""
-    reading = line[key]
-    if reading.state == "given" and reading.derivation is not None:
-        made[key] = float(f"{reading.number:.5g}")
-        parts = (*reading.field.computed_from, *reading.field.computed_with)
-        typed = [line[one] for one in parts if line[one].derivation is None]
-        told.do(say("rewrite.computed", name=reading.field.name), *typed)
-
-
 def _rewrite_anchor(line: Row, told: Told) -> Line:
-    made = {
-        key: value
-        for key, value in copy_cells(line, _OF_ANCHOR, told).items()
-        if line[key].derivation is None or key == "tendon"
-    }
-    _take_computed(line, "tendon", made, told)
-    made |= _rewrite_proof(line, told)
+    made = copy_cells(line, _OF_ANCHOR, told) | _rewrite_proof(line, told)
+    steel = (line["bar_diameter"], line["bar_strength"], line["inner_diameter"])
+    tendon = compute_tendon(line, [])["tendon"]
+    if tendon.derivation is not None:
+        made["tendon"] = float(f"{tendon.number:.5g}")
+        told.do(say("rewrite.computed", name=tendon.field.name), *steel)
     if line["sleeve"].word == "no":
         told.take(line["sleeve"])
     return made
@@ -101,34 +83,17 @@ def _rewrite_proof(line: Row, told: Told) -> Line:
     if force.state == "blank":
         return {}
     made: Line = {"pull_out": show(force)}
-    if force.derivation is not None:
-        _take_computed(line, "pull_out", made, told)
-        return {**made, "proven": "calculated"}
     told.take(force, basis)
     return {**made, "proven": _BASES[basis.word]} if basis.word else made
 
 
-def _rewrite_rope(line: Row, told: Told) -> Line:
-    made = copy_cells(line, ("id", "rope", "termination", "axial_stiffness"), told)
-    force = find_breaking(line) if line["rope"].state == "given" else None
-    if line["rope"].derivation is not None and force is not None:
-        made["rope"] = float(f"{from_si(force, 'kN'):.5g}")
-        parts = ("rope_diameter", "construction", "grade")
-        how = say("rewrite.computed", name=line["rope"].field.name)
-        told.do(how, *(line[key] for key in parts))
-    return made
-
-
 def _rewrite_post(line: Row, told: Told) -> Line:
     made = copy_cells(line, _OF_POST, told)
-    _take_computed(line, "bearing", made, told)
     if line["section"].state == "given":
         made["id"] = line["id"].word or line["section"].word
     feet = (line["foot_eccentricity"], line["head_eccentricity"])
     if feet[0].state == "given" and feet[0].value == feet[1].value:
         told.take(feet[0])
-    if line["compression"].derivation is not None:
-        told.take(line["compression"])
     return made
 
 

@@ -8,12 +8,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import (
-    MONITORING,
-    SHEETS,
-    UNCERTAINTY,
-    WINTER,
-)
+from netdesign.site.columns.all_tables import FURTHER, NETS, load_old_plans
 from netdesign.site.columns.fields import SheetPlan, normalise, split_heading
 from netdesign.site.columns.office import (
     PARTS,
@@ -25,14 +20,13 @@ from netdesign.site.columns.office import (
 from netdesign.site.headings import Table
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
-from netdesign.site.titles import is_meant
 
 _FIRST_ROWS = 25  # in which headings and their units stand
 _LEAST_KNOWN = 2  # headings, to be a row of them
 _IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
 SHEETS_ALONE = tuple(one for one in TABLES if one not in PARTS)
-FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons, as they are
-_OF_TEMPLATE = ("table.above_headings", "table.gap", "table.empty_row", "heading.group")
+_OF_TEMPLATE = ("table.above_headings", "table.gap", "table.empty_row")
+_LEAST_OLD = 4  # headings of a sheet Nets
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,27 +47,25 @@ class OfficeTables:
         return self.tables["rows"]
 
 
-def is_office(workbook: Workbook) -> bool:
-    """A workbook has a sheet of rows that names net types."""
-    plan = load_plan("rows")
-    return any(
-        plan.matches(sheet.name) and _names_net_types(sheet, plan)
-        for sheet in workbook.sheets
-    )
+def is_read(name: str) -> bool:
+    """A name is that of a sheet of the input workbook."""
+    return any(plan.matches(name) for plan in (*map(load_plan, TABLES), *FURTHER))
 
 
-def may_be_office(name: str) -> bool:
-    """A name is that of one of its sheets."""
-    return any(load_plan(one).matches(name) for one in TABLES)
-
-
-def _names_net_types(sheet: Sheet, plan: SheetPlan) -> bool:
-    known = next(one.names for one in plan.fields if one.key == "net_type")
-    rows = (_list_headings(sheet, number) for number in range(1, _FIRST_ROWS + 1))
-    return any(
-        not known.isdisjoint(row) and _count_known(row, plan) >= _LEAST_KNOWN
-        for row in rows
-    )
+def is_old(workbook: Workbook) -> bool:
+    """A workbook is of version 0.1: its sheet Nets has headings of the template."""
+    rows, nets = load_plan("rows"), load_old_plans()[NETS.name]
+    own = next(one.names for one in rows.fields if one.key == "net_type")
+    is_found = False
+    for sheet in workbook.sheets:
+        start = _find_start(sheet, nets)
+        headings = _list_headings(sheet, start)
+        if rows.matches(sheet.name) and not own.isdisjoint(headings):
+            return False
+        known = _count_known(headings, nets)
+        is_template = _LEAST_OLD <= known >= len(headings) / 2
+        is_found = is_found or (nets.matches(sheet.name) and is_template)
+    return is_found
 
 
 def _list_headings(sheet: Sheet, number: int) -> list[str]:
@@ -84,18 +76,6 @@ def _list_headings(sheet: Sheet, number: int) -> list[str]:
 def _count_known(headings: Sequence[str], plan: SheetPlan) -> int:
     names = frozenset[str]().union(*(one.names for one in plan.fields))
     return sum(one in names for one in headings)
-
-
-def keep_sheets(workbook: Workbook, *, of_office: bool) -> Workbook:
-    """Workbook without the sheets that its kind does not have: they are not read."""
-    plans = (*map(load_plan, TABLES), *FURTHER) if of_office else SHEETS
-    kept = tuple(
-        sheet
-        for sheet in workbook.sheets
-        if any(is_meant(sheet.name, plan, workbook.answers) for plan in plans)
-    )
-    left = tuple(one.name for one in workbook.sheets if one not in kept)
-    return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
 
 
 def find_office_tables(

@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.resistance.catalogue import Product
 from netdesign.resistance.products import find_product
+from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS, ROPES, TESTS
 from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si
 from netdesign.site.readings import Reading, Row, read_nothing
-from netdesign.site.type_lines import fill_in_section
-from netdesign.site.type_resistances import SECTION
+from netdesign.site.type_lines import fill_in_section, name_values
+from netdesign.site.type_resistances import compute_compression, compute_tendon
 from netdesign.words.message import Message, say
 
 _BASES = {"report": "report", "calculated": "computed", "": "computed"}
@@ -97,16 +97,13 @@ def _join_anchor(
     name = line["id"].word
     has_tests = not tested.isdisjoint({(name, line["ground"].word), (name, "")})
     proven = {} if has_tests else _prove(line)
-    row = take(
+    return take(
         ANCHORS,
         line,
         {key: one for key, one in (soil or {}).items() if key != "ground"},
         soil=rename(project["soil"], find_field(ANCHORS, "soil")),
         **proven,
     )
-    bare = replace(row["pull_out"].field, computed_from=(), computed_with=())
-    row["pull_out"] = replace(row["pull_out"], field=bare)
-    return {**row, **_find_steel(row)}
 
 
 def _prove(line: Row) -> dict[str, Reading]:
@@ -144,49 +141,30 @@ def _prove(line: Row) -> dict[str, Reading]:
     return {"basis": given, **nothing}
 
 
-def _find_steel(row: Row) -> dict[str, Reading]:
-    """Steel of a bar: its strength by force and area, or all of it by its name."""
+def fill_in_anchor(row: Row, findings: list[Finding]) -> Row:
+    """Line of sheet Anchors with the steel of a bar, and the tendon that it makes.
+
+    The steel is that of its name, or has the strength that force and diameter say.
+    """
     force, diameter = row["tendon"], row["bar_diameter"]
-    if row["kind"].word == "rope anchor":
-        return {}
-    bare = replace(force, field=replace(force.field, computed_from=()))
-    if "faulty" in (force.state, diameter.state):
-        return {"tendon": bare}
+    if row["kind"].word == "rope anchor" or "faulty" in (force.state, diameter.state):
+        return row
     product = find_product(row["id"].word)
+    is_open = all(row[key].state == "blank" for key in _STEEL)
     is_bar = product is not None and product.family.endswith("bar")
-    if product is not None and is_bar and force.state != "given":
-        return _name_steel(row, product)
-    if diameter.state != "given":
-        return {}
-    if force.state == "given":
+    if product is not None and is_bar and (is_open or force.state != "given"):
+        keys = [key for key in _STEEL if row[key].state != "given"]
+        how = say("derivation.named_bar", product=product.id, sources=product.sources)
+        steel = name_values(row, keys, product, ("inner_diameter",), how)
+        return compute_tendon({**row, **steel}, findings)
+    if diameter.state == force.state == "given":
         area = 0.25 * math.pi * diameter.si**2
         strength = from_si(force.si / area, "MPa")
         field = find_field(ANCHORS, "bar_strength")
         how = say("office.strength_of_force", place=force.place)
         if field.bounds[0] <= strength <= field.bounds[1]:
-            steel = work_out(force, field, strength, how)
-            return {"tendon": bare, "bar_strength": steel}
-    return {"tendon": bare}  # of a diameter alone nothing follows
-
-
-def _name_steel(row: Row, product: Product) -> dict[str, Reading]:
-    """Steel that the name of a type means, but for the diameter that is typed."""
-    found: dict[str, Reading] = {}
-    how = say("derivation.named_bar", product=product.id, sources=product.sources)
-    for key in _STEEL:
-        field = row[key].field
-        spans = [
-            product.values[one] for one in field.of_product if one in product.values
-        ]
-        if row[key].state == "given" or not spans:
-            continue
-        pick = max if key == "inner_diameter" else min
-        value = pick(end for span in spans for end in span)
-        found[key] = replace(
-            work_out(row["id"], field, from_si(value, field.unit), how),
-            field=field,
-        )
-    return found
+            return {**row, "bar_strength": work_out(force, field, strength, how)}
+    return row
 
 
 def join_tests(lines: Sequence[Row]) -> list[Row]:
@@ -199,7 +177,12 @@ def join_ropes(lines: Sequence[Row]) -> list[Row]:
     return [take(ROPES, line) for line in lines]
 
 
-def join_posts(lines: Sequence[Row], project: Row, nets: Sequence[Row]) -> list[Row]:
+def join_posts(
+    lines: Sequence[Row],
+    project: Row,
+    nets: Sequence[Row],
+    findings: list[Finding],
+) -> list[Row]:
     """Lines of sheet Posts: as long as the net types that name them ask for."""
     friction = rename(project["base_friction"], find_field(POSTS, "base_friction"))
     joined: list[Row] = []
@@ -215,11 +198,7 @@ def join_posts(lines: Sequence[Row], project: Row, nets: Sequence[Row]) -> list[
         if row["buckling_length"].state == "blank" and length is not None:
             how = say("office.length_of_post", above=_ABOVE_NET)
             row["buckling_length"] = _assume(row, "buckling_length", length, how)
-        row = dict(fill_in_section(row))
-        if any(row[key].state != "given" for key in SECTION):
-            bare = replace(row["compression"].field, computed_from=())
-            row["compression"] = replace(row["compression"], field=bare)
-        joined.append(row)
+        joined.append(compute_compression(fill_in_section(row), findings))
     return joined
 
 

@@ -1,32 +1,21 @@
-"""Writes the input workbook: headings, units, notes, drop-downs, an example."""
+"""Sheets of add-ons in the input workbook: headings, units, notes, drop-downs."""
 
 from __future__ import annotations
 
 import datetime
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from importlib.resources import files
+from dataclasses import dataclass
 from io import BytesIO
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-from netdesign.checks import list_standards
 from netdesign.site.assumed import load_assumed
 from netdesign.site.columns.all_tables import (
-    NETS,
-    PROJECT,
-    PROJECT_ITEMS,
-    RANGE_QUANTITIES,
-    RANGES,
-    SHEETS,
-    USUAL_QUANTITIES,
     load_text,
 )
-from netdesign.site.columns.fields import Field, SheetPlan, normalise
-from netdesign.site.declared_sheet import list_check_names
+from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
-from netdesign.words.names import name_check
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.format import Format
@@ -75,36 +64,6 @@ class Book:
         return load_text(self.language)
 
 
-def render_workbook(
-    lines: Mapping[str, _Lines],
-    language: Language = "en",
-    notes: Mapping[str, Sequence[Mapping[str, str]]] | None = None,
-) -> bytes:
-    """Input workbook with some lines by sheet; a sheet without any is empty.
-
-    Parameters
-    ----------
-    lines : mapping
-        By sheet, then line, then field key.
-    language : str
-        Of sheets, headings, words and notes.
-    notes : mapping, optional
-        On cells of the lines, in the same order.
-    """
-    content = BytesIO()
-    book = start_book(content, language)
-    write_notes(book.workbook, language)
-    for plan in SHEETS:
-        sheet = write_sheet(book, plan, lines.get(plan.name, ()))
-        keys = [field.key for field in plan.fields if field.is_offered]
-        for row, of_line in enumerate((notes or {}).get(plan.name, ()), start=1):
-            for key, note in of_line.items():
-                size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
-                sheet.write_comment(row, keys.index(key), note, size)
-    book.workbook.close()
-    return content.getvalue()
-
-
 def start_book(content: BytesIO, language: Language) -> Book:
     """Workbook that goes into ``content`` once it is closed."""
     import xlsxwriter
@@ -115,16 +74,6 @@ def start_book(content: BytesIO, language: Language) -> Book:
     title = load_text(language)["title"]
     workbook.set_properties({"title": title, "created": _CREATED})
     return Book(workbook, language, _add_formats(workbook))
-
-
-def list_starting_lines() -> dict[str, _Lines]:
-    """Lines of which only the numbers are left to the engineer."""
-    return {
-        PROJECT.name: [{"item": field.label} for field in PROJECT_ITEMS],
-        RANGES.name: [
-            {"quantity": field.label, "unit": field.unit} for field in USUAL_QUANTITIES
-        ],
-    }
 
 
 def _add_formats(workbook: Workbook) -> dict[str, Format]:
@@ -144,11 +93,10 @@ def _add_formats(workbook: Workbook) -> dict[str, Format]:
     }
 
 
-def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
+def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> None:
     """Sheet of a plan: headings with notes, what cells accept, its lines."""
     sheet = book.workbook.add_worksheet(plan.name_in(book.language))
-    plan = replace(plan, fields=tuple(one for one in plan.fields if one.is_offered))
-    last_row = len(lines) if plan.items else max(_PRINTED_ROWS, len(lines))
+    last_row = max(_PRINTED_ROWS, len(lines))
     _set_up_page(sheet, book, plan, last_row)
     headings = [field.heading_for(book.language) for field in plan.fields]
     widths = [
@@ -168,11 +116,6 @@ def write_sheet(book: Book, plan: SheetPlan, lines: _Lines) -> Worksheet:
             sheet.write_blank(row, column, None, _choose_format(field, book))
     for row, line in enumerate(lines, start=1):
         _write_line(sheet, book, plan, row, line)
-    if plan.name == PROJECT.name:
-        _offer_profiles(sheet, lines)
-    if plan.name == RANGES.name:
-        _offer_quantities(sheet, book)
-    return sheet
 
 
 def _size_note(note: str) -> dict[str, Any]:
@@ -220,38 +163,21 @@ def _write_line(
         column = columns[key]
         style = _choose_format(plan.fields[column], book)
         if isinstance(value, str):
-            word = _translate(plan.fields[column], value, book.language)
+            field = plan.fields[column]
+            known = value in field.words
+            word = render(field.name_word(value), book.language) if known else value
             sheet.write_string(row, column, word, style)
         else:
             sheet.write_number(row, column, value, style)
 
 
-def _translate(field: Field, value: str, language: Language) -> str:
-    """Word, project item, quantity or check in a language; ids and names stay."""
-    if value in field.words:
-        return render(field.name_word(value), language)
-    if (field.table, field.key) == ("Declared", "check"):
-        return render(name_check(*list_check_names()[normalise(value)]), language)
-    for known in {"item": PROJECT_ITEMS, "quantity": RANGE_QUANTITIES}.get(
-        field.key, ()
-    ):
-        if known.label == value:
-            return known.label_in(language)
-    return value
-
-
 def _validation(field: Field, book: Book) -> dict[str, Any] | None:
     """Rule that the spreadsheet program applies while the engineer types."""
     if field.words:
-        words = [_translate(field, word, book.language) for word in field.words]
+        words = [render(field.name_word(word), book.language) for word in field.words]
         return {"validate": "list", "source": words}
-    if field.refers_to:
-        # A warning only: the type may be defined afterwards.
-        plan = next(plan for plan in SHEETS if plan.name == field.refers_to)
-        ids = f"='{plan.name_in(book.language)}'!$A$2:$A${_LAST_ROW + 1}"
-        return {"validate": "list", "source": ids, "error_type": "warning"}
     low, high = field.bounds
-    if low == high:  # ends of ranges: their bounds depend on the line
+    if low == high:
         return None
     accepted = describe_accepted(field, book.language)
     return {
@@ -266,77 +192,6 @@ def _validation(field: Field, book: Book) -> dict[str, Any] | None:
             field.label_in(book.language), accepted, book.language
         ),
     }
-
-
-def _offer_profiles(sheet: Worksheet, lines: _Lines) -> None:
-    """Offer the limit profiles beside the item that names one; others are folders."""
-    ids = list(list_standards())
-    profiles = {"validate": "list", "source": ids, "error_type": "warning"}
-    for row, line in enumerate(lines, start=1):
-        if line["item"] == "standard":
-            sheet.data_validation(row, 1, row, 1, profiles)
-
-
-def _offer_quantities(sheet: Worksheet, book: Book) -> None:
-    names = [field.label_in(book.language) for field in RANGE_QUANTITIES]
-    units = list(dict.fromkeys(u for field in RANGE_QUANTITIES for u in field.units))
-    sheet.data_validation(1, 0, _LAST_ROW, 0, {"validate": "list", "source": names})
-    sheet.data_validation(1, 1, _LAST_ROW, 1, {"validate": "list", "source": units})
-
-
-_LINE = 15.5  # height of a line of text [pt]
-_WIDTHS = (9, 28, 16, 19, 46)  # symbol, quantity, unit, range, meaning
-_PICTURE_ROW, _PICTURE_ROWS = 5, 25
-_PICTURE_SCALE = 0.95  # of its own size, so that it fits the width of the table
-
-
-def write_notes(workbook: Workbook, language: Language) -> None:
-    """Add the sheet of notes: what to do, the section, every number of a net row."""
-    texts = load_text(language)
-    sheet = workbook.add_worksheet(texts["notes"])
-    sheet.hide_gridlines(2)
-    for column, width in enumerate(_WIDTHS):
-        sheet.set_column(column, column, width)
-    title = workbook.add_format({"bold": True, "font_size": 16})
-    wrapped = workbook.add_format({"text_wrap": True, "valign": "top"})
-    strong = workbook.add_format({"bold": True})
-    sheet.write_string(0, 0, texts["title"], title)
-    sheet.set_row(0, 26)
-    for row, key in ((1, "intro"), (2, "numbers")):
-        sheet.merge_range(row, 0, row, len(_WIDTHS) - 1, texts[key], wrapped)
-        sheet.set_row(row, _LINE * count_lines(texts[key], sum(_WIDTHS)))
-    sheet.write_string(4, 0, texts["sketch"], strong)
-    # Said row by row: a program's own default height would squeeze the picture.
-    for row in range(_PICTURE_ROW, _PICTURE_ROW + _PICTURE_ROWS):
-        sheet.set_row(row, _LINE)
-    sheet.insert_image(
-        _PICTURE_ROW,
-        0,
-        "geometry.png",
-        {
-            "image_data": BytesIO(_read_picture(language)),
-            "x_scale": _PICTURE_SCALE,
-            "y_scale": _PICTURE_SCALE,
-            "x_offset": 20,
-            "description": texts["sketch"],
-            "object_position": 3,  # its proportions are to scale
-        },
-    )
-    _write_quantities(sheet, workbook, language)
-    sheet.set_paper(_A4)
-    sheet.set_portrait()
-    sheet.fit_to_pages(1, 1)
-    sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.6)
-    sheet.set_footer(f"&R{texts['page']} &P {texts['of']} &N")
-
-
-def name_picture(language: Language) -> str:
-    """File of the section with the words of a language, beside this module."""
-    return f"geometry.{language}.png"
-
-
-def _read_picture(language: Language) -> bytes:
-    return files(__package__).joinpath(name_picture(language)).read_bytes()
 
 
 def describe_accepted(field: Field, language: Language) -> str:
@@ -364,31 +219,6 @@ def describe_field(field: Field, language: Language) -> str:
 def _put_behind(label: str, text: str, language: Language) -> str:
     """Label and text with the colon of the language between them."""
     return render(say("show.label", label=label, text=text), language)
-
-
-def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) -> None:
-    texts = load_text(language)
-    head = workbook.add_format({"bold": True, "bottom": 1, "bg_color": "#e6edf4"})
-    cell = workbook.add_format(
-        {"text_wrap": True, "valign": "top", "bottom": 1, "bottom_color": "#d3d7dc"}
-    )
-    symbol = workbook.add_format(
-        {"bold": True, "valign": "top", "bottom": 1, "bottom_color": "#d3d7dc"}
-    )
-    row = _PICTURE_ROW + _PICTURE_ROWS + 1
-    headings = ("symbol", "quantity", "units", "accepted", "meaning")
-    for column, key in enumerate(headings):
-        sheet.write_string(row, column, texts[key], head)
-    fields = [field for field in NETS.fields if not field.refers_to]
-    fields += sorted(USUAL_QUANTITIES, key=lambda field: bool(field.symbol))
-    for number, field in enumerate(fields, start=row + 1):
-        sheet.write_string(number, 0, field.symbol, symbol)
-        accepted = describe_accepted(field, language)
-        note = field.notes[language]
-        told = (field.label_in(language), ", ".join(field.units), accepted, note)
-        for column, text in enumerate(told, start=1):
-            sheet.write_string(number, column, text, cell)
-        sheet.set_row(number, _LINE * max(map(count_lines, told, _WIDTHS[1:])))
 
 
 def count_lines(text: str, width: float) -> int:
