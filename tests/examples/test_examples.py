@@ -19,7 +19,6 @@ from netdesign.examples import envelope, panel
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "netdesign" / "examples"
 PAGE = (FOLDER / "README.md").read_text(encoding="utf-8")
-NAMES = sorted(path.stem for path in FOLDER.glob("[!_]*.py"))
 GRAVITY = 9.81
 
 
