@@ -9,9 +9,9 @@ seconds.
 import re
 
 import pytest
-from tests.words.english import list_vocabulary, list_words
 
 from tests.commands.every_command import COMMANDS, read_texts, run_all
+from tests.words.english import list_vocabulary, list_words
 
 pytestmark = pytest.mark.long
 NAMES = re.compile(
