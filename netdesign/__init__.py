@@ -5,19 +5,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from typing import Any
-
     from netdesign.public import *
 
     __version__: str
-    # of add-ons, whose types the core does not know
-    DaySolver: Any
-    Season: Any
-    TransientSettings: Any
-    WinterRow: Any
-    follow_heights: Any
-    follow_season: Any
-    solve_transient: Any
 
 # The linear problems are small: threads of the BLAS make them 3 to 10 times slower
 # (measured). Works if NumPy is not loaded yet; a value that is set already is kept.
@@ -27,7 +17,6 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 # Names for use from Python. ``public.py`` says where each one lives.
 __all__ = [
     "AnchorForces",
-    "DaySolver",
     "FailedPanel",
     "FailedSolution",
     "FailedSupport",
@@ -41,12 +30,8 @@ __all__ = [
     "Ranges",
     "Rope",
     "RowEnvelope",
-    "RowTask",
-    "Runner",
     "Scene",
     "Scope",
-    "SearchSettings",
-    "Season",
     "Site",
     "Snowpack",
     "Solution",
@@ -55,27 +40,20 @@ __all__ = [
     "Standard",
     "Study",
     "SupportLayout",
-    "TransientSettings",
     "Wall",
     "WallSolution",
-    "WinterRow",
     "build_ground_from_glide_factor",
     "build_layered_snowpack",
     "check",
     "find_anchor_forces",
     "find_envelope",
     "find_guideline_load",
-    "follow_heights",
-    "follow_season",
-    "list_standards",
     "load_standard",
     "read_scene",
     "read_site",
     "read_study",
-    "search_rows",
     "solve_panel",
     "solve_steady",
-    "solve_transient",
     "write_reports",
     "write_site_workbook",
 ]
@@ -96,10 +74,8 @@ if not TYPE_CHECKING:
             return _read_version()
         if name not in __all__:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from netdesign import addon_table, public
+        from netdesign import public
 
-        if name in addon_table.NAMES:
-            return addon_table.load(name, addon_table.NAMES[name])
         return getattr(public, name)
 
 

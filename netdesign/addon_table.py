@@ -34,16 +34,6 @@ METHODS = {
 ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
 # Addition to the reports of a study whose rows have that field.
 SHOWN = {"reliability": "reliability.section:SHOWN"}
-# Names of ``from netdesign import ...``.
-NAMES = {
-    "DaySolver": "winter.day:DaySolver",
-    "Season": "winter.season:Season",
-    "TransientSettings": "history.settings:TransientSettings",
-    "WinterRow": "winter.day:WinterRow",
-    "follow_heights": "winter.settling.models:follow_heights",
-    "follow_season": "winter.season:follow_season",
-    "solve_transient": "history.transient:solve_transient",
-}
 
 
 def is_there(place: str) -> bool:

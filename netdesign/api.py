@@ -37,10 +37,10 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.cases import list_phases
-from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.document import load_study
 from netdesign.study.records import Study
+from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 

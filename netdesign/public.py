@@ -12,7 +12,6 @@ from netdesign.api import read_study as read_study
 from netdesign.api import write_reports as write_reports
 from netdesign.cable.net import Net as Net
 from netdesign.checks import Standard as Standard
-from netdesign.checks import list_standards as list_standards
 from netdesign.checks import load_standard as load_standard
 from netdesign.coupling.scene import Scene as Scene
 from netdesign.coupling.scene import SolverSettings as SolverSettings
@@ -24,8 +23,6 @@ from netdesign.coupling.steady.solve import solve_steady as solve_steady
 from netdesign.envelope.ranges import Interval as Interval
 from netdesign.envelope.ranges import Ranges as Ranges
 from netdesign.envelope.rows import RowEnvelope as RowEnvelope
-from netdesign.envelope.rows import RowTask as RowTask
-from netdesign.envelope.search import search_rows as search_rows
 from netdesign.files.scene import read_scene as read_scene
 from netdesign.outcome import NetDesignError as NetDesignError
 from netdesign.outcome import SolveError as SolveError
@@ -34,7 +31,6 @@ from netdesign.panel.inputs import Rope as Rope
 from netdesign.panel.solve import FailedPanel as FailedPanel
 from netdesign.panel.solve import PanelSolution as PanelSolution
 from netdesign.panel.solve import solve_panel as solve_panel
-from netdesign.search.maxima import SearchSettings as SearchSettings
 from netdesign.site.model import Site as Site
 from netdesign.site.reader import read_site as read_site
 from netdesign.site.template.example import write_site_workbook as write_site_workbook
@@ -45,7 +41,6 @@ from netdesign.snow.ground import (
 from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
-from netdesign.solving.runner import Runner as Runner
 from netdesign.structure.anchors import AnchorForces as AnchorForces
 from netdesign.structure.head import FailedSupport as FailedSupport
 from netdesign.structure.layout import SupportLayout as SupportLayout

@@ -34,11 +34,6 @@ def kilonewton_if_known(value: float | None) -> float | None:
     return None if value is None else kilonewton_from_newton(value)
 
 
-def degree_if_known(value: float | None) -> float | None:
-    """Angle in radians to degrees; none where there is none."""
-    return None if value is None else degree_from_radian(value)
-
-
 def meter_from_millimeter(value: float) -> float:
     """Length in mm to m."""
     return value / 1e3

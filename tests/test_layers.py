@@ -269,25 +269,6 @@ def test_module_keeps_to_its_row(module):
     assert faults(MODULES[module].read_text(encoding="utf-8"), module) == []
 
 
-def test_the_package_itself_imports_next_to_nothing():
-    source = (PACKAGE / "__init__.py").read_text(encoding="utf-8")
-    imports = find_imports(source, "netdesign")
-    assert [one.target for one in imports if one.is_immediate] == [
-        "os",
-        "functools.lru_cache",
-        "typing.TYPE_CHECKING",
-    ]
-    # What it imports later are its version and the public names: the one arrow of the
-    # package upwards.
-    assert [one.target for one in imports if not one.is_immediate] == [
-        "typing.Any",
-        "netdesign.public.*",
-        "importlib.metadata.version",
-        "netdesign.addon_table",
-        "netdesign.public",
-    ]
-
-
 @each("module", [m for m in MODULES if m.startswith("examples.")])
 def test_an_example_uses_public_names_only(module):
     imports = find_imports(MODULES[module].read_text(encoding="utf-8"), module)
@@ -301,12 +282,6 @@ def test_every_module_has_a_room():
     assert loose == ROOT_MODULES
     assert sum(len(row) for row in ROWS) == len(ROOMS)
     assert {name_room(module) for module in MODULES} == ROOMS
-
-
-def test_the_page_of_the_architecture_names_every_room():
-    page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    tops = {room.split(".")[0] for room in ROOMS - {ROOT, "cli", "__main__"}}
-    assert {top for top in tops if f"`{top}`" not in page} == set()
 
 
 def test_the_page_of_the_architecture_names_what_exists():
@@ -334,15 +309,3 @@ def test_no_allowance_is_idle():
         users = [module for module, top in used if top == package]
         for pattern in allowed:
             assert any(fnmatch(user, pattern) for user in users), (package, pattern)
-
-
-def test_no_module_imports_by_name_at_run_time():
-    for module, path in MODULES.items():
-        if module == "addon_table":  # what it names is not of the core
-            continue
-        text = path.read_text(encoding="utf-8")
-        if module == "cli":  # a command of its own room, when it is asked for
-            text = text.replace("from importlib import import_module", "")
-            text = text.replace('import_module(f"netdesign.commands.{module}")', "")
-        assert "import_module" not in text, module
-        assert "__import__" not in text, module

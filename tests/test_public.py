@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 import netdesign
-from netdesign import addon_table
 from tests.each import each
 
 PUBLIC = Path(netdesign.__file__).with_name("public.py")
@@ -21,7 +20,7 @@ def test_the_list_of_names_is_that_of_the_module_that_imports_them():
         if isinstance(node, ast.ImportFrom)
         for alias in node.names
     }
-    assert imported | set(addon_table.NAMES) == set(netdesign.__all__)
+    assert imported == set(netdesign.__all__)
     assert sorted(netdesign.__all__) == list(netdesign.__all__)
 
 

@@ -12,7 +12,6 @@ from tests.short_example import write_short_example
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 USAGE = (ROOT / "netdesign" / "USAGE.md").read_text(encoding="utf-8")
-FLAGS = re.DOTALL | re.MULTILINE
 NETDESIGN = Path(sys.executable).with_name("netdesign")
 
 # Pages for users, and those that they lead to.

@@ -17,10 +17,7 @@ from tests.each import each
 
 PACKAGE = Path(netdesign.__file__).parent
 ROOT = PACKAGE.parent
-ELEMENTS = {"P1", "P2"}  # finite elements, not labels
 
-LABEL = r"[A-Z]\d{1,2}[a-z]?"
-SECTION = re.compile(r"(?:(\w+(?:/\w+)*)\.md,?\s+)?\b[Ss]ection\s+(\d+)")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
 CONSTANT = re.compile(
     rf"`((?:\w+\.)?_?[A-Z][A-Z\d_]+(?:\.[a-z_]+)?|[A-Z][a-z]\w+\.[a-z_]+)`"
@@ -37,9 +34,6 @@ SOURCES = {
     for path in sorted(folder.rglob("*.py"))
     if path != Path(__file__)
 }
-
-
-FACTS = (ROOT / "tests" / "verification" / "FACTS.md").read_text(encoding="utf-8")
 
 
 def find_values(name: str, room: str) -> list[Any]:

@@ -87,8 +87,3 @@ def test_forces_are_told_as_they_were_given():
 def test_a_force_that_is_not_known_stays_so():
     assert units.kilonewton_if_known(None) is None
     assert units.kilonewton_if_known(1234.5) == 1.2345
-
-
-def test_an_angle_that_is_not_known_has_no_degrees():
-    assert units.degree_if_known(None) is None
-    assert units.degree_if_known(0.5 * math.pi) == 90.0

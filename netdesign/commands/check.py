@@ -55,7 +55,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     # behind the reading: a faulty workbook is refused without a solver
     from netdesign.commands.check_run import announce, carry_out, plan_outputs
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.study.check_run import CheckRun
+    from netdesign.study.row_to_check import CheckRun
 
     profiles = find_profiles(asked["standards"], site)
     if asked["floor"]:

@@ -38,9 +38,9 @@ if TYPE_CHECKING:
     from netdesign.report.files import ReportStyle
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
-    from netdesign.study.check_run import CheckRun
     from netdesign.study.check_site import OnRow
     from netdesign.study.records import RowStudy, Study
+    from netdesign.study.row_to_check import CheckRun
     from netdesign.study.sizing import ReadInstead, SizedCell
 
     # smallest types under one profile; no study where nothing is replaced

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.solving.workers import Job
-    from netdesign.study.check_run import CheckRun
     from netdesign.study.records import Study
+    from netdesign.study.row_to_check import CheckRun
 
 EXIT_CODES = {
     Verdict.PASS: 0,

@@ -16,8 +16,8 @@ from netdesign.words.message import Message, say
 if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.site.model import Site
+    from netdesign.study.document import Difference
     from netdesign.study.records import Study
-    from netdesign.study.values import Difference
 
 _SHOWN = 20  # differences; more help nobody
 

@@ -18,14 +18,10 @@ from netdesign import (
     Net,
     Ranges,
     RowEnvelope,
-    RowTask,
-    Runner,
     Scene,
-    SearchSettings,
     Snowpack,
-    SolverSettings,
     build_ground_from_glide_factor,
-    search_rows,
+    find_envelope,
 )
 
 SNOW = Snowpack(
@@ -39,20 +35,15 @@ NET = Net(
     slack=0.05,
     friction_angle=radians(30),
 )
-TASK = RowTask(
-    scene=Scene(snowpack=SNOW, ground=GROUND, net=NET),
-    ranges=Ranges.of(
-        density=Interval(low=250.0, high=450.0),  # [kg/m3]
-        slack=Interval(low=0.02, high=0.1),
-    ),
-    layout=None,
-    settings=SolverSettings(accuracy=0.005),
-    search=SearchSettings(gap=0.005),  # the bound lies so close to the maximum
-    confirmed_by=None,
+SCENE = Scene(snowpack=SNOW, ground=GROUND, net=NET)
+RANGES = Ranges.of(
+    density=Interval(low=250.0, high=450.0),  # [kg/m3]
+    slack=Interval(low=0.02, high=0.1),
 )
+ACCURACY = 0.005  # of every force; the bound lies so close to the largest one
 
 
-def draw(found: RowEnvelope, path: str) -> None:
+def draw(envelope: RowEnvelope, path: str) -> None:
     """Draw the foot's force of each case against its density, and the bound."""
     from matplotlib.figure import Figure
 
@@ -60,13 +51,13 @@ def draw(found: RowEnvelope, path: str) -> None:
     axes = figure.subplots()
     for low, high, marker in ((0.02, 0.05, "^"), (0.05, 0.08, "s"), (0.08, 0.11, "o")):
         cases = [
-            (one.case.density, one.member_forces["foot"].value / 1e3)
-            for one in found.results
-            if low <= one.case.values["slack"] < high
+            (result.case.density, result.member_forces["foot"].value / 1e3)
+            for result in envelope.results
+            if low <= result.case.values["slack"] < high
         ]
         label = f"slack from {low:.0%}"
         axes.plot(*zip(*cases, strict=True), marker, mfc="none", mec="0", label=label)
-    bound = found.extremes["foot"].widened.high / 1e3
+    bound = envelope.extremes["foot"].widened.high / 1e3
     axes.axhline(bound, color="black", linestyle="--", label="bound")
     axes.set(xlabel="density of the snow [kg/m³]", ylabel="force at the foot [kN/m]")
     axes.set_ylim(bottom=0)
@@ -77,14 +68,14 @@ def draw(found: RowEnvelope, path: str) -> None:
 def main() -> None:
     """Search the ranges, print the worst case and draw all of them."""
     path = sys.argv[1] if sys.argv[1:] else "envelope.png"
-    (found,) = search_rows([TASK], Runner())
-    if found.gap:
-        raise SystemExit(str(found.gap))
-    foot = found.extremes["foot"]
+    envelope = find_envelope(SCENE, RANGES, accuracy=ACCURACY)
+    if envelope.gap:
+        raise SystemExit(str(envelope.gap))
+    foot = envelope.extremes["foot"]
     print(f"largest force at the foot {foot.force.value / 1e3:.2f} kN/m")
-    cases = len(found.results)
+    cases = len(envelope.results)
     print(f"nowhere above {foot.widened.high / 1e3:.2f} kN/m, after {cases} cases")
-    draw(found, path)
+    draw(envelope, path)
     print(f"wrote {path}")
 
 

@@ -14,9 +14,9 @@ from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.words import Words, find_choice
 from netdesign.site.model import InputEcho
-from netdesign.study.governing import find_governing
+from netdesign.study.document import ROUNDING, compare_values
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.values import ROUNDING, compare_values
+from netdesign.study.scopes import find_governing
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name, name_check, name_member

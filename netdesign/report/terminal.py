@@ -41,9 +41,8 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.scopes import SCOPES
+from netdesign.study.scopes import SCOPES, find_governing
 from netdesign.study.to_do import MOST_LINES, WHO, list_to_do
 from netdesign.words.catalogue import Language
 from netdesign.words.names import name

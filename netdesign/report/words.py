@@ -73,8 +73,8 @@ class Words:
         --------
         >>> ENGLISH.show_number("demand_kN", 126.26)
         '126'
-        >>> Words("fr").show_number("sag_m", 2.5)
-        '2,500'
+        >>> Words("fr").show_number("snow_thickness_m", 2.5)
+        '2,50'
         >>> ENGLISH.show_number("utilisation", 1.0004)  # never rounded down to a pass
         '>1.000'
         >>> ENGLISH.show_number("utilisation", math.inf)  # nothing resists

@@ -230,7 +230,7 @@ def _list_unknown_profiles(
         sheet=sheet,
         cell=cell,
         text=named,
-        rule=say("item.no_profile"),
+        rule=say("cell.no_profile"),
         accepted=say("accepted.words", words=list_standards()),
     )
 

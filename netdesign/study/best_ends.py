@@ -26,9 +26,13 @@ from netdesign.study.judgement import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_knowledge import know_alone, know_least, take_off_truss
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import (
+    RowToCheck,
+    list_layouts,
+    place_variant,
+    read_values,
+)
 from netdesign.study.scopes import is_of_structure
-from netdesign.study.variants import list_layouts, place_variant, read_values
 from netdesign.words.message import Message, say
 
 # What is searched with the cases, but is no design range.

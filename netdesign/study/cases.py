@@ -18,9 +18,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import CONNECTED
-from netdesign.study.check_run import CheckRun
-from netdesign.study.row_to_check import build_scene
-from netdesign.study.variants import list_layouts
+from netdesign.study.row_to_check import CheckRun, build_scene, list_layouts
 from netdesign.words.message import Message, group_reasons, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. Beside the

@@ -13,9 +13,9 @@ from netdesign.envelope.rows import RowEnvelope
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import have_same_forces, list_alike, search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
+from netdesign.study.row_to_check import CheckRun
 from netdesign.study.side_by_side import (
     RowNames,
     RowsJob,

@@ -17,7 +17,7 @@ from netdesign.edge.json_text import Items
 from netdesign.resistance.steel import Wear
 from netdesign.site.bearing import Resistance
 from netdesign.site.model import NetRow
-from netdesign.study.bores import list_bonds
+from netdesign.study.anchor_ground import list_bonds
 from netdesign.study.member_force import RowForces
 from netdesign.study.pulls import USUAL_DIP
 from netdesign.units import given_degree_from_radian

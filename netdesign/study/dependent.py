@@ -51,11 +51,11 @@ from netdesign.resistance.steel import (
 )
 from netdesign.site.model import Resistance
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.bores import find_ground_resistance
+from netdesign.study.anchor_ground import find_ground_resistance
+from netdesign.study.case_records import PullRecord
 from netdesign.study.member_force import MemberForce
 from netdesign.study.posts import find_plate_resistance, find_post_resistance
 from netdesign.study.row_to_check import Basis
-from netdesign.study.support_records import PullRecord
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,

@@ -18,20 +18,21 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import weigh_splay
-from netdesign.study.effects import find_effects, list_assumed
-from netdesign.study.member_force import RowForces, find_guideline_force
-from netdesign.study.pulls import ANCHORS
-from netdesign.study.record_guideline import (
+from netdesign.study.case_records import HeldSidewaysRecord
+from netdesign.study.guideline_load import (
+    find_effects,
     find_row_anchor_forces,
     find_row_floor,
+    list_assumed,
 )
+from netdesign.study.member_force import RowForces, find_guideline_force
+from netdesign.study.pulls import ANCHORS
+from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.study.sideways import (
     find_lack,
     place_over,
     weigh_places,
 )
-from netdesign.study.support_records import HeldSidewaysRecord
-from netdesign.study.variants import list_layouts, list_variants
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 

@@ -12,20 +12,22 @@ from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
-from netdesign.study.check_run import CheckRun
+from netdesign.study.case_records import PanelRecord
 from netdesign.study.conditions import list_conditions, merge_conditions
-from netdesign.study.governing import find_worst
-from netdesign.study.model_form import record_model_form
+from netdesign.study.governing_case import (
+    record_drawing,
+    record_independent,
+    record_model_form,
+)
+from netdesign.study.guideline_load import (
+    record_guideline,
+)
 from netdesign.study.notes import (
     list_judged_notes,
     list_site_notes,
 )
 from netdesign.study.parts import list_parts
-from netdesign.study.record_drawn import record_drawing, record_independent
 from netdesign.study.record_envelope import record_case
-from netdesign.study.record_guideline import (
-    record_guideline,
-)
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.records import (
     SCHEMA,
@@ -40,9 +42,8 @@ from netdesign.study.row_checks import (
     distrust,
 )
 from netdesign.study.row_knowledge import Variant, know_variants
-from netdesign.study.row_to_check import CaseSolver, RowToCheck
-from netdesign.study.scopes import record_assumed
-from netdesign.study.support_records import PanelRecord
+from netdesign.study.row_to_check import CaseSolver, CheckRun, RowToCheck
+from netdesign.study.scopes import find_worst, record_assumed
 
 
 def judge_site(

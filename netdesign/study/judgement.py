@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
@@ -19,7 +19,7 @@ from netdesign.structure.members import (
     NetPart,
 )
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.bores import check_anchor_distance, check_cover
+from netdesign.study.case_records import PullRecord
 from netdesign.study.dependent import (
     corrode,
     find_resistance_for_force,
@@ -27,7 +27,6 @@ from netdesign.study.dependent import (
     settle_basis,
     shorten_bond,
 )
-from netdesign.study.geometry_checks import check_row_geometry
 from netdesign.study.member_force import (
     PUSHED,
     MemberForce,
@@ -41,8 +40,7 @@ from netdesign.study.pulls import (
     find_pull,
 )
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import ask_end_guy, check_sideways
-from netdesign.study.support_records import PullRecord
+from netdesign.study.sideways import ask_end_guy
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 
@@ -356,68 +354,3 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
         if point.kind is OpenKind.UNSOLVED and point.message not in of_end
     )
     return next(points, None)
-
-
-def check_others(
-    variants: Sequence[RowForces], judged: Sequence[MemberCheck]
-) -> Iterator[Check]:
-    """Checks that compare no force: load along the row, geometry; each at its worst."""
-    known = variants[0]
-    gap = find_open(known.row, judged)
-    yield _take_gravest(
-        check_sideways(one.row, one.held, one.standard, gap) for one in variants
-    )
-    apart = list_bored(variants)
-    for check in (check_anchor_distance, check_cover):
-        found = [check(one, gap) for one in apart]
-        if known_ones := [one for one in found if one is not None]:
-            yield _take_gravest(known_ones)
-    yield from check_row_geometry(known)
-
-
-def list_bored(variants: Sequence[RowForces]) -> Sequence[RowForces]:
-    """Variants of which the anchors may stand apart, one of those that are alike.
-
-    The end guy's anchor is placed where the lateral anchor's place is given.
-    """
-    end = variants[0].row.row_end
-    if end is not None and end.lateral_distance is not None:
-        return variants
-    return [
-        *{(one.row.layout, one.row.guys): one for one in reversed(variants)}.values()
-    ]
-
-
-def _take_gravest(checks: Iterable[Check]) -> Check:
-    """Check of the gravest verdict; one that does not fail everywhere is not proven."""
-    every = list(checks)
-    gravest = max(every, key=lambda one: WORSE.index(one.verdict))
-    if gravest.verdict is Verdict.FAIL and any(
-        one.verdict is not Verdict.FAIL for one in every
-    ):
-        return replace(gravest, met=Verdict.NOT_PROVEN)
-    return gravest
-
-
-def apply_declaration(basis: Basis, check: Check) -> Check:
-    """Check with what the workbook says of it: a document that proves it elsewhere.
-
-    Forces of a net below its snow are those of snow up to its head: information, which
-    proves nothing either way. No document proves them where they fail already.
-    """
-    row, member = basis.row, check.member
-    if row.is_overtopped and member != Member.NET:
-        fails = check.verdict is Verdict.FAIL
-        point = Open(kind=OpenKind.UNSOLVED, message=say("check.overtopped"))
-        check = replace(check, met=Verdict.NOT_PROVEN, finding=None, open=[point])
-        if fails:
-            return check
-    found = basis.site.find_declaration(row, member, check.mode, check.position)
-    if found is None:
-        return check
-    elsewhere = Open(
-        kind=OpenKind.PROVEN_ELSEWHERE,
-        message=found.proof.describe(),
-        proof=found.proof,
-    )
-    return replace(check, open=[*check.open, elsewhere])

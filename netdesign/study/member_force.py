@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from netdesign.calculation.quantity import Kind, Quantity, given, strip
+from netdesign.checks import Standard
 from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
@@ -29,16 +30,20 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.case_records import FloorRecord, LargestForce
-from netdesign.study.maker import list_maker_leaves
+from netdesign.study.case_records import (
+    FloorRecord,
+    HeldSidewaysRecord,
+    LargestForce,
+)
 from netdesign.study.pulls import GUY_ANCHORS, may_share
 from netdesign.study.row_forces import MemberForce as MemberForce
 from netdesign.study.row_forces import RowForces as RowForces
 from netdesign.study.row_forces import high_of
-from netdesign.study.support_records import (
-    HeldSidewaysRecord,
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    newton_from_kilonewton,
 )
-from netdesign.units import degree_from_radian, newton_from_kilonewton
 from netdesign.words.message import say
 
 # What the end guy's pull on the head loads, by the part of it in each.
@@ -373,3 +378,19 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
 def is_shared(row: NetRow, member: str) -> bool:
     """An anchor holds a guy of each of two neighbouring posts, or may do so."""
     return may_share(row.guys) and member in GUY_ANCHORS
+
+
+_STATED: Mapping[str, str] = {
+    Member.FOOT_ANCHOR: "foot_force",
+    Member.UPHILL_ANCHOR: "uphill_force",
+    Member.DOWNHILL_ANCHOR: "downhill_force",
+}
+
+
+def list_maker_leaves(row: NetRow, standard: Standard, member: str) -> list[Quantity]:
+    """Characteristic force on an anchor by the net's maker, where it is a floor."""
+    name = _STATED.get(member)
+    stated = getattr(row.approval, name) if row.approval and name else None
+    if stated is None or not standard.has_maker_floor:
+        return []
+    return [given("E_m0", kilonewton_from_newton(stated.value), "kN", stated.cell)]

@@ -35,12 +35,12 @@ from netdesign.resistance.post import (
 )
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.effects import (
+from netdesign.study.guideline_load import (
+    build_geometry,
     find_glide_factors,
     list_corners,
     load_glide_limits,
 )
-from netdesign.study.record_guideline import build_geometry
 from netdesign.study.row_to_check import Basis
 from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton

@@ -31,9 +31,9 @@ from netdesign.structure.row_position import (
     measure_fall,
 )
 from netdesign.structure.splay import Guys
+from netdesign.study.case_records import PullRecord
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.study.sideways import SupportState, place_row
-from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 

@@ -21,10 +21,10 @@ from netdesign.site.cells.cells import TextFormat
 from netdesign.site.cells.numbers import DecimalMark
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
-from netdesign.study.check_run import CheckRun
-from netdesign.study.effects import load_glide_limits
+from netdesign.study.document import Difference, compare_listed, list_values
+from netdesign.study.guideline_load import load_glide_limits
 from netdesign.study.records import ProfileRecord, Provenance, Study
-from netdesign.study.values import Difference, compare_listed, list_values
+from netdesign.study.row_to_check import CheckRun
 from netdesign.words.message import Message, say
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")

@@ -27,9 +27,14 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study import frames
 from netdesign.study.case_records import (
     CaseRecord,
+    Drawing,
+    EndGuyRecord,
     FloorRecord,
     GuidelineRecord,
+    HeldSidewaysRecord,
     LargestForce,
+    PanelRecord,
+    PullRecord,
 )
 from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.study.parts import PartRecord
@@ -40,13 +45,6 @@ from netdesign.study.scopes import (
     merge_scopes,
     sum_up_row,
     sum_up_study,
-)
-from netdesign.study.support_records import (
-    Drawing,
-    EndGuyRecord,
-    HeldSidewaysRecord,
-    PanelRecord,
-    PullRecord,
 )
 from netdesign.words.message import Message, Text, say
 from netdesign.words.names import name, name_check

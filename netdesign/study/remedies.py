@@ -1,22 +1,42 @@
-"""Remedies: resistance, type and post spacing with which a check passes.
+"""Resistance, type and post spacing with which a check passes.
 
-Each is in exact proportion to the force; no case is solved for it.
+Forces follow resistance and spacing in exact proportion: no case is solved. The type is
+the weakest one of the workbook that does, else the smallest part of the catalogue:
+bars, bonds, ropes and post sections, by size.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from netdesign.checks import OpenKind
+from netdesign.checks import OpenKind, find_resistance
 from netdesign.checks.check import Change
+from netdesign.checks.comparison import find_partial_factor
+from netdesign.resistance.catalogue import (
+    find_imperfection,
+    find_rope_factor,
+    find_termination,
+    load_catalogue,
+    load_products,
+)
+from netdesign.resistance.ground import Bond
+from netdesign.resistance.post import compute_buckling_resistance
+from netdesign.resistance.products import find_product
+from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
+from netdesign.site.model import Resistance, Site
+from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.judgement import MemberCheck
+from netdesign.study.case_records import PullRecord
+from netdesign.study.dependent import corrode, shorten_bond
+from netdesign.study.judgement import MemberCheck, find_lasting
+from netdesign.study.posts import find_short_post
 from netdesign.study.row_to_check import Basis
-from netdesign.study.stronger_types import find_type_change
+from netdesign.study.scopes import CLOSE
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
-
-CLOSE = 0.9  # utilisation from which a passing check gets its limits
+from netdesign.words.names import name
 
 
 def list_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
@@ -105,3 +125,256 @@ def find_spacing_remedy(
         sense="at most",
         note=None if bound > 0.0 else say("change.end_effect_too_much"),
     )
+
+
+_ANCHORS = (
+    *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
+    *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR),
+)
+
+
+def find_ground(site: Site, type_id: str) -> str:
+    """Ground of an anchor type of the workbook; "" where nobody gives it."""
+    found = (one.ground for one in site.catalogue if one.type_id == type_id)
+    return next((ground for ground in found if ground), "")
+
+
+def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
+    """Validity of a type in the ground of the type that it would replace.
+
+    A type whose ground nobody gives proves nothing in any.
+
+    Parameters
+    ----------
+    member : str
+        What the type is for; only anchors stand in a ground.
+    now : str
+        Ground of the row, or of the type that is there; "" for an unknown one.
+    other : Resistance
+        Of the type that would replace it.
+    """
+    return member not in _ANCHORS or not now or now == other.ground
+
+
+def find_type_change(
+    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
+) -> Change | None:
+    """Type whose design resistance reaches the design ``demand`` [kN].
+
+    First the weakest type of the workbook, whether a net row uses it or not, those
+    whose own resistance is proven before the others; else the smallest part of the
+    catalogue. None where the type that is there does, where it is that of another
+    member, or nothing is known that would.
+
+    An anchor type of another ground, or of one that is not known, is none of them.
+    ``pull`` is that on the anchor.
+    """
+    if given.member in NAMED_BY:
+        return None
+    enough = list(_list_enough(basis, given, demand, pull))
+    sure = [one for one in enough if one.note is None]
+    if any(one.type_id == given.type_id for one in sure or enough):
+        return None
+    if enough:
+        weakest = min(sure or enough, key=lambda one: (one.design, one.type_id))
+        told = say("change.type_of_workbook", type=weakest.type_id)
+        return _record(told, weakest.value, given, weakest.note)
+    size = _find_enough_size(basis, given, demand)
+    _, unsure = find_lasting(basis, given, pull)
+    return _record(*size, given, _find_note(given, unsure)) if size else None
+
+
+def _find_enough_size(basis: Basis, given: Resistance, demand: float) -> Size | None:
+    """Smallest part of the catalogue that bears a design force [kN]."""
+    declared = "computed" if given.mode == "pull_out" else "declared"
+    factor = basis.standard.find_resistance_factor(given.mode, declared)
+    needed = demand / _find_share(given)
+    return find_size(given, needed * factor.value_si) if factor else None
+
+
+def _find_note(given: Resistance, unsure: Message | None) -> Message | None:
+    """Condition of another type; a border rope's stiffness changes its force."""
+    if unsure:
+        return say("change.if_rest_proven")
+    is_of_net = given.member in tuple(NetPart)
+    return say("change.solve_again") if is_of_net else None
+
+
+def _find_share(given: Resistance) -> float:
+    """Share of a resistance that corrosion leaves [-]; a larger bar loses less."""
+    how = given.derivation
+    share = how.arguments.get("share") if how and given.wear else None
+    return float(str(share)) if share else 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Enough:
+    """A type that reaches a demand: design and characteristic resistance [kN]."""
+
+    type_id: str
+    design: float
+    value: float
+    note: Message | None
+
+
+def _list_enough(
+    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
+) -> Iterator[_Enough]:
+    """Types of the workbook that reach a demand; none of another ground, or worn."""
+    row, standard = basis.row, basis.standard
+    ground = row.ground_type or given.ground
+    for other in basis.site.catalogue:
+        is_here = holds_in_ground(given.member, ground, other)
+        if other.mode != given.mode or not is_here:
+            continue
+        other = replace(other, member=given.member)
+        lasting, worn = corrode(shorten_bond(other, standard), basis)
+        if worn or find_short_post(other, basis):
+            continue
+        value = find_resistance(lasting, standard).value
+        factor = find_partial_factor(other, standard)
+        if value is None or factor is None:
+            continue
+        _, unsure = find_lasting(basis, other, pull)
+        design = value / factor.value_si
+        if design >= demand:
+            yield _Enough(other.type_id, design, value, _find_note(other, unsure))
+
+
+def _record(
+    quantity: Message, value: float, given: Resistance, note: Message | None
+) -> Change:
+    return Change(
+        quantity=quantity,
+        unit="kN",
+        now=kilonewton_if_known(given.value),
+        bound=math.floor(value * 10.0) / 10.0,
+        sense="has",
+        note=note,
+    )
+
+
+_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
+_ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
+_BAR_STRENGTH = 500.0  # of a bar whose steel nobody gives [MPa]
+_LONGEST_BOND = 10.0  # that counts [m]
+
+
+# A part of the catalogue: what it is, and its characteristic resistance [kN].
+Size = tuple[Message, float]
+
+
+def find_size(given: Resistance, needed: float) -> Size | None:
+    """Smallest part in the place of a type that bears a characteristic force [kN].
+
+    None where the catalogue has none that bears it, or where the workbook does not say
+    what the part is made of: the ground of a bond, the section of a post.
+    """
+    sizes = _BY_MODE.get(given.mode)
+    found = sizes(given) if sizes else iter(())
+    return next((one for one in found if one[1] >= needed), None)
+
+
+def _list_ropes(_: Resistance) -> Iterator[Size]:
+    factor = find_rope_factor(_CONSTRUCTION, "K")
+    loss = find_termination(_TERMINATION)
+    for diameter in _ROPES_MM:
+        value = compute_rope_resistance(
+            diameter=diameter / 1e3,
+            grade=_GRADE,
+            breaking_factor=factor.value,
+            termination=loss.value,
+        )
+        told = say(
+            "change.rope",
+            diameter=diameter,
+            construction=_CONSTRUCTION,
+            grade=_GRADE / 1e6,
+            termination=name("termination", _TERMINATION),
+            status=name("status", loss.status),
+        )
+        yield told, kilonewton_from_newton(value)
+
+
+def _list_bars(given: Resistance) -> Iterator[Size]:
+    """Solid bars of the catalogue, of the steel of the type's own bar."""
+    how = _find_derivation(given, "derivation.bar")
+    strength = _take(how, "strength") if how else _BAR_STRENGTH
+    every = (one["diameters"] for one in load_products()["bar"])
+    for diameter in sorted({size for sizes in every for size in sizes}):
+        value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
+        told = say("change.bar", diameter=float(diameter), strength=strength)
+        yield told, kilonewton_from_newton(value)
+
+
+def _list_bonds(given: Resistance) -> Iterator[Size]:
+    """Bond lengths by half metres, in the hole and ground of the type."""
+    how = _find_derivation(given, "derivation.bond")
+    if how is None or given.bond is None:
+        return
+    diameter = _take(how, "diameter")
+    per_metre = math.pi * diameter / 1e3 * _take(how, "stress")  # [kN/m]
+    for half in range(2, int(2 * _LONGEST_BOND) + 3):
+        bond = Bond(length=0.5 * half, free=given.bond.free, steel=None)
+        told = say(
+            "change.bond",
+            length=0.5 * half,
+            diameter=diameter,
+            ground=how.arguments["ground"],
+        )
+        yield told, bond.find_counted(_LONGEST_BOND) * per_metre
+
+
+def _list_sections(given: Resistance) -> Iterator[Size]:
+    """Sections of the series of a post, by size, of its steel and buckling length."""
+    how = _find_derivation(given, "derivation.buckling")
+    if how is None:
+        return
+    series, sizes = _find_series(given.type_id)
+    strength = _take(how, "strength")
+    imperfection = find_imperfection(str(how.arguments["curve"])).value
+    for size in sorted(sizes, key=int):
+        product = find_product(f"{series} {size}")
+        if product is None:
+            continue
+        found = compute_buckling_resistance(
+            area=product.values["area"][0],
+            second_moment=product.values["second_moment_weak"][0],
+            length=_take(how, "length"),
+            yield_strength=strength * 1e6,
+            modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+            imperfection=imperfection,
+        )
+        told = say("change.section", name=f"{series}{size}", grade=strength)
+        yield told, kilonewton_from_newton(found.value)
+
+
+def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:
+    """Series of the section that a type is named after, with its sizes."""
+    product = find_product(type_id)
+    table = load_products()["section"]["series"]
+    for series, one in table.items():
+        if product and product.id.startswith(series):
+            return series, one["sizes"]
+    return "", {}
+
+
+def _find_derivation(given: Resistance, key: str) -> Message | None:
+    """Way in which a resistance was worked out as built, where it is this one."""
+    how = given.derivation
+    as_built = how.arguments.get("of") if how else None  # before it corrodes
+    how = as_built if isinstance(as_built, Message) else how
+    return how if how is not None and how.key == key else None
+
+
+def _take(how: Message, key: str) -> float:
+    """Number of a derivation."""
+    return float(str(how.arguments[key]))
+
+
+_BY_MODE: Mapping[str, Callable[[Resistance], Iterator[Size]]] = {
+    "rope": _list_ropes,
+    "tendon": _list_bars,
+    "pull_out": _list_bonds,
+    "compression": _list_sections,
+}

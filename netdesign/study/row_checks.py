@@ -1,24 +1,47 @@
-"""All checks of one net row, with what turns them."""
+"""All checks of one net row: of forces, geometry, structure, and open questions."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Check, OpenKind
+from netdesign.checks import (
+    Check,
+    Open,
+    OpenKind,
+    RowGeometry,
+    Standard,
+    check_geometry,
+)
+from netdesign.checks.comparison import compare, leave_open
+from netdesign.checks.geometry import MODE, check_approval
+from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
+from netdesign.study.anchor_ground import check_anchor_distance, check_cover
 from netdesign.study.best_ends import settle
+from netdesign.study.dependent import CONNECTION
+from netdesign.study.guideline_load import (
+    check_ends,
+    find_altitude_factor,
+    find_effects,
+    find_row_glide_factor,
+    list_corners,
+)
 from netdesign.study.judgement import (
+    WORSE,
     MemberCheck,
-    apply_declaration,
-    check_others,
+    find_open,
 )
 from netdesign.study.member_force import RowForces
 from netdesign.study.remedies import list_remedies
-from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.structure import check_limits, settle_structure
+from netdesign.study.row_to_check import Basis, RowToCheck
+from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.study.worst_checks import judge_members
-from netdesign.words.message import say
+from netdesign.units import degree_from_radian
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,8 +65,8 @@ def check_row(task: RowToCheck, variants: Sequence[RowForces]) -> RowChecks:
         checks.append(replace(one.check, changes=changes))
         task.on_check()
     known = variants[0]
-    checks += [*check_others(variants, judged), *check_limits(known)]
-    checks = [apply_declaration(task, one) for one in checks]
+    checks += [*_check_without_force(variants, judged), *check_limits(known)]
+    checks = [_apply_declaration(task, one) for one in checks]
     return RowChecks(
         checks=settle_structure(known, checks),
         judged={one.check.id: one for one in judged},
@@ -55,3 +78,229 @@ def distrust(check: Check) -> Check:
     if not check.is_of_force or check.verdict is not Verdict.PASS:
         return check
     return check.with_open(OpenKind.UNSOLVED, say("check.fault_beside"))
+
+
+_SLIDING = "sliding"
+
+
+def check_limits(basis: Basis) -> list[Check]:
+    """Check of a row against its approval's limits; none without an approval."""
+    approval = basis.row.approval
+    if approval is None or not approval.document:
+        return []
+    actual = _find_actual(basis.row, basis.site.ranges)
+    return [check_approval(approval, actual)]
+
+
+def _find_actual(row: NetRow, ranges: Ranges) -> dict[str, tuple[float, float]]:
+    """Least and largest value of a row by what an approval limits, SI.
+
+    Where nobody gives the altitude, it may be whatever the guideline knows.
+    """
+    factors = [find_row_glide_factor(one) for one in list_corners(row, ranges)]
+    altitude = find_altitude_factor(row)
+    least = 1.0 if row.altitude is None else altitude
+    spacing = row.layout.post_spacing
+    return {
+        "height": (row.net_height, row.net_height),
+        "glide_factor": (min(factors), max(factors)),
+        "altitude_factor": (least, altitude),
+        "spacing": (spacing, spacing),
+    }
+
+
+def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
+    """Checks of a row with one line for what is not listed of its structure.
+
+    Inside its limits an approval proves it, and what was calculated of it is
+    information. Outside, and where nothing is given of it, it is not proven.
+    """
+    limits = next((one for one in checks if one.mode == MODE), None)
+    if limits is None:
+        mine = list(filter(is_of_structure, checks))
+        if any(map(_is_given, mine)) or all(map(_has_result, mine)):
+            return list(checks)
+        line = _leave_structure_open("resistances", say("approval.nothing_given"))
+        return _replace_structure(checks, _apply_declaration(basis, line))
+    approval, lack = basis.row.approval, _find_lack(basis.row, limits)
+    if approval is None or lack is not None:
+        return _replace_structure(checks, _leave_structure_open(MODE, lack))
+    proof = approval.prove()
+    point = Open(kind=OpenKind.PROVEN_ELSEWHERE, message=proof.describe(), proof=proof)
+    line = replace(_leave_structure_open(MODE, None), open=[point])
+    return [
+        _make_information(one, point) if is_of_structure(one) else one
+        for one in _replace_structure(checks, line)
+    ]
+
+
+def _find_lack(row: NetRow, limits: Check) -> Message | None:
+    """Reason why an approval does not hold for a row; None where it does."""
+    if limits.verdict is not Verdict.PASS:
+        return limits.reason
+    return say("check.overtopped") if row.is_overtopped else None
+
+
+def _leave_structure_open(mode: str, lack: Message | None) -> Check:
+    lacks = () if lack is None else (lack,)
+    return leave_open(mode, OpenKind.RESISTANCE_MISSING, *lacks, member=STRUCTURE)
+
+
+def _is_given(check: Check) -> bool:
+    """Something is given that a check of the structure rests on.
+
+    The type of a chain is that of its anchor, which is none of the structure. Friction
+    under a base of no type is assumed.
+    """
+    if check.resistance_type:
+        return check.mode != CONNECTION
+    is_rated = check.resistance_kN is not None or check.is_unbounded
+    return is_rated and check.mode != _SLIDING
+
+
+def _has_result(check: Check) -> bool:
+    """Its numbers, or a document, say something of it."""
+    return check.used is not None or check.verdict is not Verdict.NOT_PROVEN
+
+
+def _replace_structure(checks: Sequence[Check], line: Check) -> list[Check]:
+    """Checks of which a line stands for those of the structure without a result."""
+    kept = [one for one in checks if _has_result(one) or not is_of_structure(one)]
+    return [*kept, line]
+
+
+def _make_information(check: Check, proof: Open) -> Check:
+    """Check of what an approval proves: its numbers are information."""
+    if check.declared is not None or check.member == STRUCTURE or not check.steps:
+        return check
+    used = check.used_band[1]
+    is_beyond = used is None or used > 1.0
+    finding = say("approval.beyond_by_model" if is_beyond else "approval.information")
+    points = [one for one in check.open if one.kind is not OpenKind.FAILS]
+    return replace(
+        check, met=Verdict.NOT_PROVEN, finding=finding, open=[*points, proof]
+    )
+
+
+_SPACING, _UPSLOPE = "spacing", "upslope_length"
+
+
+def check_row_geometry(basis: Basis) -> list[Check]:
+    """Checks of a row that no force enters."""
+    row, standard, ranges = basis.row, basis.standard, basis.site.ranges
+    geometry = check_geometry(read_geometry(row, ranges), standard)
+    ends = check_ends(find_effects(row, standard, ranges))
+    return [
+        *(_leave_assumed_open(row, one) for one in geometry),
+        *([ends] if ends else []),
+        *_list_asked(row, standard),
+    ]
+
+
+def _leave_assumed_open(row: NetRow, check: Check) -> Check:
+    """Check of the distance of rows, open where nobody says how far the snow goes."""
+    length = row.find_assumed(_UPSLOPE)
+    if check.mode != _SPACING or length is None:
+        return check
+    lack = say("check.unsaid", names=(length.name,))
+    return leave_open(_SPACING, OpenKind.VALUE_ASKED, lack)
+
+
+def _list_asked(row: NetRow, standard: Standard) -> Iterator[Check]:
+    """Checks that are there only while something is asked about."""
+    if standard.is_default:  # nobody has named the limit profile
+        lack = say("check.no_profile", profile=standard.id)
+        asked = leave_open("profile", OpenKind.VALUE_ASKED, lack)
+        yield replace(asked, id="profile.named")
+    if row.questions:
+        sheet = say("sheet.Declared")
+        finding = say("check.questions", questions=row.questions, sheet=sheet)
+        asked = compare("plausible", Verdict.NOT_PROVEN, finding)
+        asked = asked.with_open(OpenKind.VALUE_ASKED, *row.questions)
+        yield replace(asked, id="inputs.plausible")
+
+
+def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
+    """Input of a row's checks of geometry."""
+    return RowGeometry(
+        inclination_low=ranges["inclination"].low,
+        inclination_high=ranges["inclination"].high,
+        slope_angle=row.slope_angle,
+        snow_thickness=row.snow_thickness,
+        net_height=row.net_height,
+        upslope_length=row.upslope_length,
+        gap=row.gap,
+    )
+
+
+def _check_sideways(forces: RowForces, gap: Message | None) -> Check:
+    """Check of the load along the row; ``gap`` is that of the cases."""
+    row, held = forces.row, forces.held
+    lack = held if isinstance(held, Message) else gap
+    share = forces.standard.find(LATERAL_SHARE)
+    if lack:
+        return leave_open("lateral", OpenKind.UNSOLVED, lack, member=Member.POST)
+    finding = say(
+        "sideways.held",
+        share=100.0 * (share.value if share else 0.0),
+        splay=degree_from_radian(row.guys.splay or 0.0),
+    )
+    return compare("lateral", Verdict.PASS, finding, member=Member.POST)
+
+
+def _check_without_force(
+    variants: Sequence[RowForces], judged: Sequence[MemberCheck]
+) -> Iterator[Check]:
+    """Checks that compare no force: load along the row, geometry; each at its worst."""
+    gap = find_open(variants[0].row, judged)
+    yield _take_gravest(_check_sideways(forces, gap) for forces in variants)
+    apart = _list_anchor_places(variants)
+    for check_ground in (check_anchor_distance, check_cover):
+        checks = [check_ground(forces, gap) for forces in apart]
+        if present := [check for check in checks if check is not None]:
+            yield _take_gravest(present)
+    yield from check_row_geometry(variants[0])
+
+
+def _list_anchor_places(variants: Sequence[RowForces]) -> Sequence[RowForces]:
+    """Variants whose anchors stand at different places, one of those that are alike.
+
+    The end guy's anchor is placed where the lateral anchor's place is given.
+    """
+    end = variants[0].row.row_end
+    if end is not None and end.lateral_distance is not None:
+        return variants
+    apart = {(each.row.layout, each.row.guys): each for each in reversed(variants)}
+    return list(apart.values())
+
+
+def _take_gravest(checks: Iterable[Check]) -> Check:
+    """Check of the gravest verdict; one that does not fail everywhere is not proven."""
+    every = list(checks)
+    gravest = max(every, key=lambda check: WORSE.index(check.verdict))
+    if all(check.verdict is gravest.verdict for check in every):
+        return gravest
+    is_fail = gravest.verdict is Verdict.FAIL
+    return replace(gravest, met=Verdict.NOT_PROVEN) if is_fail else gravest
+
+
+def _apply_declaration(basis: Basis, check: Check) -> Check:
+    """Check with what the workbook says of it: a document that proves it elsewhere.
+
+    Forces of a net below its snow are those of snow up to its head: information, which
+    proves nothing either way. No document proves them where they fail already.
+    """
+    row, member = basis.row, check.member
+    if row.is_overtopped and member != Member.NET:
+        fails = check.verdict is Verdict.FAIL
+        point = Open(kind=OpenKind.UNSOLVED, message=say("check.overtopped"))
+        check = replace(check, met=Verdict.NOT_PROVEN, finding=None, open=[point])
+        if fails:
+            return check
+    declared = basis.site.find_declaration(row, member, check.mode, check.position)
+    if declared is None:
+        return check
+    proof = declared.proof
+    kind, message = OpenKind.PROVEN_ELSEWHERE, proof.describe()
+    elsewhere = Open(kind=kind, message=message, proof=proof)
+    return replace(check, open=[*check.open, elsewhere])

@@ -8,14 +8,16 @@ from dataclasses import dataclass, field
 from netdesign.calculation.quantity import Quantity
 from netdesign.checks.forces import SupportForce
 from netdesign.structure.members import Member, RopeForce, name_in_panel
-from netdesign.study.case_records import FloorForceRecord, FloorRecord, LargestForce
-from netdesign.study.effects import RowEffects
-from netdesign.study.row_to_check import Basis
-from netdesign.study.support_records import (
+from netdesign.study.case_records import (
     EndGuyRecord,
+    FloorForceRecord,
+    FloorRecord,
     HeldSidewaysRecord,
+    LargestForce,
     PullRecord,
 )
+from netdesign.study.guideline_load import RowEffects
+from netdesign.study.row_to_check import Basis
 from netdesign.words.message import Message
 
 

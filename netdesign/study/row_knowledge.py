@@ -15,7 +15,7 @@ from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.members import RopeForce
 from netdesign.study.case_records import LargestForce
-from netdesign.study.effects import find_effects
+from netdesign.study.guideline_load import find_effects, find_row_floor, record_floor
 from netdesign.study.member_force import (
     RowForces,
     find_end_pull,
@@ -23,8 +23,7 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.pulls import FootPulls, list_pulls, measure_feet
 from netdesign.study.record_envelope import record_largest
-from netdesign.study.record_guideline import find_row_floor, record_floor
-from netdesign.study.row_to_check import RowToCheck
+from netdesign.study.row_to_check import RowToCheck, list_variants
 from netdesign.study.sideways import (
     EndShare,
     SupportState,
@@ -34,7 +33,6 @@ from netdesign.study.sideways import (
     find_tilt,
     list_states,
 )
-from netdesign.study.variants import list_variants
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 

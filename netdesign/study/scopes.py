@@ -1,7 +1,8 @@
-"""Three questions of a net row, each with a verdict of its own.
+"""Scopes of the checks of a net row, each with its verdict, and the governing check.
 
-Anchors in the office's ground; the structure, which a maker sells; the place where it
-stands. Every check belongs to one of them; what bears on all belongs to each.
+The anchors stand in the office's ground, a maker sells the structure, the siting is
+where the row stands. Every check belongs to one scope; what bears on all belongs to
+each.
 """
 
 from __future__ import annotations
@@ -14,7 +15,13 @@ from typing import ClassVar
 from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.assumed import Assumed
-from netdesign.structure.members import EndMember, Member, NetPart
+from netdesign.structure.members import (
+    BROUGHT_BY,
+    REPORTED_MEMBERS,
+    EndMember,
+    Member,
+    NetPart,
+)
 from netdesign.words.message import Message, Text
 
 
@@ -88,6 +95,7 @@ _ASKED_OF: Mapping[str, Scopes] = {
     "column.Posts.efficiency": _STRUCTURE,
     "column.Posts.plate_": _STRUCTURE,
 }
+CLOSE = 0.9  # utilisation from which a passing check gets its limits
 _PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be meant
 
 
@@ -215,3 +223,46 @@ def _sum_up(
         governing=governing.id if governing else "",
         assumed=0 if is_by_approval else assumed,
     )
+
+
+def find_governing(checks: Sequence[Check]) -> Check | None:
+    """Check that decides the verdict: the worst verdict, then the largest ratio."""
+    return min(checks, key=lambda check: check.rank, default=None)
+
+
+def _ratio(check: Check) -> float:
+    return -1.0 if check.used is None else check.used
+
+
+def find_highest(checks: Sequence[Check]) -> Check | None:
+    """Check with the largest utilisation, of those that have one."""
+    known = [check for check in checks if check.used is not None]
+    return max(known, key=_ratio, default=None)
+
+
+def find_worst(checks: Sequence[Check]) -> Check | None:
+    """Check of the largest utilisation by a solved case; None without any."""
+    rated = [check for check in checks if check.used is not None and check.case]
+    return max(rated, key=lambda check: check.used or 0.0, default=None)
+
+
+def find_shown(checks: Sequence[Check]) -> Check | None:
+    """Check of which most is shown: the governing one, or the most used one."""
+    governing = find_governing(checks)
+    if governing and governing.used is not None:
+        return governing
+    return find_highest(checks)
+
+
+def find_shown_member(checks: Sequence[Check]) -> str:
+    """Member whose envelope is shown; "" without any."""
+    shown = find_shown(checks)
+    if shown is None or shown.member in REPORTED_MEMBERS:
+        return shown.member if shown else ""
+    return BROUGHT_BY.get(shown.member, "")
+
+
+def is_far_from_limit(check: Check) -> bool:
+    """True of a check that passes, and is told no change that would turn it."""
+    _, used = check.utilisation_band
+    return check.verdict is Verdict.PASS and (used is None or used < CLOSE)

@@ -27,11 +27,10 @@ from netdesign.solving.store import (
     write_parts,
 )
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.document import restore_row
 from netdesign.study.judge import judge_row
 from netdesign.study.records import RowStudy
-from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.row_to_check import CaseSolver, CheckRun
 from netdesign.words.message import Message, say
 
 Studies = list[RowStudy]  # of one row, one a profile

@@ -11,8 +11,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Band, Check, OpenKind, Standard
-from netdesign.checks.comparison import compare, leave_open
+from netdesign.checks import Band
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
@@ -20,7 +19,6 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
-from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport, HeadForces
@@ -36,9 +34,8 @@ from netdesign.structure.splay import (
     share_with_end_guy,
     weigh_splay,
 )
-from netdesign.study.row_to_check import Basis, RowToCheck
-from netdesign.study.support_records import EndGuyRecord, HeldSidewaysRecord
-from netdesign.study.variants import is_layout_assumed
+from netdesign.study.case_records import EndGuyRecord, HeldSidewaysRecord
+from netdesign.study.row_to_check import Basis, RowToCheck, is_layout_assumed
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
@@ -296,25 +293,6 @@ def find_rope_factors(
         least.append(tuple(max(math.hypot(*one) for one in of) for of in pulls))
     lower, ridge = (min(one) for one in zip(*least, strict=True))
     return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
-
-
-def check_sideways(
-    row: NetRow,
-    held: HeldSidewaysRecord | Message,
-    standard: Standard,
-    gap: Message | None,
-) -> Check:
-    """Check of the load along the row; ``gap`` is that of the cases."""
-    lack = held if isinstance(held, Message) else gap
-    share = standard.find(LATERAL_SHARE)
-    if lack:
-        return leave_open("lateral", OpenKind.UNSOLVED, lack, member=Member.POST)
-    finding = say(
-        "sideways.held",
-        share=100.0 * (share.value if share else 0.0),
-        splay=degree_from_radian(row.guys.splay or 0.0),
-    )
-    return compare("lateral", Verdict.PASS, finding, member=Member.POST)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

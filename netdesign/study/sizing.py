@@ -23,11 +23,11 @@ from netdesign.structure.members import (
     Member,
 )
 from netdesign.study.cases import have_same_forces
-from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.stronger_types import find_ground, holds_in_ground
+from netdesign.study.remedies import find_ground, holds_in_ground
+from netdesign.study.row_to_check import CheckRun
 from netdesign.words.message import say
 
 Column = Member | EndMember

@@ -27,7 +27,7 @@ from netdesign.study.judgement import (
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
 from netdesign.study.pulls import check_direction, find_pull
-from netdesign.study.variants import describe_variant
+from netdesign.study.row_to_check import describe_variant
 from netdesign.words.message import Message
 
 

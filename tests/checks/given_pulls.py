@@ -14,8 +14,8 @@ from netdesign.site.reader import read_site
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import place_support
 from netdesign.structure.members import NetPart
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests.grid import build_cases, wrap_results
 
 

@@ -1,7 +1,6 @@
 """The library of the compiled core: built, known by its text, switched off, refused."""
 
 import ctypes
-import re
 import shutil
 from pathlib import Path
 
@@ -147,10 +146,3 @@ def test_a_template_whose_factor_is_too_large_has_no_plan(monkeypatch):
     monkeypatch.setattr(compiled, "_MOST_NUMBERS", 12)
     found = build_plan(library.find_core(), TRIANGLES, NODES, NET)
     assert found is None
-
-
-def test_no_address_is_that_of_an_array_that_nobody_keeps():
-    """A copy made on the way to its address is gone when the core reads it."""
-    made = re.compile(r"locate(?:_all)?\(\s*\*?\(?(?:to_|np\.|map\()")
-    sources = (ROOT / "netdesign").rglob("*.py")
-    assert [path.name for path in sources if made.search(path.read_text())] == []

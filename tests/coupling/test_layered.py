@@ -147,10 +147,6 @@ def test_of_hundreds_of_practical_layers_less_than_one_in_a_hundred_is_refused(
     assert len(of_geometry) < 0.01 * scenes, of_geometry
 
 
-# Layers in an order in which the net's rounds wander: soft snow between stiff.
-WEAK = ((0.81, 190.4), (0.30, 256.1), (0.57, 172.3), (0.47, 435.2))
-
-
 # A hard layer between softer ones.
 HARD_MIDDLE = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
 

@@ -51,11 +51,3 @@ def test_levels_are_refined_in_every_size():
         assert fine.net_spacing <= coarse.net_spacing
         assert fine.upslope_spacing < coarse.upslope_spacing
         assert fine.corner < coarse.corner
-
-
-RANGES = {
-    "accuracy": (1e-4, 0.1),
-    "stress_tolerance": (1e-14, 2e-4),
-    "shape_tolerance": (1e-14, 2e-4),
-    "balance_tolerance": (1e-14, 1e-6),
-}

@@ -8,7 +8,6 @@ import pytest
 
 from netdesign.coupling.scene import (
     MESH_LEVELS,
-    Scene,
     SolverSettings,
 )
 from netdesign.coupling.steady.solve import solve_steady
@@ -190,38 +189,6 @@ def test_warm_layer_below_lets_the_snow_press_harder(a_scene):
         Layer(thickness=3.5, density=density, temperature=258.0),
     )
     assert sound(warm).foot.size > 1.2 * even.foot.size
-
-
-def test_equal_layers_on_their_own_mesh_change_nothing(a_scene, monkeypatch):
-    """One mesh with interfaces; uniform snow and two equal layers on it."""
-    scene = a_scene(inclination_deg=30.0, ground="no-slip")
-    part = Layer(thickness=2.0, density=scene.snowpack.density)
-    scene = layered(scene, part, part)
-    two = sound(scene)
-    law_of = Scene.flow_problem.fget
-    monkeypatch.setattr(
-        Scene,
-        "flow_problem",
-        property(lambda s: replace(law_of(s), layers=law_of(s).layers[-1:])),
-    )
-    assert len(scene.flow_problem.layers) == 1
-    one = sound(scene)
-    for end in ("foot", "head"):
-        for axis in ("x", "y"):
-            found, expected = (getattr(getattr(s, end), axis) for s in (two, one))
-            assert found == pytest.approx(expected, abs=1e-9 * one.foot.size)
-
-
-@pytest.mark.parametrize("ground", ["free", "no-slip"])
-def test_dense_snow_below_light_snow(a_scene, ground):
-    scene = layered(
-        a_scene(inclination_deg=30.0, ground=ground),
-        Layer(thickness=1.0, density=500.0),
-        Layer(thickness=3.0, density=250.0),
-    )
-    solution = sound(scene)  # balance below 1e-8
-    assert solution.scene.layer_tops == (0.25,)
-    assert solution.foot.size > 0.0
 
 
 def test_one_dense_layer_takes_the_mixed_element(a_scene):

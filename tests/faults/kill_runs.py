@@ -24,7 +24,6 @@ from netdesign.report.page import html
 from netdesign.report.workbook import excel
 from netdesign.solving import runner, store, workers
 
-OUTPUTS = ("study.json", "report.html", "report.xlsx")
 NOW, BEFORE = "1700000000", "1600000000"  # of the run, and of the outputs it finds
 # Where a kill may fall: the solve of a case, its way to the store and that of a
 # net row, each report, and each step of the way to disk.

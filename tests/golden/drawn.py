@@ -13,9 +13,9 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
-from netdesign.study.check_run import CheckRun
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests.golden.compare import read_gone, tell_differences
 from tests.golden.places import state_places, state_verdicts
 from tests.grid import drop_counts, solve_site

@@ -1,8 +1,7 @@
 """The guideline's load and what it does to a support, worked without the program.
 
 Bisection in the place of Newton's method, two equations in the place of vectors; kN, m
-and t, angles in degrees. It has more forms than the program, since the reference
-numbers have them.
+and t, angles in degrees.
 """
 
 import math
@@ -64,19 +63,12 @@ def load(row, lean, height, case, form, normal):
     psi, density = math.radians(row.slope), 0.27 * find_altitude_factor(row)
     share = min(height * math.cos(psi) / row.net, 1.0) * (1.0 if case == 1 else 0.77)
 
-    def weigh(rho, of):
-        filled = min(row.net, of * math.cos(psi))
-        return rho * 10.0 * filled**2 / 2.0 * math.tan(math.radians(lean))
-
-    along, prism = press(row, density, height), weigh(density, height)
-    if case == 2 and form == "own density":
-        along, prism = press(row, 0.40, 0.77 * height), weigh(0.40, 0.77 * height)
-    elif case == 2 and form == "same pressure":
-        prism = weigh(0.40, 0.77 * height)
-    elif form.startswith("dimensioning"):
+    filled = min(row.net, height * math.cos(psi))
+    prism = density * 10.0 * filled**2 / 2.0 * math.tan(math.radians(lean))
+    along = press(row, density, height)
+    if form == "dimensioning":
         along = press_by_form(row)
-    steep = math.radians(45.0) if form.endswith("45") else psi
-    down = along * normal / (row.glide * math.tan(steep)) + prism * math.cos(psi)
+    down = along * normal / (row.glide * math.tan(psi)) + prism * math.cos(psi)
     return along + prism * math.sin(psi), down, share
 
 

@@ -25,8 +25,8 @@ from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
 from netdesign.structure.members import MEMBER_MODES
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests import small_site
 from tests.each import each
 from tests.grid import solve_site

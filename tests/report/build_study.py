@@ -23,11 +23,14 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (
     CaseRecord,
+    Drawing,
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
     GuidelineRecord,
+    HeldSidewaysRecord,
     LargestForce,
+    PullRecord,
 )
 from netdesign.study.records import (
     SCHEMA,
@@ -40,11 +43,6 @@ from netdesign.study.records import (
     Study,
     VariableRecord,
     VariantRecord,
-)
-from netdesign.study.support_records import (
-    Drawing,
-    HeldSidewaysRecord,
-    PullRecord,
 )
 from netdesign.words.message import Message, say
 

@@ -6,7 +6,7 @@ from netdesign.commands.check_run import _print_summaries
 from netdesign.report.sections.scopes import describe_study_scopes
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, show_check
-from netdesign.study.governing import find_governing
+from netdesign.study.scopes import find_governing
 from tests.report.build_study import SCRIPT, build_study
 
 

@@ -159,10 +159,6 @@ def refuse(build, given, argument, value):
     return str(refused.value)
 
 
-def ids(cases):
-    return [f"{case[0].__name__}-{case[2]}" for case in cases]
-
-
 @each("build, given, argument, low, high, unit", WITHIN)
 def test_what_lies_outside_is_refused_and_both_ends_are_not(
     build, given, argument, low, high, unit

@@ -12,9 +12,8 @@ from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.row_to_check import build_scene
+from netdesign.study.row_to_check import CheckRun, build_scene
 from tests.grid import solve_site, wrap_results
 from tests.solving.made_up_workers import Recording
 

@@ -39,15 +39,3 @@ def find_fluidity(law, density):
 def test_the_spread_that_reports_tell_is_that_of_the_law(name, spread):
     found = [find_fluidity(CREEP_LAWS[name], density) for density in DENSITIES]
     assert max(found) / min(found) == pytest.approx(spread, rel=0.02)
-
-
-def test_the_rate_itself_changes_2000_fold():
-    rates = [settle(density) for density in DENSITIES]
-    assert max(rates) / min(rates) == pytest.approx(2000, rel=0.02)
-
-
-def test_fluidities_of_the_default_law_are_those_of_the_page():
-    law = CREEP_LAWS["boutillier-2004"]
-    found = [find_fluidity(law, density) for density in DENSITIES]
-    printed = [0.63, 0.58, 0.69, 0.95, 1.43, 2.32, 4.00]
-    assert found == pytest.approx(printed, rel=0.01)

@@ -200,6 +200,3 @@ def test_ends_of_the_net_have_sectors_of_their_own(interfaces, at_head):
         distance = np.hypot(x, y - height)
         nearest = np.sort(distance)[1]
         assert (distance < nearest * (1.0 + 1e-6)).sum() == 1 + sectors + 1
-
-
-SOUND = {"net_spacing": 0.2, "corner": 0.01, "sectors": 2, "upslope_spacing": 1.0}

@@ -48,16 +48,6 @@ def test_thickness_is_less_than_vertical_height():
     assert compute_thickness(3.0, 0.0) == 3.0
 
 
-ACCEPTED = [
-    ("slope_angle", 0.0),
-    ("slope_angle", STEEPEST_SLOPE),
-    ("density", 10.0),
-    ("density", 0.99 * 917.0),
-    ("gravity", "full"),
-    ("gravity", "parallel"),
-]
-
-
 REFUSED = [
     ("slope_angle", -1e-12, "slope angle"),
     ("slope_angle", math.nextafter(STEEPEST_SLOPE, 2.0), "slope angle"),

@@ -90,3 +90,11 @@ def test_layout_refuses_what_is_no_number(field, bad):
 def test_layout_refuses_values_beyond_its_ranges(field, bad):
     with pytest.raises(ModelError, match=field.replace("_", " ")):
         a_layout(**{field: bad})
+
+
+def test_base_by_its_position_stays_where_it_is():
+    """The tilt follows the head: 3 m high, 0.8 m across."""
+    for head in ((1.4, 3.0), (1.7, 3.0), (2.1, 3.0)):
+        points = place_support(a_layout(post_base_distance=0.9), head)
+        assert points.post_base == (0.9, 0.0)
+        assert points.downhill_anchor == pytest.approx((2.9, 0.0), rel=1e-15)

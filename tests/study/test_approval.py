@@ -11,7 +11,7 @@ from netdesign.checks import Approval, Declaration, Proof, StatedValue, load_sta
 from netdesign.outcome import Verdict
 from netdesign.site.assumed import load_assumed
 from netdesign.snow.ground import GroundLaw
-from netdesign.study.effects import find_altitude_factor, load_glide_limits
+from netdesign.study.guideline_load import find_altitude_factor, load_glide_limits
 from netdesign.study.judge import judge_site
 from netdesign.study.scopes import SCOPES, Scope, list_of_scope
 from tests.grid import solve_site, wrap_results

@@ -16,8 +16,7 @@ from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
-from netdesign.study.row_to_check import CaseSolver
-from netdesign.study.variants import place_variant
+from netdesign.study.row_to_check import CaseSolver, place_variant
 from netdesign.words.message import say
 from tests.small_site import (
     RANGES,

@@ -13,9 +13,8 @@ from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
 from netdesign.site.template.office_workbook import write_input_workbook
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_row
-from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.row_to_check import CaseSolver, CheckRun
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.03))
 STANDARD = load_standard("swiss-guideline-2007")

@@ -3,7 +3,7 @@
 import math
 import random
 
-from netdesign.study.bores import BondInGround
+from netdesign.study.anchor_ground import BondInGround
 
 
 def build_bond(cover, least=None):

@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.resistance.ground import Bond
 from netdesign.site.model import Resistance
-from netdesign.study.stronger_types import find_size
+from netdesign.study.remedies import find_size
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.each import each

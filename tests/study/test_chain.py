@@ -14,8 +14,8 @@ from netdesign.resistance.steel import find_loss, leave_area
 from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
 from netdesign.structure.members import Member
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests.each import each
 from tests.grid import solve_site
 from tests.old_example import load_example

@@ -13,7 +13,7 @@ from netdesign.checks.check import CasePoint, Check
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Outcome, StudyError, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.case_records import CaseRecord, LargestForce
+from netdesign.study.case_records import CaseRecord, Drawing, LargestForce
 from netdesign.study.document import (
     compute_digest,
     hash_results,
@@ -24,7 +24,6 @@ from netdesign.study.document import (
     write_document,
 )
 from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, RowStudy, Study
-from netdesign.study.support_records import Drawing
 from netdesign.words.message import say
 from tests.each import each
 

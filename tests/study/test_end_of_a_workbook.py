@@ -10,8 +10,8 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.digits import write_force
 from tests.old_example import write_old_example

@@ -23,7 +23,7 @@ from netdesign.study.guideline_anchors import (
 )
 from netdesign.study.judge import judge_site
 from netdesign.study.pulls import ANCHORS
-from netdesign.study.variants import place_variant
+from netdesign.study.row_to_check import place_variant
 from tests.each import each
 from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site

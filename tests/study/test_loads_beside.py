@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from netdesign.checks import Approval, StatedValue, load_standard
 from netdesign.outcome import Verdict
 from netdesign.study.judge import judge_site
-from netdesign.study.maker import list_maker_leaves
+from netdesign.study.member_force import list_maker_leaves
 from netdesign.study.scopes import Scope, list_of_scope
 from tests.grid import solve_site, wrap_results
 from tests.small_site import ROWS, RUN, STRONG, build_row, build_site, resist

@@ -15,8 +15,8 @@ from netdesign.site.reader import read_site
 from netdesign.site.statements import find_lacking, list_missing
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import EndMember, Member
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from netdesign.study.scopes import STRUCTURE, Scope, find_scopes
 from netdesign.study.to_do import list_to_do
 from netdesign.words.message import say

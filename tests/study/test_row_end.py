@@ -14,8 +14,7 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study import sideways
-from netdesign.study.effects import find_effects
-from netdesign.study.record_guideline import find_row_floor
+from netdesign.study.guideline_load import find_effects, find_row_floor
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.sideways import find_rope_factors
 from netdesign.words.message import say

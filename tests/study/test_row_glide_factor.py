@@ -18,7 +18,7 @@ from netdesign.snow.ground import (
     load_glide_tables,
 )
 from netdesign.solving.solve import solve_scene
-from netdesign.study.effects import (
+from netdesign.study.guideline_load import (
     find_glide_factors,
     find_row_glide_factor,
     find_solved_ground,

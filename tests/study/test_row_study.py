@@ -12,9 +12,8 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Resistance
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.members import MEMBER_MODES
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
-from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.row_to_check import CaseSolver, CheckRun
 from tests.grid import solve_site
 from tests.small_site import EYE, LASTS, build_row, build_site
 

@@ -10,9 +10,9 @@ from netdesign.checks import load_standard
 from netdesign.checks.forces import load_guy, load_post
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.structure.members import Member
-from netdesign.study.effects import find_effects
+from netdesign.study.case_records import HeldSidewaysRecord
+from netdesign.study.guideline_load import find_effects
 from netdesign.study.member_force import RowForces, _list_load_leaves
-from netdesign.study.support_records import HeldSidewaysRecord
 from tests.each import each
 from tests.small_site import RANGES, build_row
 

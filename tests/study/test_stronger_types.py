@@ -7,8 +7,8 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
-from netdesign.study.stronger_types import find_type_change
 from tests.short_example import write_short_example
 
 PROFILE = load_standard("nf-p-95-304-style")

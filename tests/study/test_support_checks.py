@@ -17,8 +17,8 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.posts import ask_efficiency, find_post_resistance
+from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
-from netdesign.study.stronger_types import find_type_change
 from tests.checks.given_pulls import POST, find_second, judge_row, study_row, write_row
 
 SECOND = find_second(0.5)

@@ -13,9 +13,9 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import OwnProcess, solve_job
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests.old_example import write_old_example
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.001))

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.study.values import compare_values, list_values
+from netdesign.study.document import compare_values, list_values
 from tests.each import each
 from tests.report.build_study import build_study
 

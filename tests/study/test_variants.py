@@ -12,7 +12,7 @@ from netdesign.site.assumed import assume, assume_ends
 from netdesign.structure.splay import Guys
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
-from netdesign.study.variants import list_layouts, list_variants, place_variant
+from netdesign.study.row_to_check import list_layouts, list_variants, place_variant
 from tests.small_site import RUN, build_row, build_site, resist
 
 STANDARD = load_standard("swiss-guideline-2007")

@@ -11,7 +11,6 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.outcome import StudyError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.record_provenance import (
@@ -23,6 +22,7 @@ from netdesign.study.record_provenance import (
     record_provenance,
 )
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.row_to_check import CheckRun
 from tests.alter_study import alter_leaf, list_leaves
 from tests.each import each
 from tests.short_example import write_short_example

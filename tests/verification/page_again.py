@@ -17,8 +17,6 @@ WITHOUT_INTERVAL = ("R_k",)
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 _VALUE = re.compile(rf"({_NUMBER}|∞|-)(?: \(({_NUMBER})–({_NUMBER})\))?(°| .*)?$")
 _LINE = re.compile(r"[✓✗?†] (.+?) ?: (.*)$", re.DOTALL)
-# What begins after a semicolon: a step, or the case.
-_NEXT = re.compile(r"; (?:[^\W\d](?:_?\w)* = |[\d.]+ / |load case)")
 _SYMBOL = re.compile(r"[^\W\d](?:_?\w)*")
 _FUNCTIONS = {"max": max, "min": min, "sqrt": math.sqrt, "sin": None, "cos": None,
               "tan": None}  # fmt: skip

@@ -19,8 +19,8 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.report.page.html import render_html
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES
 from tests.old_example import write_old_example
 from tests.report.printing import (

@@ -13,10 +13,6 @@ from tests.sources import walk_package
 GUARDS = ("require_positive", "require_count", "require_within", "require_one_of")
 
 
-# Titles of documents stay in their language.
-QUOTING = ("profile_source.",)
-
-
 # Told to nobody: what code does wrong, or what a caller catches and words itself.
 OWN = ("ValueError", "TypeError", "KeyError", "RuntimeError", "SingularError")
 OWN += ("AttributeError", "SystemExit")  # of Python itself

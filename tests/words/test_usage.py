@@ -72,6 +72,3 @@ def test_one_term_stands_for_one_thing(language, name, pattern):
 )
 def test_a_count_brings_its_noun_along(language, count, told):
     assert render(say("map.missing", count=count), language).startswith(told)
-
-
-WORD = re.compile(r"[^\W\d_]{2,}")

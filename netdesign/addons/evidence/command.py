@@ -30,8 +30,8 @@ from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
+    from netdesign.study.document import Difference
     from netdesign.study.records import Study
-    from netdesign.study.values import Difference
 
 
 _FAIL, _NOT_PROVEN = 1, 4
@@ -114,8 +114,7 @@ def _show_comparison(
     study: Study, again: Study, count: int, differences: list[Difference]
 ) -> None:
     """Tell which values do not come out; the hash may differ in last digits."""
-    from netdesign.study.document import hash_results, write_document
-    from netdesign.study.values import SAME
+    from netdesign.study.document import SAME, hash_results, write_document
 
     stored, now = hash_results(study), hash_results(again)
     if stored == now or differences:

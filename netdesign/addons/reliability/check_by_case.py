@@ -14,7 +14,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.structure.members import Member, RopeForce
 from netdesign.study.case_records import LargestForce
-from netdesign.study.effects import find_effects
+from netdesign.study.guideline_load import find_effects
 from netdesign.study.judgement import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces, find_force
 from netdesign.study.row_to_check import RowToCheck

@@ -20,7 +20,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Bore, Position
-from netdesign.study.bores import place_anchors, place_end_anchors
+from netdesign.study.anchor_ground import place_anchors, place_end_anchors
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.sideways import place_row
 from netdesign.words.catalogue import Language, render

@@ -32,7 +32,7 @@ from netdesign.report.drawing.section_measures import (
     show_heights,
 )
 from netdesign.report.words import ENGLISH, Words, show_member
-from netdesign.study.support_records import Drawing, PullRecord
+from netdesign.study.case_records import Drawing, PullRecord
 
 # Design force [kN] and utilisation in words, by member.
 Forces = Mapping[str, tuple[float, str]]

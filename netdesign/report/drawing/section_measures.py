@@ -10,7 +10,7 @@ from itertools import pairwise
 from netdesign.report.drawing.label_board import Label, LabelBoard, write_label
 from netdesign.report.drawing.plain_svg import GREY, SOFT, Chart, Point
 from netdesign.report.words import Words
-from netdesign.study.support_records import Drawing
+from netdesign.study.case_records import Drawing
 
 PAPER = 336.0  # width of the drawing [pt]
 _TALLEST = 186.0

@@ -31,8 +31,8 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember, NetPart
-from netdesign.study.governing import find_governing
 from netdesign.study.records import RowStudy, Study
+from netdesign.study.scopes import find_governing
 from netdesign.words.catalogue import Language
 
 _REST = ""  # checks that follow from no force: geometry, directions

@@ -13,11 +13,11 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.study.governing import (
+from netdesign.study.records import RowStudy
+from netdesign.study.scopes import (
     find_governing,
     is_far_from_limit,
 )
-from netdesign.study.records import RowStudy
 from netdesign.study.to_do import shorten_reason
 from netdesign.words.message import Message, say
 from netdesign.words.names import name

@@ -10,9 +10,14 @@ from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.words import Words
 from netdesign.structure.members import EndMember, Member, NetPart
-from netdesign.study.governing import find_governing, find_highest
 from netdesign.study.records import RowStudy
-from netdesign.study.scopes import STRUCTURE, Scope, list_of_scope
+from netdesign.study.scopes import (
+    STRUCTURE,
+    Scope,
+    find_governing,
+    find_highest,
+    list_of_scope,
+)
 
 # Anchors by the columns of the first page.
 ANCHORS: Mapping[str, tuple[str, ...]] = MappingProxyType(

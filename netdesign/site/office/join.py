@@ -57,7 +57,6 @@ _NAMING = {
     "Ropes": ("ridge_rope", "lower_rope", "uphill_guy", "downhill_guy", "end_guy"),
     "Posts": ("post",),
 }
-_NOT_SEARCHED = ("ridge_sag", "lower_sag")
 _BLOCKS = {"Anchors": "anchor_types", "Ropes": "ropes", "Posts": "posts"}
 
 
@@ -187,18 +186,6 @@ def _join_layers(
     return order_layers(joined, findings)
 
 
-def _refuse_ranges(rows: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse ranges of quantities that are not searched; each cell once."""
-    cells = {
-        row[key].place: row[key]
-        for row in rows
-        for key in _NOT_SEARCHED
-        if row[key].span is not None
-    }
-    for reading in cells.values():
-        refuse(reading, say("office.range"), say("accepted.one_number"), findings)
-
-
 def _collect(
     tables: OfficeTables,
     lines: Mapping[str, Sequence[Row]],
@@ -208,7 +195,6 @@ def _collect(
     snow: LayersByRow,
     findings: list[Finding],
 ) -> Lines:
-    _refuse_ranges(rows, findings)
     tests = join_tests(lines["tests"])
     anchors = join_anchors(lines["anchor_types"], tests, lines["soils"], project)
     if tests:

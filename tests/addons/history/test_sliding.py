@@ -217,17 +217,6 @@ def test_no_stall_at_any_friction_angle(n):
     assert {0} < set(step.slide_signs)  # at 45 deg, where most nodes stick
 
 
-REFUSED = [
-    ("final length 1", {"final": [1.0, 0.0]}),
-    ("final length 0", {"final": [math.nan, 1.0]}),
-    ("old unstressed length 1", {"old": [1.0, -1.0]}),
-    ("must be n \\+ 1 each, and n", {"old": [1.0, 1.0, 1.0]}),
-    ("must be n \\+ 1 each, and n", {"bounds": [0.1, 0.1]}),
-    ("at least 0", {"bounds": [-0.1]}),
-    ("at least 0", {"bounds": [math.nan]}),
-]
-
-
 def test_iteration_limit_is_an_outcome():
     step = random_case(4).solve(max_iterations=1)
     assert step.outcome is Outcome.MAX_ITERATIONS

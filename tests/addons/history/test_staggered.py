@@ -87,19 +87,6 @@ def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
         solve_staggered(a_scene(), SETTINGS, on_failure="raise")
 
 
-SETTINGS_REFUSED = [
-    ({"base_drag": 0.0}, "base drag"),
-    ({"base_drag": math.nan}, "base drag"),
-    ({"base_drag": 11.0}, "base drag"),
-    ({"step_share": 0.0}, "step share"),
-    ({"step_share": 2.1}, "step share"),
-    ({"horizon": 0.0}, "horizon"),
-    ({"horizon": math.inf}, "horizon"),
-    ({"stress_tolerance": 1e-3}, "stress tolerance"),
-    ({"max_iterations": 0}, "iterations"),
-]
-
-
 # --- fault 8: what the drag holds is in the stated error (K9) ---------------------
 
 

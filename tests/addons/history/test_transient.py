@@ -1,6 +1,5 @@
 """Histories: steps in balance, mass kept, plateau, starts, what ends a run early."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -162,19 +161,6 @@ def test_step_that_fails_later_ends_the_history_there(a_scene, monkeypatch):
     assert len(history.moments) <= 4
     assert "broken on purpose" in str(history.ended)
     assert not history.plateau.reached
-
-
-SETTINGS_REFUSED = [
-    ({"accuracy": 0.2}, "accuracy"),
-    ({"accuracy": math.nan}, "accuracy"),
-    ({"horizon": 0.0}, "horizon"),
-    ({"horizon": math.inf}, "horizon"),
-    ({"stress_tolerance": 1e-3}, "stress tolerance"),
-    ({"balance_tolerance": 1e-5}, "balance tolerance"),
-    ({"max_steps": 0}, "steps"),
-    ({"max_iterations": 0}, "iterations"),
-    ({"levels": TRANSIENT_LEVELS[:1]}, "two mesh levels"),
-]
 
 
 def test_too_few_steps_are_said(a_scene):

@@ -12,8 +12,7 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.study.effects import find_effects
-from netdesign.study.record_guideline import find_row_floor
+from netdesign.study.guideline_load import find_effects, find_row_floor
 from tests.each import each
 from tests.small_site import build_row
 

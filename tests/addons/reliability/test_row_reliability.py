@@ -21,12 +21,12 @@ from netdesign.study import worst_checks
 from netdesign.study.cases import search_site
 from netdesign.study.check_site import check_site
 from netdesign.study.document import read_document, write_document
-from netdesign.study.effects import find_effects
-from netdesign.study.governing import find_worst
+from netdesign.study.guideline_load import find_effects
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import find_force
 from netdesign.study.record_envelope import read_point
 from netdesign.study.row_to_check import CaseSolver
+from netdesign.study.scopes import find_worst
 from netdesign.study.side_by_side import name_rows
 from tests.each import each
 from tests.short_example import write_short_example

@@ -2,8 +2,6 @@
 
 from netdesign.addons.winter.command import _is_proven
 
-QUICK = ("--accuracy", "0.05", "--jobs", "1", "--every", "60", "--quiet")
-
 
 def is_settled(largest, thin):
     winters = [{"is_proven": True}, {"is_proven": thin, "is_below_largest": largest}]

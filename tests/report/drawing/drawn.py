@@ -11,8 +11,7 @@ from netdesign.addons.winter.figure import draw_winter
 from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.pressure_figure import draw_pressure
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.study.case_records import GuidelineRecord
-from netdesign.study.support_records import Drawing, PullRecord
+from netdesign.study.case_records import Drawing, GuidelineRecord, PullRecord
 from tests.report.build_study import build_study
 
 AXES = {

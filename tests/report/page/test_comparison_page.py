@@ -8,8 +8,8 @@ from netdesign.checks import load_standard
 from netdesign.report.page.comparison_page import render_comparison
 from netdesign.report.words import ENGLISH, VERDICTS, Words, show_own
 from netdesign.site.model import ReplacedCell
-from netdesign.study.governing import find_governing
 from netdesign.study.judge import judge_site
+from netdesign.study.scopes import find_governing
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.grid import solve_site
 from tests.report.reading import PageReader

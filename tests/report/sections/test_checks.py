@@ -9,7 +9,7 @@ from netdesign.report.sections.checks import (
     describe_resistance,
 )
 from netdesign.report.words import Words
-from netdesign.study.governing import find_governing, find_highest
+from netdesign.study.scopes import find_governing, find_highest
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.digits import write_force

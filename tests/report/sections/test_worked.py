@@ -10,7 +10,7 @@ from netdesign.report.page.html import render_html
 from netdesign.report.sections.annexes import list_annexes
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check
-from netdesign.study.governing import find_shown
+from netdesign.study.scopes import find_shown
 from netdesign.words.message import say
 from tests.report.build_study import build_row, build_study
 from tests.report.reading import PageReader

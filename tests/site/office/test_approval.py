@@ -6,10 +6,10 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.study.effects import find_altitude_factor
-from netdesign.study.maker import list_maker_leaves
+from netdesign.study.guideline_load import find_altitude_factor
+from netdesign.study.member_force import list_maker_leaves
+from netdesign.study.row_checks import check_limits
 from netdesign.study.row_to_check import Basis
-from netdesign.study.structure import check_limits
 from tests.each import each
 from tests.site.office.books import write_office
 from tests.site.office.drawn import draw_tables

@@ -10,7 +10,7 @@ import pytest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
-from netdesign.study.check_run import CheckRun
+from netdesign.study.row_to_check import CheckRun
 from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import draw_lines, empty
 

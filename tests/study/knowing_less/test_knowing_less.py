@@ -11,8 +11,8 @@ from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import NetPart
-from netdesign.study.check_run import CheckRun
 from netdesign.study.judge import judge_site
+from netdesign.study.row_to_check import CheckRun
 from tests.grid import solve_site
 from tests.site_lines import write_lines
 from tests.study.knowing_less.drawn_site import (

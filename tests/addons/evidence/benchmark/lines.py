@@ -43,11 +43,8 @@ from netdesign.snow.mesh import MeshSize
 Row = dict[str, Any]
 Done = Callable[[Row], None] | None
 
-LINES_SCHEMA = "netdesign.lines/1"
 POINTS = 200
 TRUTHS = 5  # points of a line that are held against a finer mesh
-MOST_OUTSIDE = 0.05  # share of the true errors beyond the stated ones
-LARGEST_EXCESS = 1.5  # of a true error over the stated one
 ENDS = ("foot", "head")
 _BISECTIONS = 5  # of the gap in which a pull seems to jump
 _OWN_SCENES = 1000  # random scenes that are a line's own
@@ -165,33 +162,6 @@ def study_line(number: int, *, seed: int, accuracy: float, points: int = POINTS)
         "largest_jump": max((one["over_stated"] for one in steps), default=0.0),
         "ratios": ratios,
         "missing": len(checked) - len(ratios),
-    }
-
-
-def write_lines(lines: Sequence[Row], seed: int, accuracy: float) -> Row:
-    """Plain values in the form ``netdesign.lines/1``.
-
-    A point without a true error counts as outside the stated one, and fails.
-    """
-    ratios = [ratio for line in lines for ratio in line["ratios"]]
-    missing = sum(line["missing"] for line in lines)
-    jumps = sum(len(line["jumps"]) for line in lines)
-    outside = sum(ratio > 1.0 for ratio in ratios)
-    is_honest = bool(ratios) and not missing and outside <= MOST_OUTSIDE * len(ratios)
-    return {
-        "schema": LINES_SCHEMA,
-        "lines": len(lines),
-        "seed": seed,
-        "accuracy": accuracy,
-        "solved": sum(line["solved"] for line in lines),
-        "jumps": jumps,
-        "largest_jump": max(line["largest_jump"] for line in lines),
-        "compared": len(ratios),
-        "without_truth": missing,
-        "outside_stated": outside,
-        "largest_true_over_stated": max(ratios, default=None),
-        "pass": is_honest and not jumps and max(ratios) <= LARGEST_EXCESS,
-        "of_lines": list(lines),
     }
 
 

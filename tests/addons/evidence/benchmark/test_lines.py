@@ -12,7 +12,6 @@ from tests.addons.evidence.benchmark.lines import (
     follow,
     record,
     study_lines,
-    write_lines,
 )
 from tests.each import each
 
@@ -73,38 +72,7 @@ def test_a_short_line(number):
 @pytest.mark.robustness
 def test_whole_lines():
     """200 scenes each; some points are held against meshes finer than any level."""
-    document = write_lines(study_lines(60, 1, accuracy=0.005), 1, 0.005)
-    assert not document["jumps"]
-    assert document["largest_true_over_stated"] <= 1.5
-    assert document["without_truth"] <= 1  # one of 287
-
-
-def a_line(**changed):
-    return {
-        "number": 0,
-        "parameter": "slack",
-        "solved": 8,
-        "jumps": [],
-        "largest_jump": 0.9,
-        "ratios": [0.25, 0.97],
-        "missing": 0,
-    } | changed
-
-
-@each(
-    "changed, is_passed",
-    [
-        ({}, True),
-        ({"ratios": [0.5] * 19 + [1.49]}, True),
-        ({"ratios": [0.5] * 19 + [1.51]}, False),
-        ({"ratios": [0.5] * 18 + [1.01] * 2}, False),
-        ({"jumps": [{"place": 3, "end": "foot", "over_stated": 1.25}]}, False),
-        ({"missing": 1}, False),
-        ({"ratios": []}, False),
-    ],
-)
-def test_jumps_and_errors_beyond_the_stated_ones_fail(changed, is_passed):
-    document = write_lines([a_line(**changed), a_line(ratios=[])], 1, 0.005)
-    assert document["schema"] == "netdesign.lines/1"
-    assert document["lines"] == 2
-    assert document["pass"] is is_passed
+    lines = study_lines(60, 1, accuracy=0.005)
+    assert [line["jumps"] for line in lines] == [[]] * 60
+    assert max(ratio for line in lines for ratio in line["ratios"]) <= 1.5
+    assert sum(line["missing"] for line in lines) <= 1  # one of 287
