@@ -14,38 +14,40 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.reader import read_site
 
 SOUND = {
-    "Nets": [
-        [
-            "id",
-            "slope angle [deg]",
-            "snow thickness [m]",
-            "snow height vertical [m]",
-            "upslope length [m]",
-            "ground law",
-            "slip length [m]",
-            "glide factor [-]",
-            "net height [m]",
-            "net stiffness [kN/m]",
-            "post spacing [m]",
-            "foot anchor",
-            "uphill guy",
-            "post",
-        ],
-        ["R1", 40, 3.0, None, 20, "free", None, None, 3.5, 9000, 3.5, "A1", "G1", "P1"],
-        ["R2", 35, 2.5, None, 15, "no-slip", None, None, 3, 8000, 4, "A2", None, None],
+    "Project": [
+        ["item", "value", "unit"],
+        ["density of the snow", "270 to 400", "kg/m3"],
+        ["friction angle net/snow", "15 to 45", "deg"],
     ],
-    "Ranges": [
-        ["quantity", "low", "high"],
-        ["density [kg/m3]", 270, 400],
-        ["friction angle [deg]", 15, 45],
+    "Rows": [
+        [
+            *("row", "slope ψ [deg]", "snow height [m normal]", "glide factor N"),
+            *("upslope length L [m]", "net type", "post spacing b [m]"),
+            *("net anchor (foot)", "posts", "ground"),
+        ],
+        ["R1", 40, 3.0, "free", 20, "N1", 3.5, "A1", 11, None],
+        ["R2", 35, 2.5, 1.0, 15, "N2", 4, "A2", None, None],
+    ],
+    "Net types": [
+        [
+            *("net type", "effective height D_K [m]", "net stiffness [kN/m]"),
+            *("uphill guy", "post"),
+        ],
+        ["N1", 3.5, 9000, "G1", "P1"],
+        ["N2", 3, 8000, None, None],
     ],
     "Anchors": [
-        ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],
-        ["A1", 400, 300, "tested"],
+        ["anchor type", "tendon R_k [kN]", "pull-out [kN]", "how proven"],
+        ["A1", 400, 300, "tests"],
         ["A2", 250, None, None],
     ],
-    "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 250]],
-    "Posts": [["id", "compression resistance [kN]"], ["P1", 380]],
+    "Parts": [
+        ["rope", "breaking force [kN]"],
+        ["G1", 250],
+        [],
+        ["post", "base R_k [kN]"],
+        ["P1", 380],
+    ],
 }
 
 Sheets = dict[str, list[list[object]]]

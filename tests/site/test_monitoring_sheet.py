@@ -55,7 +55,7 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
 @pytest.mark.parametrize(
     ("line", "cell", "rule"),
     [
-        (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Nets"),
+        (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Rows"),
         (["R1", "roof", 1.0, 10.0, None], "B2", "is not a known word"),
         (["R1", "post", None, 10.0, None], "C2", "is empty: neither time nor"),
         (["R1", "post", 1.0, None, None], "A2", "without a measurement"),

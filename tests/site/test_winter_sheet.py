@@ -117,7 +117,7 @@ def test_a_row_has_its_own_height_factor(sheets, save):
     [
         (((None, None), (1.2, "R1"), (1.3, "R1")), "E4", "has a height factor already"),
         (((0.9, None), (None, "R1"), (None, None)), "E3", "without a height factor"),
-        (((0.9, None), (1.2, "r 77"), (None, None)), "E3", "is no id of sheet Nets"),
+        (((0.9, None), (1.2, "r 77"), (None, None)), "E3", "is no id of sheet Rows"),
         (((0.9, None), (1.2, None), (None, None)), "D3", "height factor without a row"),
         (((0.9, None), (5.2, "R1"), (None, None)), "D3", "accepted: 0.2 to 5"),
     ],

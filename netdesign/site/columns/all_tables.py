@@ -30,7 +30,7 @@ Data = Mapping[str, Any]
 
 READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 
-_TOLD = ("empty", "symbol", "column", "is_old")  # of documents, or of a plan
+_TOLD = ("column", "is_old")  # that the field itself has not
 _OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them too
 
 

@@ -220,7 +220,9 @@ def _collect(
             sheet: index_lines(of, "id", accepted, findings) if found[sheet] else {}
             for sheet, of in of_types.items()
         },
-        absent=[one for one, table in found.items() if not table],
+        absent=[
+            x for x, of in found.items() if not of and _BLOCKS[x] not in tables.unread
+        ],
         unreadable=[x for x, of in found.items() if not of or "id" not in of.columns],
         ranges=build_site_ranges(project),
         links=join_links(lines["links"]),

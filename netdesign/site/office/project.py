@@ -37,6 +37,8 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
         assert table is not None
         item = line["item"]
         if not item.word:
+            if line["value"].word and item.state == "blank":
+                refuse(item, say("cell.empty"), item.field.accepted, findings)
             continue
         field = match_item(item, table.plan.items, findings)
         if field is None:

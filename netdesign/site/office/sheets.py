@@ -20,6 +20,7 @@ from netdesign.site.columns.office import (
 from netdesign.site.headings import Table
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
+from netdesign.site.titles import list_meant
 
 _FIRST_ROWS = 25  # in which headings and their units stand
 _LEAST_KNOWN = 2  # headings, to be a row of them
@@ -40,6 +41,7 @@ class OfficeTables:
     tables: Mapping[str, Table | None]
     lines: Mapping[str, Sequence[Row]]
     measures: Mapping[tuple[str, str], str]
+    unread: frozenset[str] = frozenset()  # tables whose sheet is there without headings
 
     @property
     def rows(self) -> Table | None:
@@ -111,6 +113,9 @@ def find_office_tables(
     findings.extend(one for one in told if not _is_of_template(one))
     return OfficeTables(
         tables=tables,
+        unread=frozenset(
+            x for x in plans if not tables[x] and list_meant(plain, plans[x])
+        ),
         lines={name: read_rows(one, findings) for name, one in tables.items()},
         measures={
             (name, key): named[table.sheet.name].get(column.number, "")

@@ -6,7 +6,7 @@
 from pathlib import Path
 
 import netdesign
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, load_file
+from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.office import PARTS, TABLES, load_columns
 from netdesign.site.template.empty import say_empty
 from netdesign.words.catalogue import render
@@ -14,12 +14,6 @@ from netdesign.words.message import say
 
 USAGE = Path(netdesign.__file__).parent / "USAGE.md"
 HEAD = ("| sheet | columns | if empty |", "|---|---|---|")
-
-
-def list_columns(plan):
-    """Columns of a sheet and what its lines may name, which may be left empty."""
-    known = (*plan.fields, *(PROJECT_ITEMS if plan.name == "Project" else plan.items))
-    return [one for one in known if one.empty]
 
 
 def build_table():

@@ -1,77 +1,42 @@
-"""A heading is the one field of that name, or is asked for; never another."""
+"""A heading is the one column of that name, or none; a guess is only sure alone."""
 
 import unicodedata
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.columns.all_tables import RANGES, SHEETS, Lexicon
+from netdesign.site.columns.all_tables import list_unclear
 from netdesign.site.columns.fields import normalise
-from netdesign.site.questions import guess
+from netdesign.site.lists.guess import guess
+from netdesign.site.lists.targets import list_targets
 from tests.each import each
+from tests.site.columns.fields import PLANS, QUANTITIES
 
-LEXICA = {plan.name: Lexicon.of(plan.fields, plan) for plan in SHEETS}
-QUANTITIES = Lexicon.of(RANGES.items, RANGES)
-LEXICA["quantities"] = QUANTITIES
-FIELDS = {name: tuple(one.fields.values()) for name, one in LEXICA.items()}
 NAMES = [
     (table, field.key, name)
-    for table, fields in FIELDS.items()
-    for field in fields
+    for table, plan in PLANS.items()
+    for field in plan.fields
     for name in field.raw_names
 ]
 
-# Sheet, heading, the field that it is; none where it is unknown, or what it may be
-HEADINGS = [
-    ("Nets", "slope angle [deg]", "slope_angle"),
-    ("Nets", "  HANGNEIGUNG (°) ", "slope_angle"),
-    ("Nets", "ψ (°)", "slope_angle"),
-    ("Nets", "D_K [m]", "net_height"),
-    ("Nets", "Dk (m)", "net_height"),
-    ("Nets", "N°", "id"),
-    ("Nets", "hauteur verticale (m)", "snow_height"),
-    ("Nets", "Pfostenabstand", "post_spacing"),
-    ("Nets", "Altitude [m NGF]", "altitude"),
-    ("Anchors", "Stab-Ø", "bar_diameter"),
-    ("Anchors", "bar dia.", "bar_diameter"),
-    ("Posts", "Wz", "section_modulus"),
-    ("Ropes", "EA [kN]", "axial_stiffness"),
-    ("Nets", "HK [m]", {"snow_height", "net_height"}),
-    ("Nets", "D [m]", {"snow_thickness"}),
-    ("Nets", "N", {"glide_factor"}),
-    ("Nets", "Neigung [°]", {"slope_angle", "post_tilt"}),
-    ("Nets", "altezza rete [m]", {"net_height"}),
-    ("Nets", "Ancrage amont (ancien)", {"uphill_anchor"}),
-    ("Posts", "Länge [m]", {"buckling_length"}),
-    ("quantities", "inclinaison", {"inclination"}),
-    ("quantities", "Bodenreibung", {"friction_angle", "glide_factor"}),
-    ("Nets", "Netzhöhe HK", None),
-    ("Nets", "Hauteur de poteau [m]", None),
-    ("Nets", "Netzhöhe / hauteur du filet", None),
-    ("Nets", "Dk min.", None),
-    ("Nets", "Entraxe poteaux, en m", None),
-    ("Nets", "zul. Ankerkraft [kN]", None),
-    ("Posts", "allowable bearing [MPa]", None),
-    ("Posts", "zul. Bodenpressung [kPa]", None),
-    ("quantities", "Hangneigung", None),
-    ("Ranges", "de / high", None),
-]
 
-
-@each("table, heading, meant", HEADINGS)
-def test_a_heading_is_its_exact_name_or_asked_for(table, heading, meant):
-    found = LEXICA[table].match(heading)
-    assert (found.field and found.field.key) == (
-        meant if isinstance(meant, str) else None
-    )
-    readings = {one.key for one in found.readings}
-    assert readings == (meant if isinstance(meant, set) else set())
-
-
-@each("table", LEXICA)
-def test_no_heading_is_sure_and_unclear_at_once(table):
-    lexicon = LEXICA[table]
-    assert not lexicon.names.keys() & {k for k, keys in lexicon.unclear.items() if keys}
+@each(
+    "table, heading, meant",
+    [
+        ("rows", "slope ψ [deg]", "slope_angle"),
+        ("rows", "  HANGNEIGUNG ψ (°) ", "slope_angle"),
+        ("rows", "Entraxe des montants b", "post_spacing"),
+        ("net_types", "effective height D_K", "net_height"),
+        ("rows", "Neigung [°]", None),
+        ("rows", "uphill anchor (old)", None),  # behind a word no unit stands
+        ("rows", "zul. Ankerkraft [kN]", None),
+        ("rows", "post spacing b, in m", None),
+        ("rows", "x" * 101, None),
+    ],
+)
+def test_a_heading_is_its_whole_name(table, heading, meant):
+    found = PLANS[table].find(heading)
+    assert (found and found.key) == meant
 
 
 @st.composite
@@ -90,8 +55,7 @@ def written(draw):
 @given(written())
 def test_case_accents_punctuation_and_units_do_not_count(drawn):
     table, key, text = drawn
-    found = LEXICA[table].match(text)
-    assert key in {one.key for one in (found.field, *found.readings) if one}
+    assert PLANS[table].find(text).key == key
 
 
 @settings(max_examples=500)
@@ -99,28 +63,27 @@ def test_case_accents_punctuation_and_units_do_not_count(drawn):
 def test_a_word_more_is_another_heading(drawn, word):
     table, _, text = drawn
     for other in (f"{word} {text}", f"{text} {word}"):
-        field = LEXICA[table].match(other).field
+        field = PLANS[table].find(other)
         assert field is None or normalise(other.split("[")[0]) in field.names
 
 
-# Sheet, heading, its unit, the guess that is taken, and one that is ranked
+# Table, heading, its unit, the guess that is taken, and one that is ranked
 @each(
     "table, heading, unit, taken, ranked",
     [
-        ("Nets", "Netzsteifigkeiten [kN/m]", "kN/m", "net_stiffness", "net_stiffness"),
-        ("Nets", "Abstände der Stützen [m]", "m", "post_spacing", "post_spacing"),
-        ("Nets", "Hext lotrecht [m]", "m", None, "snow_height"),
-        ("Nets", "bay [m]", "m", None, None),
-        ("Anchors", "zul. Zugglied [kN]", "kN", None, "tendon"),
-        ("Anchors", "Zugglieder [m]", "m", None, None),  # its unit is no resistance's
-        ("Anchors", "Zugglieder [kN]", "kN", None, "tendon"),
-        ("Posts", "zul. Bodenpressung [kPa]", "kPa", None, "bearing_stress"),
+        ("rows", "Netzsteifigkeiten [kN/m]", "kN/m", "net_stiffness", "net_stiffness"),
+        ("rows", "Abstände der Stützen [m]", "m", "post_spacing", "post_spacing"),
+        ("rows", "Hext lotrecht [m]", "m", None, "snow.vertical"),
+        ("anchor_types", "zul. Zugglied [kN]", "kN", None, "tendon"),
+        ("anchor_types", "Zugglieder [m]", "m", None, None),  # no resistance's unit
+        ("anchor_types", "Zugglieder [kN]", "kN", None, "tendon"),
     ],
 )
 def test_a_guess_is_taken_where_it_is_sure_and_its_unit_fits(
     table, heading, unit, taken, ranked
 ):
-    found = guess(heading, unit, FIELDS[table])
+    fields = [one.field for one in list_targets(table)]
+    found = guess(heading, unit, fields)
     assert (found.field and found.field.key) == taken
     keys = {field.key for field, _ in found.ranked}
     assert ranked is None or ranked in keys
@@ -132,5 +95,12 @@ def test_a_guess_is_taken_where_it_is_sure_and_its_unit_fits(
 @given(st.sampled_from(NAMES))
 def test_without_its_own_name_a_heading_is_never_taken_for_an_allowable_one(one):
     table, _, name = one
-    assert guess(f"zul. {name}", "", FIELDS[table]).field is None
-    assert guess(f"{name} admissible", "", FIELDS[table]).field is None
+    fields = PLANS[table].fields
+    assert guess(f"zul. {name}", "", fields).field is None
+    assert guess(f"{name} admissible", "", fields).field is None
+
+
+@each("sheet", QUANTITIES)
+def test_no_heading_of_a_list_is_sure_and_unclear_at_once(sheet):
+    names = {name for field in QUANTITIES[sheet] for name in field.names}
+    assert names.isdisjoint(list_unclear(sheet))

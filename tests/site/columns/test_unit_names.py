@@ -2,7 +2,6 @@ import math
 
 import pytest
 
-from netdesign.site.columns.all_tables import RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.fields import (
     UNCLEAR_UNITS,
     convert_unit,
@@ -10,6 +9,7 @@ from netdesign.site.columns.fields import (
     to_si,
 )
 from tests.each import each
+from tests.site.columns.fields import FIELDS, QUANTITIES
 
 
 @each(
@@ -73,8 +73,8 @@ def test_first_units_become_si(value, unit, si):
 
 
 def test_every_unit_of_every_column_can_be_converted_and_is_clear():
-    fields = [field for plan in SHEETS for field in plan.fields]
-    for field in (*fields, *RANGE_QUANTITIES):
+    tables = (*FIELDS.values(), *QUANTITIES.values())
+    for field in (field for fields in tables for field in fields):
         for unit in field.units:
             assert normalise_unit(unit) == unit
             assert unit not in UNCLEAR_UNITS
