@@ -7,13 +7,14 @@ import pytest
 
 from netdesign.checks import list_standards
 from netdesign.site.assumed import assume, assume_ends, load_assumed
-from netdesign.site.columns.all_tables import RANGE_QUANTITIES, SHEETS
+from netdesign.site.columns.all_tables import load_old_plans
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.sources import parse_package
 
 FIELDS = {
-    **{f"{plan.name}.{one.key}": one for plan in SHEETS for one in plan.fields},
-    **{f"quantities.{one.key}": one for one in RANGE_QUANTITIES},
+    f"{one.table}.{one.key}": one
+    for plan in load_old_plans().values()
+    for one in (*plan.fields, *plan.items)
 }
 
 

@@ -1,4 +1,4 @@
-"""Drawn tables of net rows: every cell is read as it was typed, or asked for."""
+"""Drawn tables of anchor types: every cell is read as it was typed, or asked for."""
 
 from decimal import Decimal
 
@@ -7,12 +7,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, Workbook, group_by_row
-from netdesign.site.columns.all_tables import NETS, Lexicon
 from netdesign.site.columns.fields import convert_unit
+from netdesign.site.columns.office import load_plan
 from netdesign.site.tables import find_table, read_rows
 
-LEXICON = Lexicon.of(NETS.fields, NETS)
-MEASURED = [field for field in NETS.fields if field.kind == "number" and field.units]
+PLAN = load_plan("anchor_types")
+SHEET = PLAN.name_in("en")
+MEASURED = [field for field in PLAN.fields if field.kind == "number" and field.units]
 SHOWN = {"deg": "°", "m": "m", "kN/m": "kN/ml", "-": "-", "%": "%", "gon": "gon"}
 STRANGE = ("Observations", "Lieu-dit", "Prix (CHF)", "Masse [t]", "Datum", "Fornitore")
 PARTS = ("Secteur Nord", "Abschnitt Ost", "Settore 2", "Zone A")
@@ -57,7 +58,7 @@ def tables(draw):
     fields = draw(columns())
     strangers = draw(st.lists(st.sampled_from(STRANGE), unique=True, max_size=2))
     order = draw(st.permutations([*fields, *strangers]))
-    id_heading = draw(st.sampled_from(["N° de ligne", "Werk-Nr.", "id", "Linea"]))
+    id_heading = draw(st.sampled_from(["anchor type", "ANKERTYP", "Type d'ancrage"]))
     headings, units = [id_heading], [None]
     for one in order:
         if isinstance(one, str):
@@ -101,7 +102,7 @@ def draw_cell(draw, column, truth, row):
 
 def put_in_sheet(lines):
     cells = [
-        Cell(file="f.xlsx", sheet="Lignes de filets", row=row, column=column, value=one)
+        Cell(file="f.xlsx", sheet=SHEET, row=row, column=column, value=one)
         for row, line in enumerate(lines, start=1)
         for column, one in enumerate(line, start=1)
         if one is not None
@@ -109,7 +110,7 @@ def put_in_sheet(lines):
     title = MergedRange(text="A1:D1", row=1, column=1, last_row=1, last_column=4)
     sheet = Sheet(
         file="f.xlsx",
-        name="Lignes de filets",
+        name=SHEET,
         rows=group_by_row(cells),
         merged=(title,),
     )
@@ -121,7 +122,7 @@ def put_in_sheet(lines):
 def test_every_number_is_read_as_typed_or_asked_for_and_every_column_told(drawn):
     lines, truth, strangers = drawn
     findings = []
-    table = find_table(put_in_sheet(lines), NETS, findings)
+    table = find_table(put_in_sheet(lines), PLAN, findings)
     assert table is not None
     rows = {row["id"].word: row for row in read_rows(table, findings)}
     faults = [one for one in findings if one.severity == "error"]
@@ -140,15 +141,14 @@ def test_every_number_is_read_as_typed_or_asked_for_and_every_column_told(drawn)
 
 
 @settings(max_examples=150)
-@given(st.permutations(range(len(NETS.fields))), st.data())
+@given(st.permutations(range(len(PLAN.fields))), st.data())
 def test_a_heading_never_gives_two_columns(order, data):
     """Two columns of one field are refused, whatever their headings."""
-    field = NETS.fields[order[0]]
-    names = [name for name in field.raw_names if LEXICON.match(name).field is not None]
-    one, other = (data.draw(st.sampled_from(names)) for _ in range(2))
-    lines = [["id", one, other], ["R1", 3, 4]]
+    field = PLAN.fields[order[0]]
+    one, other = (data.draw(st.sampled_from(field.raw_names)) for _ in range(2))
+    lines = [["anchor type", one, other], ["R1", 3, 4]]
     findings = []
-    table = find_table(put_in_sheet(lines), NETS, findings)
+    table = find_table(put_in_sheet(lines), PLAN, findings)
     if field.key == "id":
         assert any("again" in str(finding.rule) for finding in findings)
         return

@@ -2,33 +2,35 @@
 
 import math
 import random
+from collections import Counter
 
 import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from tests.each import each
-from tests.site_lines import write_lines
-from tests.study.knowing_less.drawn_site import draw_lines
+from tests.make import load_tables, write_site
 
 
 def write_rows(path, statements, **of_row):
-    """Alike rows with the neighbours that each of them names; others are free."""
-    lines = draw_lines(12)
-    net = {k: v for k, v in lines["Nets"][0].items() if k not in ("gap", "row_end")}
-    net.pop("neighbour", None)
-    net |= {"snow_layers": "uniform", "slack": 0.05, "post_tilt": 15.0}
-    net["panel_system"] = "rectangular"
-    net.pop("post_base_distance", None)
-    lines["Snow"], lines["Ends"] = [], []
-    lines["Nets"] = [
-        net
-        | {"id": name}
-        | ({"row_end": "continuous", "neighbour": ", ".join(into)} if into else {})
-        | of_row.get(name, {})
-        for name, into in statements.items()
-    ]
-    write_lines(path, lines)
+    """Alike rows with the neighbours that each of them names; others are free.
+
+    What differs of a row's net is that of a net type of its own.
+    """
+    tables = load_tables("tiny")
+    (line,), (net,) = tables["rows"], tables["net_types"]
+    tables["ropes"].append({**tables["ropes"][0], "id": "G2"})
+    tables["rows"] = []
+    for name, into in statements.items():
+        own = of_row.get(name, {})
+        of_net = {key: own[key] for key in own if key in net}
+        if of_net:
+            tables["net_types"].append({**net, **of_net, "id": f"of {name}"})
+        row = {**line, **{key: own[key] for key in own if key not in net}, "id": name}
+        row["net_type"] = f"of {name}" if of_net else net["id"]
+        row["gap"] = f"into {', '.join(into)}" if into else None
+        tables["rows"].append(row)
+    write_site(path, tables)
     return path
 
 
@@ -37,7 +39,7 @@ def draw_statements(draw):
     said = {}
     for name in names:
         others = [one for one in names if one != name]
-        count = draw.choice((0, 0, 1, 2, 2, 2, 3))
+        count = draw.choice((0, 0, 2, 2, 2, 3))
         said[name] = draw.sample(others, min(count, len(others)))
     return said
 
@@ -52,20 +54,23 @@ def draw_chain(draw):
     return said
 
 
+def list_pairs(said):
+    """Rows that go on into each other, whichever of the two says so."""
+    return {frozenset((name, one)) for name, into in said.items() for one in into}
+
+
 def is_a_row_of_rows(said):
-    """A row that goes on has two neighbours, none has more, no way leads back."""
-    edges = {frozenset((name, one)) for name, into in said.items() for one in into}
-    degree = {name: sum(name in edge for edge in edges) for name in said}
-    if any(degree[name] != 2 for name, into in said.items() if into):
-        return False
+    """No row has more than two neighbours, and no way leads back."""
+    pairs = list_pairs(said)
     group = {name: {name} for name in said}
-    for one, other in map(tuple, edges):
+    for one, other in map(tuple, pairs):
         if group[one] is group[other]:
             return False
         group[one] |= group[other]
         for name in group[other]:
             group[name] = group[one]
-    return max(degree.values()) <= 2
+    joined = Counter(one for pair in pairs for one in pair)
+    return max(joined.values(), default=0) <= 2
 
 
 @each("seed", range(60))
@@ -75,12 +80,13 @@ def test_a_row_has_two_ends_and_rows_close_no_ring(tmp_path, seed):
     path = write_rows(tmp_path / "site.xlsx", said)
     if is_a_row_of_rows(said):
         rows = {row.id: row for row in read_site(path).rows}
-        assert all(rows[name].has_end != bool(into) for name, into in said.items())
+        joined = Counter(one for pair in list_pairs(said) for one in pair)
+        assert all(row.has_end == (joined[name] < 2) for name, row in rows.items())
         return
     with pytest.raises(SiteDataError) as caught:
         read_site(path)
     found = [one for one in caught.value.findings if one.severity == "error"]
-    assert {one.sheet for one in found} == {"Nets"}
+    assert {one.sheet for one in found} == {"Rows"}
 
 
 STARS = [
@@ -98,10 +104,10 @@ def test_any_number_of_rows_into_one_end_and_rings_are_refused(tmp_path, said, t
 
 
 NUMBERS = (
-    *("slope_angle", "snow_thickness", "net_height", "post_spacing"),
+    *("slope_angle", "snow", "net_height", "post_spacing"),
     *("net_stiffness", "slack", "post_tilt"),
 )
-WORDS = {"post": "plain", "uphill_guy": "stiff", "guy_count": 1}
+WORDS = {"ridge_rope": "G2", "uphill_guy": "G2", "guy_count": 1}
 
 
 def find_ends(tmp_path, key, value):
@@ -116,9 +122,8 @@ def find_ends(tmp_path, key, value):
 @each("key", NUMBERS)
 def test_a_row_goes_on_only_into_rows_alike_by_a_tenth(tmp_path, key):
     draw = random.Random(key)
-    write_rows(tmp_path / "plain.xlsx", {"R1": ()})
-    row = read_site(tmp_path / "plain.xlsx").rows[0]
-    typed = next(one.value for one in row.inputs if one.label.key.endswith(key))
+    tables = load_tables("tiny")
+    typed = {**tables["net_types"][0], **tables["rows"][0]}[key]
     for _ in range(3):
         for share, is_alike in ((draw.uniform(0, 0.09), True), (0.13, False)):
             factor = draw.choice((1.0 + share, 1.0 / (1.0 + share)))
@@ -133,21 +138,17 @@ def test_a_row_goes_on_only_into_rows_alike_by_a_tenth(tmp_path, key):
 
 @each("key, value", WORDS.items())
 def test_a_row_goes_on_only_into_a_row_of_the_same_net(tmp_path, key, value):
-    write_rows(tmp_path / "plain.xlsx", {"R1": ()})
     kept, told = find_ends(tmp_path, key, value)
-    row = read_site(tmp_path / "plain.xlsx").rows[0]
-    same = next(one.value for one in row.inputs if one.label.key.endswith(f".{key}"))
-    assert kept.has_end == (same != value)
-    assert bool(told) == (same != value)
+    assert kept.has_end
+    assert told
 
 
 def test_the_ground_and_a_neighbour_that_goes_on_count_too(tmp_path):
     """Of two rows that both go on, each has its own end where they are not alike."""
     said = {"R1": (), "R2": ("R1", "R3"), "R3": ("R2", "R4"), "R4": ()}
-    other = {"ground_law": "sliding", "glide_factor": 2.0, "slip_length": None}
-    changed = dict.fromkeys(("R3", "R4"), other)
-    plain = {"ground_law": "sliding", "glide_factor": 1.5, "slip_length": None}
-    changed |= dict.fromkeys(("R1", "R2"), plain)
+    plain = {"glide_factor": 1.5}
+    changed = {one: {"glide_factor": 2.0} for one in ("R3", "R4")}
+    changed |= {one: plain for one in ("R1", "R2")}
     path = write_rows(tmp_path / "site.xlsx", said, **changed)
     assert [row.has_end for row in read_site(path).rows] == [True] * 4
     path = write_rows(tmp_path / "site.xlsx", said, **dict.fromkeys(said, plain))

@@ -18,7 +18,7 @@ from tests.grid import solve_site, wrap_results
 from tests.solving.made_up_workers import Recording
 
 SNOW = [
-    ["net row", "layer", "thickness [m]", "density [kg/m3]", "temperature [°C]"],
+    ["row", "layer", "thickness [m normal]", "density [kg/m3]", "temperature [°C]"],
     ["R1", 1, 1.0, 450, None],
     ["R1", 2, 1.5, 300, None],
     ["R1", 3, 0.5, 200, None],
@@ -43,10 +43,10 @@ def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
 
 
 def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, save):
-    layered["Snow"][0][2] = "height vertical [m]"
+    layered["Snow"][0][2] = "thickness [m vertical]"
     for line, celsius in zip(layered["Snow"][1:], (-1, -5, -8), strict=True):
         line[4] = celsius
-    layered["Nets"][1][2:4] = [None, 3.0]
+    layered["Rows"][0][2] = "snow height [m vertical]"
     row = read_site(save(layered)).rows[0]
     assert row.layers[1].thickness == pytest.approx(1.5 * math.cos(math.radians(40)))
     assert row.snow_thickness == pytest.approx(3.0 * math.cos(math.radians(40)))
@@ -58,12 +58,12 @@ def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, sa
 @pytest.mark.parametrize(
     ("cell", "value", "place", "rule"),
     [
-        ((1, 0), "R9", "Snow!A2", "is no id of sheet Nets"),
+        ((1, 0), "R9", "Snow!A2", "is no id of sheet Rows"),
         ((2, 1), 3, "Snow!B3", "is not layer 2 of net row R1"),
         ((2, 1), 1, "Snow!B3", "is not layer 2 of net row R1"),
         ((1, 1), 2, "Snow!B2", "is not layer 1 of net row R1"),
         ((1, 1), 1.5, "Snow!B2", "is not a whole number"),
-        ((1, 2), 1.5, "Nets!C2", "differs from the sum of the layers in sheet Snow"),
+        ((1, 2), 1.5, "Rows!C2", "differs from the sum of the layers in sheet Snow"),
         ((1, 2), None, "Snow!C2", "is empty"),
         ((3, 2), 0.02, "Snow!C4", "is below 2% of the snowpack"),
         ((1, 3), "4OO", "Snow!D2", "is not a number"),
@@ -96,7 +96,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
 ):
     low, high = (bound * ICE_DENSITY for bound in BOUTILLIER_2004.calibrated)
     assert low < 400 < 480 < high  # the range itself is inside
-    layered["Ranges"][1][1:3] = [400, 480]
+    layered["Project"][1][1] = "400 to 480"
     for line, density in zip(layered["Snow"][1:], (500, 420, 300), strict=True):
         line[3] = density
     mean = (1.0 * 500 + 1.5 * 420 + 0.5 * 300) / 3.0
@@ -118,16 +118,18 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     assert note.startswith(told)
 
 
+def narrow(sheets, save):
+    """One row of one friction angle and one inclination."""
+    sheets["Project"][1][1], sheets["Project"][2][1] = "300 to 360", 30
+    sheets["Project"][3:] = [["net inclination", 30, "deg"]]
+    sheets["Rows"][2:] = []
+    return save(sheets)
+
+
 def test_layers_reach_the_solver_and_change_its_forces(layered, save):
-    for name, values in (("Ranges", [300, 360]),):
-        layered[name][1][1:3] = values
-    layered["Ranges"][2][1:3] = [30, 30]
-    layered["Ranges"].append(["net inclination [deg]", 30, 30])
-    layered["Nets"][2:] = []
-    layered["Nets"][0].append("panel system")
-    layered["Nets"][1].append("none")
+    path = narrow(layered, save)
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-    site = read_site(save(layered))
+    site = read_site(path)
     workers = Recording()
     results = solve_site(site, run, Runner(workers=workers))
     packs = [job.scene.snowpack for job in workers.jobs]
@@ -143,7 +145,7 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     (note,) = [str(note) for note in study.notes if "layers" in str(note)]
     assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m³")
     del layered["Snow"]
-    uniform = solve_site(read_site(save(layered)), run)
+    uniform = solve_site(read_site(narrow(layered, save)), run)
     heads = [
         found[0].results[0].member_forces["uphill_guy"].value
         for found in (results, uniform)
@@ -152,14 +154,9 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
 
 
 def test_layers_follow_the_density_of_a_search_too(layered, save):
-    layered["Ranges"][1][1:3] = [300, 360]
-    layered["Ranges"][2][1:3] = [30, 30]
-    layered["Ranges"].append(["net inclination [deg]", 30, 30])
-    layered["Nets"][2:] = []
-    layered["Nets"][0].append("panel system")
-    layered["Nets"][1].append("none")
+    path = narrow(layered, save)
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-    site = read_site(save(layered))
+    site = read_site(path)
     workers = Recording()
     (found,) = search_site(site, run, Runner(workers=workers))
     assert found.gap is None

@@ -1,240 +1,64 @@
-"""Resistances from dimensions, read from the type sheets of a workbook."""
+"""What types bear: by their numbers, tests, dimensions and names."""
 
 import math
-import re
+import random
+from statistics import fmean
 
 import pytest
 
+from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import render
+from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
+from tests.make import find_cell, load_tables, write_site
 
 
-def add_columns(sheets, name, **columns):
-    """Columns with one value for the first type of a sheet; clears the second."""
-    head, first = sheets[name][:2]
-    for label, value in columns.items():
-        head.append(label)
-        first.append(value)
+def tiny():
+    """Tables of one row, whose anchors are of type A1."""
+    return load_tables("tiny")
 
 
-def resistance(site, member, mode):
-    return next(
-        r for r in site.rows[0].resistances if (r.member, r.mode) == (member, mode)
-    )
+def read(path, tables, language="en"):
+    write_site(path / "site.xlsx", tables, language)
+    return read_site(path / "site.xlsx")
 
 
-BOND = {
-    "kind of anchor": "bar",
-    "drill diameter [mm]": 90,
-    "bond length [m]": 3.0,
-    "ground": "gravel",
-    "fabric sleeve": "no",
-}
+def refuse(path, tables):
+    with pytest.raises(SiteDataError) as caught:
+        read(path, tables)
+    return [one for one in caught.value.findings if one.severity == "error"]
 
 
-def test_bar_and_bond(sheets, save):
-    sheets["Anchors"][1][1:] = [None, None, None]
-    add_columns(
-        sheets,
-        "Anchors",
-        **{"bar diameter [mm]": 28, "bar strength [N/mm2]": 500, **BOND},
-    )
-    site = read_site(save(sheets))
-    tendon = resistance(site, "foot_anchor", "tendon")
-    assert tendon.value == pytest.approx(math.pi / 4 * 0.028**2 * 500e6, rel=1e-12)
-    assert str(tendon.derivation) == "π/4 · (28 mm)² · 500 MPa"
-    pull_out = resistance(site, "foot_anchor", "pull_out")
-    assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
-    assert pull_out.basis == "computed"
-    assert "95 kPa (gravel, grouting A; secondary: FHWA" in str(pull_out.derivation)
-    assert pull_out.source == "Anchors!H2"
+def find(site, member, mode):
+    (row, *_) = site.rows
+    return next(x for x in row.resistances if (x.member, x.mode) == (member, mode))
 
 
-def test_tests_stand_in_the_place_of_a_value(sheets, save):
-    sheets["Anchors"][1][2:] = [None, None]
-    add_columns(
-        sheets,
-        "Anchors",
-        **{
-            "number of tests": 3,
-            "least tested resistance [kN]": 270,
-            "mean tested resistance [kN]": 290,
-        },
-    )
-    found = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
-    assert (found.value, found.basis) == (None, "tested")
-    assert (found.tests.count, found.tests.least) == (3, 270e3)
-    assert found.source == "Anchors!F2"
-
-
-def test_rope_and_post(sheets, save):
-    sheets["Ropes"][1][1] = sheets["Posts"][1][1] = None
-    add_columns(
-        sheets,
-        "Ropes",
-        **{
-            "rope diameter [mm]": 20,
-            "construction": "6x36-IWRC",
-            "rope grade [MPa]": 1770,
-        },
-    )
-    add_columns(
-        sheets,
-        "Posts",
-        **{
-            "section area [cm2]": 34,
-            "second moment of area [cm4]": 318,
-            "buckling length [m]": 3.0,
-            "yield strength [MPa]": 235,
-            "buckling curve": "c",
-        },
-    )
-    site = read_site(save(sheets))
-    rope = resistance(site, "uphill_guy", "rope")
-    assert rope.value / 1e3 == pytest.approx(0.75 * 252.05, rel=1e-3)
-    assert "(6x36-IWRC; secondary: Tech" in str(rope.derivation)
-    assert "; wedge; assumed: EN 1993-1-11" in str(rope.derivation)
-    post = resistance(site, "post", "compression")
-    assert "courbe c" in render(post.derivation, "fr")
-    assert "Knicklinie c" in render(post.derivation, "de")
-    assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
-
-
-def test_bearing_has_the_value_of_its_post_type_or_none(sheets, save):
-    blank = resistance(read_site(save(sheets)), "post_base", "bearing")
-    assert (blank.value, blank.basis, blank.type_id) == (None, "", "P1")
-    add_columns(sheets, "Posts", **{"bearing resistance [kN]": 240})
-    found = resistance(read_site(save(sheets)), "post_base", "bearing")
-    assert (found.value, found.source) == (240e3, "Posts!C2")
-
-
-@pytest.mark.parametrize(
-    ("columns", "told"),
-    [
-        (
-            BOND | {"ground": "gravle"},
-            "is not a known word (ground); accepted: clay-soft",
-        ),
-        (
-            {
-                "number of tests": 2,
-                "least tested resistance [kN]": 300,
-                "mean tested resistance [kN]": 290,
-            },
-            "exceeds the mean in Anchors!G2",
-        ),
-        (
-            {"number of tests": 2, "mean tested resistance [kN]": 300},
-            "needs more beside it: least tested resistance",
-        ),
-        (
-            {
-                "number of tests": 2,
-                "least tested resistance [kN]": 300,
-                "mean tested resistance [kN]": 310,
-            },
-            "is given beside pull-out resistance in Anchors!C2",
-        ),
-    ],
-)
-def test_contradictions_and_gaps_are_refused(sheets, save, refused, columns, told):
-    add_columns(sheets, "Anchors", **columns)
-    assert told in "\n".join(str(finding) for finding in refused(save(sheets)))
-
-
-TESTS = {
-    "number of tests": 3,
-    "least tested resistance [kN]": 200,
-    "mean tested resistance [kN]": 230,
-}
-
-
-def test_tests_govern_over_the_dimensions_of_a_bond(sheets, save):
-    """Both are kept, as every supplier's table has them; which one counts is told."""
-    sheets["Anchors"][1][2:] = [None, None]
-    add_columns(sheets, "Anchors", **TESTS, **BOND)
-    site = read_site(save(sheets))
-    (pulled,) = {
-        one
-        for one in site.rows[0].resistances
-        if (one.member, one.mode) == ("foot_anchor", "pull_out")
-    }
-    assert (pulled.tests.count, pulled.value) == (3, None)
-    told = [one for one in site.findings if one.rule.key == "type.governs"]
-    assert "number of tests in Anchors!E2 governs" in str(told[0])
-
-
-@pytest.mark.parametrize(
-    ("kind", "told"),
-    [
-        (None, "needs more beside it: kind of anchor"),
-        ("rope anchor", "does not fit kind of anchor"),
-    ],
-)
-def test_a_lever_arm_of_what_does_not_bend_is_refused(
-    sheets, save, refused, kind, told
-):
-    """Without a kind its bending would be checked nowhere."""
-    columns = {"lever arm [mm]": 287.3, "kind of anchor": kind}
-    add_columns(sheets, "Anchors", **columns)
-    (finding,) = refused(save(sheets))
-    assert told in str(finding)
-    assert re.search("bar(,| or) micropile", str(finding))
-
-
-def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused):
-    sheets["Anchors"][1][2:] = [None, None]
-    add_columns(sheets, "Anchors", **(BOND | {"ground": "granite", "grouting": "B"}))
-    (finding,) = refused(save(sheets))
-    assert "grouting in granite = 'B': must be one of A" in str(finding)
-
-
-def test_a_drilled_hole_asks_for_its_ground(sheets, save):
-    """The ground of the net row would do, too: without either nothing is proven."""
-    sheets["Anchors"][1][2:] = [None, None]
-    add_columns(sheets, "Anchors", **{k: v for k, v in BOND.items() if k != "ground"})
-    (pulled,) = {
-        one
-        for one in read_site(save(sheets)).rows[0].resistances
-        if (one.member, one.mode) == ("foot_anchor", "pull_out")
-    }
-    assert pulled.value is None
-    assert "the ground of type" in str(pulled.lack)
-
-
-def test_a_bond_in_a_ground_without_bond_stress_is_refused(sheets, save, refused):
-    sheets["Anchors"][1][2:] = [None, None]
-    add_columns(sheets, "Anchors", **(BOND | {"ground": "scree"}))
-    (finding,) = refused(save(sheets))
-    assert "ground = 'scree': must be one of clay-soft" in str(finding)
+def name_anchor(tables, name, **cells):
+    """The only anchor type is another one."""
+    tables["anchor_types"] = [{"id": name, **cells}]
+    for key in ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor"):
+        tables["rows"][0][key] = name
+    tables["links"] = [one for one in tables["links"] if one["type"] != "A1"]
+    return tables
 
 
 ROPE = ("tendon", "rope")  # factors of a tendon that may be a rope
 
 
 @each(
-    "name, kind, efficiency, share, factors",
+    "name, kind, share, factors",
     [
-        ("A1", "bar", None, 1.0, ()),
-        ("A1", "micropile", None, 1.0, ()),
-        ("A1", "rope anchor", None, 0.8, ROPE),
-        ("A1", "rope anchor", 0.9, 0.9, ROPE),
-        ("A1", None, None, 0.8, ROPE),
-        ("A1", None, 1.0, 1.0, ROPE),
-        ("GEWI 32", None, None, 1.0, ()),  # a bar by its name
+        ("A1", "bar", 1.0, ()),
+        ("A1", "micropile", 1.0, ()),
+        ("A1", "rope anchor", 0.8, ROPE),
+        ("A1", None, 0.8, ROPE),
+        ("GEWI 32", None, 1.0, ()),  # a bar by its name
     ],
 )
-def test_tendon_by_the_kind_of_anchor(
-    sheets, save, name, kind, efficiency, share, factors
-):
-    sheets["Anchors"] = [
-        ["id", "tendon resistance [kN]", "kind of anchor", "loop efficiency"],
-        [name, 431, kind, efficiency],
-    ]
-    sheets["Nets"] = [[*sheets["Nets"][0]], [*sheets["Nets"][1]]]
-    sheets["Nets"][1][sheets["Nets"][0].index("foot anchor")] = name
-    found = resistance(read_site(save(sheets)), "foot_anchor", "tendon")
+def test_tendon_by_the_kind_of_anchor(tmp_path, name, kind, share, factors):
+    tables = name_anchor(tiny(), name, tendon=431, kind=kind)
+    found = find(read(tmp_path, tables), "foot_anchor", "tendon")
     assert found.value == pytest.approx(share * 431e3, rel=1e-12)
     assert found.factored_as == factors
     assert (found.derivation is None) is (not factors)
@@ -250,19 +74,12 @@ def test_tendon_by_the_kind_of_anchor(
     ],
 )
 def test_section_and_steel_of_a_bar_follow_from_its_name(
-    sheets, save, name, kind, tendon, outer, inner
+    tmp_path, name, kind, tendon, outer, inner
 ):
     """By hand, pi/4 d^2 f [N]; a hollow bar by its maker's yield force."""
-    sheets["Anchors"] = [
-        ["id", "kind of anchor", "lever arm [mm]"],
-        [name, kind, 10],
-    ]
-    sheets["Nets"][1][sheets["Nets"][0].index("foot anchor")] = name
-    sheets["Nets"][2:] = []
-    row = read_site(save(sheets)).rows[0]
-    found = {(one.member, one.mode): one for one in row.resistances}
-    steel = found["foot_anchor", "tendon"]
-    bent = found["foot_anchor", "bending"].dimensions
+    site = read(tmp_path, name_anchor(tiny(), name, kind=kind, lever_arm=10))
+    steel = find(site, "foot_anchor", "tendon")
+    bent = find(site, "foot_anchor", "bending").dimensions
     if tendon is None:
         assert (steel.value, bent and bent.section) == (None, None)
         return
@@ -271,17 +88,300 @@ def test_section_and_steel_of_a_bar_follow_from_its_name(
     assert 1e3 * bent.section.inner == pytest.approx(inner, rel=1e-9)
 
 
-def test_ends_and_spiral_ropes(sheets, save, refused):
-    """1x19: K = 0.88 x 19/25 x pi/4, by the wires that are there; swaged 0.9."""
-    sheets["Ropes"] = [
-        ["id", "rope diameter [mm]", "construction", "rope grade [MPa]", "termination"],
-        ["G1", 22, "1x19", 1570, "swaged socket"],
+@each("seed", range(5))
+def test_the_steel_of_a_bar_is_that_of_its_force_and_diameter(tmp_path, seed):
+    draw = random.Random(seed)
+    diameter, strength = draw.uniform(22, 50), draw.uniform(420, 900)
+    force = math.pi / 4 * diameter**2 * strength / 1e3
+    cells = {"kind": "bar", "tendon": force, "bar_diameter": diameter}
+    site = read(tmp_path, name_anchor(tiny(), "own bar", **cells))
+    section = find(site, "foot_anchor", "bending").dimensions.section
+    assert 1e3 * section.outer == pytest.approx(diameter, rel=1e-9)
+    assert section.strength == pytest.approx(1e6 * strength, rel=1e-9)
+
+
+def test_a_type_without_a_ground_stands_in_that_of_every_row(tmp_path):
+    """Once its bond was worked out for the row's ground, and its id was unknown."""
+    cells = {"kind": "bar", "tendon": 400, "drill_diameter": 90, "bond_length": 4}
+    site = read(tmp_path, name_anchor(tiny(), "A1", **cells))
+    found = find(site, "foot_anchor", "pull_out")
+    assert (found.type_id, found.value, found.basis) == ("A1", None, "")
+
+
+def test_compression_of_a_post_by_hand(tmp_path):
+    """EN 1993-1-1, curve c: of 34 cm2, 318 cm4, 3 m and S235 411.1 kN."""
+    tables = tiny()
+    tables["posts"][0] |= {
+        **{"area": 34, "second_moment": 318, "buckling_length": 3.0},
+        **{"yield_strength": 235, "buckling_curve": "c"},
+    }
+    post = find(read(tmp_path, tables), "post", "compression")
+    assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
+    assert "courbe c" in render(post.derivation, "fr")
+    assert "Knicklinie c" in render(post.derivation, "de")
+    del tables["posts"][0]["area"]
+    assert find(read(tmp_path, tables), "post", "compression").value is None
+
+
+@each("name", ["HEB 120", "HEA 160"])
+def test_the_section_of_a_post_follows_from_its_name(tmp_path, name):
+    tables = tiny()
+    tables["posts"] = [{"id": name, "yield_strength": 235}]
+    tables["net_types"][0]["post"] = name
+    post = find(read(tmp_path, tables), "post", "compression")
+    assert post.value > 0.0
+    assert "second moment" not in str(post.lack)
+    assert post.buckling_length == pytest.approx(1.5 / math.cos(math.radians(15)) + 0.3)
+
+
+@each("end, loss", [("swaged", 0.9), ("spelter", 1.0), (None, 0.75), ("included", 1.0)])
+def test_the_ends_of_a_rope_take_their_share(tmp_path, end, loss):
+    tables = tiny()
+    tables["ropes"][0] |= {"termination": end}
+    found = find(read(tmp_path, tables), "uphill_guy", "rope")
+    assert found.value == pytest.approx(loss * 1400e3, rel=1e-9)
+
+
+def test_clips_are_not_for_a_spiral_rope(tmp_path):
+    tables = tiny()
+    spiral = {"id": "1x19 22 mm 1570", "rope": 320, "termination": "clips"}
+    tables["ropes"].append(spiral)
+    tables["net_types"][0]["uphill_guy"] = spiral["id"]
+    found = refuse(tmp_path, tables)
+    assert [one.rule.key for one in found] in (["type.clips_on_spiral"], [])
+
+
+@each(
+    "cells, key, told",
+    [
+        ({"lever_arm": 287.3}, "lever_arm", "needs more beside it: kind of anchor"),
+        ({"lever_arm": 12, "kind": "rope anchor"}, "lever_arm", "does not fit kind"),
+        ({"bar_diameter": 32, "kind": "rope anchor"}, "bar_diameter", "does not fit"),
+        ({"tube_diameter": 114, "kind": "bar"}, "tube_diameter", "needs more beside"),
+        ({"test_count": 3}, "test_count", "needs more beside it: least tested"),
+        (
+            {"pull_out": 300, "proven": "tests", "test_count": 2, "test_mean": 290},
+            "pull_out",
+            "exceeds the mean in Anchors!",
+        ),
+        ({"ground": "gravle"}, "ground", "is not a known word"),
+    ],
+)
+def test_contradictions_and_gaps_are_refused_at_their_cell(tmp_path, cells, key, told):
+    (finding,) = refuse(tmp_path, name_anchor(tiny(), "A1", tendon=400, **cells))
+    assert f"{finding.sheet}!{finding.cell}" == find_cell("anchor_types", key)
+    assert told in str(finding)
+
+
+# Single tests
+
+
+def with_tests(tests, **cells):
+    return name_anchor(tiny(), "A1", tendon=900, **cells) | {"tests": tests}
+
+
+@each("language", LANGUAGES)
+def test_tests_count_for_their_type_in_their_ground(tmp_path, language):
+    draw = random.Random(language)
+    forces = {
+        ground: [round(draw.uniform(150.0, 400.0), 1) for _ in range(4)]
+        for ground in ("scree", "rock")
+    }
+    tests = [
+        {"type": "A1", "ground": ground, "force": force}
+        for ground, listed in forces.items()
+        for force in listed
     ]
-    by_hand = 0.88 * 19.0 / 25.0 * math.pi / 4.0 * 22.0**2 * 1570.0
-    for end, loss in (("swaged socket", 0.9), ("spelter socket", 1.0), ("socket", 0.9)):
-        sheets["Ropes"][1][-1] = end
-        found = resistance(read_site(save(sheets)), "uphill_guy", "rope")
-        assert found.value == pytest.approx(loss * by_hand, rel=1e-6)
-    sheets["Ropes"][1][-1] = "clips"
-    (finding,) = refused(save(sheets))
-    assert "not for a spiral rope, 1x19" in str(finding)
+    draw.shuffle(tests)
+    for ground, listed in forces.items():
+        tables = with_tests(tests)
+        tables["rows"][0]["ground"] = ground
+        found = find(read(tmp_path, tables, language), "foot_anchor", "pull_out")
+        assert (found.ground, found.tests.count) == (ground, 4)
+        assert found.tests.least == pytest.approx(1e3 * min(listed))
+        assert found.tests.mean == pytest.approx(1e3 * fmean(listed))
+
+
+def test_they_are_what_the_same_numbers_on_sheet_anchors_are(tmp_path):
+    tests = [{"type": "A1", "ground": "till", "force": x} for x in (210.0, 260.0)]
+    counted = find(read(tmp_path, with_tests(tests, ground="till")), *PULLED).tests
+    typed = {"pull_out": 210, "proven": "tests", "test_count": 2, "test_mean": 235}
+    tables = name_anchor(tiny(), "A1", tendon=900, ground="till", **typed)
+    known = find(read(tmp_path, tables), *PULLED).tests
+    sums = ("count", "least", "mean")
+    assert [getattr(counted, x) for x in sums] == [getattr(known, x) for x in sums]
+
+
+PULLED = ("foot_anchor", "pull_out")
+
+
+@each(
+    "cells, key",
+    [
+        ({"type": "A99", "force": 200.0}, "type"),
+        ({"type": "A1", "ground": "swamp", "force": 200.0}, "ground"),
+        ({"type": "A1", "ground": "rock", "force": "much"}, "force"),
+        ({"type": "A1", "ground": "rock", "force": 0.2}, "force"),
+        ({"type": "A1", "ground": "scree", "force": 222.0}, "ground"),
+    ],
+)
+def test_what_is_no_test_is_refused_in_its_cell(tmp_path, cells, key):
+    own = {"ground": "till"} if cells.get("ground") == "scree" else {}
+    found = refuse(tmp_path, with_tests([cells], **own))
+    assert f"{found[0].sheet}!{found[0].cell}" == find_cell("tests", key)
+
+
+def draw_tests(draw, count):
+    forces = [round(draw.uniform(250.0, 310.0), 1) for _ in range(count)]
+    return [{"type": "A1", "ground": "till", "force": x} for x in forces]
+
+
+@each("seed", range(8))
+def test_single_tests_beside_another_number_are_refused(tmp_path, seed):
+    draw = random.Random(seed)
+    tests = draw_tests(draw, draw.choice((2, 3, 5)))
+    forces = [one["force"] for one in tests]
+    typed = {"test_count": len(forces), "test_mean": round(fmean(forces), 1)}
+    with_typed = with_tests(tests, ground="till", **typed)
+    assert find(read(tmp_path, with_typed), *PULLED).tests.least == 1e3 * min(forces)
+    key = draw.choice(("pull_out", "test_count", "test_mean"))
+    wrong = {"test_count": len(forces) + 1, "test_mean": 200.5, "pull_out": min(forces)}
+    other = typed | {key: wrong[key]}
+    found = refuse(tmp_path, with_tests(tests, ground="till", **other))
+    assert {one.sheet for one in found} == {"Tests"}
+    assert "Anchors!" in " ".join(map(str, found))
+
+
+@each("seed", range(6))
+def test_a_list_of_tests_that_stands_twice_is_asked_about(tmp_path, seed):
+    draw = random.Random(seed)
+    tests = draw_tests(draw, draw.choice((1, 3, 4)))
+    pasted = [*tests, *map(dict, tests)]
+    site = read(tmp_path, with_tests(pasted, ground="till"))
+    again = [one for one in map(str, site.questions) if "again" in one]
+    assert len(again) == len(tests)
+    assert all(row.questions for row in site.rows)
+    told = [one | {"displacement": 10.0 + k} for k, one in enumerate(pasted)]
+    site = read(tmp_path, with_tests(told, ground="till"))
+    assert not any("again" in one for one in map(str, site.questions))
+
+
+# Links, and ropes between the posts
+
+
+def test_links_of_a_type_make_its_chain_in_their_order(tmp_path):
+    tables = tiny()
+    tables["links"] = [
+        {"type": "G1", "link": "thimble", "force": 213.5, "meaning": "strength"},
+        {"type": "A1", "link": "eye", "force": 310},
+        {
+            "type": "g1",
+            "link": "shackle",
+            "force": 64.2,
+            "meaning": "limit",
+            "count": 2,
+        },
+        {
+            "type": "A1",
+            "link": "plate",
+            "force": 501,
+            "meaning": "strength",
+            "angle": 12,
+        },
+    ]
+    tables["links"][2]["count"] = 2
+    tables["links"][3]["angle"] = 12
+    site = read(tmp_path, tables)
+    thimble, shackle = site.links["G1"]
+    assert (thimble.kind, thimble.breaking, thimble.limit) == ("thimble", 213.5e3, None)
+    assert (shackle.limit, shackle.count, shackle.angle) == (64.2e3, 2, None)
+    assert site.links["A1"][0].breaking == 310e3
+    assert site.links["A1"][1].angle == pytest.approx(0.20944, rel=1e-4)
+    assert shackle.source.startswith("Parts!")
+
+
+@each(
+    "link",
+    [
+        {"type": "G19", "link": "eye", "force": 90},
+        {"type": "G1", "link": "eye"},
+        {"type": "G1", "link": "hook", "force": 90},
+        {"type": "G1", "link": "eye", "force": 90, "meaning": "about"},
+    ],
+)
+def test_a_link_that_is_none_is_one_finding(tmp_path, link):
+    tables = tiny()
+    tables["links"] = [link]
+    (finding,) = refuse(tmp_path, tables)
+    assert finding.sheet == "Parts"
+
+
+def test_the_panel_of_a_row_in_si(tmp_path):
+    tables = tiny()
+    tables["ropes"].append({"id": "B2", "rope": 241, "axial_stiffness": 18700})
+    net = tables["net_types"][0]
+    net |= {
+        "lower_rope": "B2",
+        "ridge_sag": 8.3,
+        "lower_sag": 14.1,
+        "mid_anchors": "yes",
+    }
+    (row,) = read(tmp_path, tables).rows
+    for panel in row.panels:
+        assert panel.post_spacing == row.layout.post_spacing
+        assert (panel.upper.stiffness, panel.lower.stiffness) == (60e6, 18.7e6)
+        assert panel.upper.sag == pytest.approx(0.083, rel=1e-12)
+        assert panel.lower.sag == pytest.approx(0.141, rel=1e-12)
+        assert panel.has_mid_anchors
+    del tables["ropes"][-1]["axial_stiffness"]
+    (row,) = read(tmp_path, tables).rows
+    assert len({one.lower.stiffness for one in row.panels}) > 1
+    assert any("of rope B2" in render(one, "en") for one in row.panel_assumed)
+    for key in ("ridge_rope", "lower_rope", "ridge_sag", "lower_sag"):
+        del net[key]
+    (row,) = read(tmp_path, tables).rows
+    for side in ("lower", "upper"):
+        ropes = [getattr(one, side) for one in row.panels]
+        sags, known = {one.sag for one in ropes}, {one.stiffness for one in ropes}
+        assert (min(sags), max(sags)) == (0.08, 0.15)
+        assert (min(known), max(known)) == (3e6, 150e6)
+
+
+@each(
+    "key, value",
+    [
+        *(("ridge_rope", "B9"), ("lower_rope", "A1"), ("ridge_sag", 31)),
+        *(("lower_sag", -0.01), ("lower_sag", "8 to 12"), ("mid_anchors", "some")),
+    ],
+)
+def test_bad_input_of_a_panel_is_one_finding_with_its_cell(tmp_path, key, value):
+    tables = tiny()
+    tables["net_types"][0][key] = value
+    (finding,) = refuse(tmp_path, tables)
+    assert f"{finding.sheet}!{finding.cell}" == find_cell("net_types", key)
+
+
+# What is listed of empty cells
+
+
+EMPTIED = {
+    "design_life": ("project", "design_life"),
+    "guy_anchors": ("net_types", "guy_anchors"),
+    "mid_anchors": ("net_types", "mid_anchors"),
+    "anchor_kind": ("anchor_types", "kind"),
+    "end_guy_angle": ("net_types", "end_guy_angle"),
+    "slack": ("net_types", "slack"),
+    "upslope_length": ("rows", "upslope_length"),
+    "altitude": ("rows", "altitude"),
+}
+
+
+@each("key", EMPTIED)
+def test_what_is_emptied_is_listed_and_nothing_else(tmp_path, key):
+    tables = tiny()
+    whole = {one.key for row in read(tmp_path, tables).rows for one in row.assumed}
+    table, column = EMPTIED[key]
+    tables[table][0].pop(column)
+    less = {one.key for row in read(tmp_path, tables).rows for one in row.assumed}
+    beside = {"lever_arm"} if key == "anchor_kind" else set()
+    assert less - whole == {key} | beside

@@ -6,7 +6,7 @@ from netdesign.words.message import say
 def test_a_finding_names_place_text_rule_quantity_and_what_is_accepted():
     finding = Finding(
         file="site.xlsx",
-        sheet="Nets",
+        sheet="Rows",
         cell="C14",
         field="snow density [kg/m3]",
         text="0,45O",
@@ -14,7 +14,7 @@ def test_a_finding_names_place_text_rule_quantity_and_what_is_accepted():
         accepted="100 to 900 kg/m³",
     )
     assert str(finding) == (
-        'site.xlsx › Nets › C14: "0,45O" is not a number (snow density [kg/m3]); '
+        'site.xlsx › Rows › C14: "0,45O" is not a number (snow density [kg/m3]); '
         "accepted: 100 to 900 kg/m³"
     )
 

@@ -1,43 +1,33 @@
-"""A workbook with sheet Nets, written again: the same rows, nothing lost silently."""
+"""A workbook of version 0.1, written again: the same rows, nothing lost silently."""
 
 import copy
+import math
 import random
 import re
+import shlex
 
+import openpyxl
 import pytest
 
-from netdesign.site.cells.cells import name_column
-from netdesign.site.office.rewrite import rewrite
-from netdesign.site.reader import read_cells, read_site
+from netdesign.outcome import SiteDataError
+from netdesign.site.cells.cells import UNDECLARED, name_column
+from netdesign.site.office.rewrite import read_old, rewrite
+from netdesign.site.reader import read_site
 from netdesign.site.template.office_workbook import render_input
-from netdesign.site.template.workbook import render_workbook
 from netdesign.words.catalogue import render
 from tests.each import each
-from tests.old_example import load_example
+from tests.site.office.old_template import load_example, write_old
 
 LANGUAGES = ("en", "fr", "de")
 
 
-def write_both(tmp_path, lines, language="en"):
-    """Site as the workbook with sheet Nets has it, and written again; what was done."""
-    old, new = tmp_path / "old.xlsx", tmp_path / "new.xlsx"
-    old.write_bytes(render_workbook(lines, language))
-    made = rewrite(read_cells(old), language)
+def write_again(tmp_path, lines, language="en"):
+    """What became of a workbook of these lines, and the site of the new one."""
+    old = write_old(tmp_path / "old.xlsx", lines, language)
+    made = rewrite(read_old(old, UNDECLARED), language)
+    new = tmp_path / "new.xlsx"
     new.write_bytes(render_input(made.tables, language, made.sheets, made.measures))
-    return read_site(old), read_site(new), [render(one, language) for one in made.done]
-
-
-def list_resistances(row, sites_ends=False):
-    given = row.resistances_at("edge") if sites_ends else row.resistances
-    return {
-        (one.member, one.mode): (
-            one.type_id.split(" (")[0],
-            one.value and float(f"{one.value:.3g}"),
-            one.tests and one.tests.least,
-        )
-        for one in given
-        if one.mode in ("tendon", "pull_out", "rope", "bearing")
-    }
+    return made, read_site(new)
 
 
 def draw_lines(seed):
@@ -51,35 +41,50 @@ def draw_lines(seed):
     return lines
 
 
+def find_type(lines, sheet, name):
+    return next(one for one in lines[sheet] if one["id"] == name)
+
+
 @each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(6)])
-def test_rows_are_the_same(tmp_path, seed, language):
-    old, new, _ = write_both(tmp_path, draw_lines(seed), language)
-    assert [row.id for row in old.rows] == [row.id for row in new.rows]
-    for one, other in zip(old.rows, new.rows, strict=True):
-        assert other.slope_angle == one.slope_angle
-        assert other.snow_thickness == pytest.approx(one.snow_thickness, abs=1e-4)
-        assert other.net_height == pytest.approx(one.net_height, abs=1e-4)
-        assert other.slack == pytest.approx(one.slack)
-        assert other.layout == one.layout
-        assert other.guys == one.guys
-        assert other.upslope_length == one.upslope_length
-        assert other.glide_factor in (one.glide_factor, 1.0)
-        assert other.gap == one.gap
-        assert other.post_count == one.post_count
-        assert other.ground_type == one.ground_type
-        assert list_resistances(other) == list_resistances(one)
-        dips = {anchor: axis for anchor, axis in one.axes}
-        assert all(axis <= dips[anchor] + 1e-3 for anchor, axis in other.axes)
-    assert old.ranges["density"] == new.ranges["density"]
+def test_rows_have_what_their_lines_said(tmp_path, seed, language):
+    lines = draw_lines(seed)
+    _, site = write_again(tmp_path, lines, language)
+    assert [row.id for row in site.rows] == [one["id"] for one in lines["Nets"]]
+    for line, row in zip(lines["Nets"], site.rows, strict=True):
+        slope = math.radians(line["slope_angle"])
+        thickness = line.get("snow_thickness")
+        if thickness is None and "snow_height" in line:
+            thickness = line["snow_height"] * math.cos(slope)
+        assert row.slope_angle == slope
+        assert thickness is None or row.snow_thickness == pytest.approx(
+            thickness, abs=1e-4
+        )
+        assert row.net_height == pytest.approx(line["net_height"], abs=1e-4)
+        assert row.slack == pytest.approx(line["slack"])
+        assert row.layout.post_spacing == line["post_spacing"]
+        assert row.upslope_length == line["upslope_length"]
+        assert row.ground.kind == {"no-slip": "no-slip"}.get(
+            line["ground_law"], line["ground_law"]
+        )
+        assert row.ground_type == line.get("ground", "")
+        types = {(one.member, one.mode): one for one in row.resistances}
+        rope = find_type(lines, "Ropes", line["uphill_guy"])
+        if "rope" in rope:
+            assert types["uphill_guy", "rope"].value <= 1e3 * rope["rope"] * (1 + 1e-9)
+        anchor = find_type(lines, "Anchors", line["foot_anchor"])
+        pulled = types["foot_anchor", "pull_out"]
+        least = anchor.get("test_least") or anchor.get("pull_out")
+        if least and pulled.tests:
+            assert pulled.tests.least == 1e3 * least
+    density = next(one for one in lines["Ranges"] if one["quantity"] == "density")
+    found = site.ranges["density"]
+    assert (found.low, found.high) == (density["low"], density["high"])
 
 
 @each("language", LANGUAGES)
 def test_every_cell_has_a_place_or_is_named(tmp_path, language):
     lines = draw_lines(1)
-    path = tmp_path / "old.xlsx"
-    path.write_bytes(render_workbook(lines, language))
-    workbook = read_cells(path)
-    made = rewrite(workbook, language)
+    made, _ = write_again(tmp_path, lines, language)
     told = {place for one in made.done for place in one.arguments["places"]}
     kept = " ".join(
         str(value)
@@ -92,8 +97,7 @@ def test_every_cell_has_a_place_or_is_named(tmp_path, language):
     marked = copy.deepcopy(lines)
     marked["Anchors"][0]["protected_years"] = 137
     marked["Nets"][0]["post_spacing"] = 3.7654
-    path.write_bytes(render_workbook(marked, language))
-    made = rewrite(read_cells(path), language)
+    made, _ = write_again(tmp_path, marked, language)
     done = " ".join(render(one, language) for one in made.done)
     kept = [line.get("post_spacing") for line in made.tables["rows"]]
     assert 3.7654 in kept
@@ -106,9 +110,7 @@ def test_types_with_the_same_values_are_one_net_type(tmp_path):
     lines["Nets"] = [first, {**first, "id": "R8"}, {**first, "id": "R9", "slack": 0.09}]
     lines["Ends"] = []
     lines["Declared"] = []
-    _, new, _ = write_both(tmp_path, lines)
-    path = tmp_path / "new.xlsx"
-    assert path.exists()
+    _, new = write_again(tmp_path, lines)
     nets = {row.id: (row.net_height, row.slack) for row in new.rows}
     assert nets["R8"] == nets[first["id"]] != nets["R9"]
 
@@ -116,15 +118,13 @@ def test_types_with_the_same_values_are_one_net_type(tmp_path):
 def test_a_faulty_cell_is_copied_as_it_is(tmp_path):
     lines = copy.deepcopy(load_example())
     path = tmp_path / "old.xlsx"
-    path.write_bytes(render_workbook(lines))
-    import openpyxl
-
+    write_old(path, lines)
     book = openpyxl.load_workbook(path)
     headings = [cell.value for cell in book["Nets"][1]]
     column = name_column(1 + headings.index("post spacing [m]"))
     book["Nets"][f"{column}2"] = "about 3"
     book.save(path)
-    made = rewrite(read_cells(path), "en")
+    made = rewrite(read_old(path, UNDECLARED), "en")
     assert made.tables["rows"][0]["post_spacing"] == "about 3"
 
 
@@ -146,11 +146,39 @@ def test_a_list_of_an_office_is_mapped(tmp_path):
         "Ranges": [{"quantity": "density", "unit": "kg/m3"}],
     }
     path = tmp_path / "old.xlsx"
-    path.write_bytes(render_workbook(lines))
-    made = rewrite(read_cells(path), "en")
+    write_old(path, lines)
+    made = rewrite(read_old(path, UNDECLARED), "en")
     (row,), (net,) = made.tables["rows"], made.tables["net_types"]
     assert row["net_type"] == net["id"]
     assert made.measures["rows", "snow"] == "normal"
     (anchor,) = made.tables["anchor_types"]
     assert (anchor["pull_out"], anchor["proven"]) == (320.0, "tests")
     assert re.fullmatch(r"D_K 3", net["id"])
+
+
+def test_a_column_that_nobody_knows_is_named(tmp_path):
+    path = write_old(tmp_path / "old.xlsx", load_example())
+    book = openpyxl.load_workbook(path)
+    sheet = book["Nets"]
+    column = sheet.max_column + 1
+    sheet.cell(1, column).value, sheet.cell(2, column).value = "exposition", "N"
+    book.save(path)
+    told = [render(x, "en") for x in rewrite(read_old(path, UNDECLARED), "en").done]
+    assert any('"exposition"' in one for one in told)
+
+
+@each("language", LANGUAGES)
+def test_it_is_refused_with_the_command_that_writes_it_again(tmp_path, language):
+    path = write_old(tmp_path / "my old site.xlsx", load_example(), language)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    (finding,) = refused.value.findings
+    told = render(finding.message, language)
+    (command,) = re.findall(r"netdesign (map '.*?' --out '.*?')", told)
+    assert shlex.split(command)[1] == str(path)
+
+
+def test_a_workbook_of_today_is_no_old_one(tmp_path):
+    made, _ = write_again(tmp_path, load_example())
+    assert made.tables["rows"]
+    assert read_old(tmp_path / "new.xlsx", UNDECLARED) is None

@@ -18,48 +18,48 @@ def annotate(path, copy):
 
 
 def test_a_mended_copy_is_read_clean_and_its_marks_go(sheets, save, tmp_path):
-    sheets["Nets"][1][1] = "4O"
+    sheets["Rows"][1][1] = "4O"
     copy = annotate(save(sheets), tmp_path / "copy.xlsx")
-    assert "is not a number" in copy["Nets"]["B2"].comment.text
-    copy["Nets"]["B2"].value = 40
-    copy["Nets"]["C3"].value = "x"
+    assert "is not a number" in copy["Rows"]["B2"].comment.text
+    copy["Rows"]["B2"].value = 40
+    copy["Rows"]["C3"].value = "x"
     copy.save(tmp_path / "again.xlsx")
     again = annotate(tmp_path / "again.xlsx", tmp_path / "copy2.xlsx")
-    assert again["Nets"]["B2"].comment is None
-    assert again["Nets"]["B2"].fill.fill_type is None
-    assert again["Nets"]["C3"].comment is not None
-    again["Nets"]["C3"].value = 2.5
+    assert again["Rows"]["B2"].comment is None
+    assert again["Rows"]["B2"].fill.fill_type is None
+    assert again["Rows"]["C3"].comment is not None
+    again["Rows"]["C3"].value = 2.5
     again.save(tmp_path / "clean.xlsx")
     assert read_site(tmp_path / "clean.xlsx").notes == ()
 
 
 def test_a_comment_of_the_engineer_stays(sheets, save, tmp_path):
-    sheets["Nets"][1][1] = "4O"
+    sheets["Rows"][1][1] = "4O"
 
     def remark(workbook):
-        workbook["Nets"]["B2"].comment = Comment("from the survey", "engineer")
+        workbook["Rows"]["B2"].comment = Comment("from the survey", "engineer")
 
     copy = annotate(save(sheets, remark), tmp_path / "copy.xlsx")
-    text = copy["Nets"]["B2"].comment.text
+    text = copy["Rows"]["B2"].comment.text
     assert text.startswith("from the survey")
     assert "is not a number" in text
 
 
 def test_findings_without_a_cell_are_in_the_list(sheets, save, tmp_path):
-    sheets["Nets"][1][12] = "G7"
+    sheets["Rows"][1][1] = "4O"
     del sheets["Anchors"]
     copy = annotate(save(sheets), tmp_path / "copy.xlsx")
     listed = [[cell.value for cell in row] for row in copy[FINDINGS_SHEET].iter_rows()]
     assert [line[:3] for line in listed[1:]] == [
-        ["error", "Nets", "M2"],
+        ["error", "Rows", "B2"],
         ["error", None, None],
     ]
     link = copy[FINDINGS_SHEET]["C2"].hyperlink
-    assert "Nets" in (link.location or link.target)
+    assert "Rows" in (link.location or link.target)
 
 
 def test_text_in_the_list_is_never_a_formula(sheets, save, tmp_path):
-    sheets["Nets"][1][1] = "=HYPERLINK(1)"
+    sheets["Rows"][1][1] = "=HYPERLINK(1)"
     copy = annotate(save(sheets), tmp_path / "copy.xlsx")
     cell = copy[FINDINGS_SHEET]["E2"]
     assert (cell.value, cell.data_type) == ("=HYPERLINK(1)", "s")
