@@ -163,15 +163,6 @@ def test_friction_holds_the_base_that_its_design_force_presses():
     assert ends(found) == (60.0, 60.0, 60.0)
 
 
-def test_tests_give_the_smaller_of_mean_and_least():
-    """(R1): min(290 / 1.25, 270 / 1.0) = 232; min(290 / 1.0, 270 / 1.2) = 225."""
-    for on_mean, on_least, expected in ((1.25, 1.0, 232.0), (1.0, 1.2, 225.0)):
-        found = formulas.resist_by_tests(
-            q("R_m", 290.0), q("ξ_m", on_mean), q("R_min", 270.0), q("ξ_min", on_least)
-        )
-        assert found.value == pytest.approx(expected, rel=1e-15)
-
-
 def test_utilisation_of_a_design_force():
     """(V2): 1.5 * 100 / (500 / 1.25) = 0.375."""
     force = q("E_k", 100.0, 90.0, 120.0)

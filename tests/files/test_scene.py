@@ -340,16 +340,6 @@ def test_layer_where_the_set_is_inadmissible(tables):
         build(tables)
 
 
-OWN = {
-    "name": "mine",
-    "source": "my tests",
-    "shear_fit": [16.03, 19.25],
-    "bulk_fit": [16.75, 22.51],
-    "branch": 0.81,
-    "calibrated": [0.4, 1.0],
-}
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -361,7 +351,7 @@ OWN = {
     ids=str,
 )
 def test_set_of_ones_own_that_is_no_law(tables, changes, message):
-    tables["snow"]["creep_law"] = {**OWN, **changes}
+    tables["snow"]["creep_law"] = {**OWN_SET, **changes}
     with pytest.raises(ModelError, match=message):
         build(tables)
 

@@ -4,10 +4,8 @@ import pytest
 
 from netdesign.calculation.quantity import given
 from netdesign.checks.forces import resist_by_friction, resist_by_tests
-from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.ground import (
-    PullOutTests,
     compute_pull_out_from_bond,
 )
 from tests.each import each
@@ -56,30 +54,10 @@ def test_mean_governs_where_its_factor_is_the_larger():
     assert found == pytest.approx(262.5, rel=1e-15)
 
 
-def test_tests_whose_least_exceeds_the_mean_are_refused():
-    with pytest.raises(ModelError, match="least tested resistance"):
-        PullOutTests(count=3, least=310e3, mean=300e3)
-
-
-@pytest.mark.parametrize("count", [0, -1, 1.5])
-def test_number_of_tests_is_a_count(count):
-    with pytest.raises(ModelError, match="number of tests"):
-        PullOutTests(count=count, least=1e5, mean=1e5)
-
-
 def test_catalogue_gives_the_least_of_a_range_with_its_source():
     stress = find_bond_stress("gravel", "A")
     assert (stress.value, stress.status) == (95.0, "secondary")
     assert "FHWA" in str(stress.source)
-
-
-@pytest.mark.parametrize(
-    ("ground", "grouting", "named"),
-    [("gravle", "A", "nearest: gravel"), ("granite", "B", "must be one of A")],
-)
-def test_unknown_ground_or_grouting_names_what_is_known(ground, grouting, named):
-    with pytest.raises(ModelError, match=named):
-        find_bond_stress(ground, grouting)
 
 
 @each("factor", [0.0, -1.2, -1e-9])
