@@ -198,10 +198,6 @@ def paper(**asked: Any) -> None:
     require_places(asked["out"], [PAGE_FILE], asked)
     with follow(len(list_cases()), "runs", asked) as on_done:
         study = run_study(settings, jobs=jobs, on_done=on_done)
-    files = render_paper(study)
-    write_outputs(asked["out"], files, {**asked, "quiet": True})
-    if not asked["quiet"]:
-        page = str(asked["out"] / PAGE_FILE)
-        tell(say("paper.wrote", path=page, count=len(files) - 1), err=True)
+    write_outputs(asked["out"], render_paper(study), asked)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)

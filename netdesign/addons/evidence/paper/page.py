@@ -26,7 +26,7 @@ from netdesign.addons.evidence.paper.runs import (
     find_paper_time,
     find_steady,
 )
-from netdesign.addons.evidence.paper.tables import Listed, list_tables
+from netdesign.addons.evidence.paper.tables import list_tables
 from netdesign.addons.history.moments import (
     LEAST_STRAIN,
     NODE_DRIFT,
@@ -350,23 +350,13 @@ PAGE_FILE = "index.html"
 
 
 def render_paper(study: PaperStudy) -> dict[str, bytes]:
-    """Contents of all files of the study, by name.
+    """Page of the study, by the name of its file.
 
     Parameters
     ----------
     study : PaperStudy
-        As computed; how many runs gave no result is told on the page.
+        Its runs.
     """
-    plates, tables = draw_plates(study), list_tables(study)
-    files = {PAGE_FILE: _render_page(study, plates, tables).encode()}
-    files |= {f"{plate.name}.svg": plate.svg.encode() for plate in plates}
-    files |= {f"{listed.name}.csv": listed.render() for listed in tables}
-    return files
-
-
-def _render_page(
-    study: PaperStudy, plates: Sequence[Plate], tables: Sequence[Listed]
-) -> str:
     lead = ENGLISH(
         "paper.lead",
         length=LENGTH,
@@ -383,14 +373,15 @@ def _render_page(
             ENGLISH("paper.heading"),
             Paragraph(text=lead, look="lead"),
         ),
-        section("pictures", ENGLISH("paper.pictures"), *_show_plates(plates)),
+        section(
+            "pictures", ENGLISH("paper.pictures"), *_show_plates(draw_plates(study))
+        ),
         section(
             "tables",
             ENGLISH("paper.tables"),
             *(
-                Part(kind="div", id=f"table-{listed.name}", blocks=(shown,))
-                for listed in tables
-                for shown in [listed.table.shown("study")]
+                Part(kind="div", id=f"table-{name}", blocks=(table.shown("study"),))
+                for name, table in list_tables(study).items()
             ),
             look="page",
         ),
@@ -408,7 +399,7 @@ def _render_page(
             ),
         ),
     )
-    return render_page(blocks, ENGLISH("paper.title"), "en")
+    return {PAGE_FILE: render_page(blocks, ENGLISH("paper.title"), "en").encode()}
 
 
 def _tell_histories(study: PaperStudy) -> str:
