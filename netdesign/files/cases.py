@@ -63,26 +63,23 @@ def write_envelope_document(
     """
     task, extremes = envelope.task, envelope.extremes
     spans = ((PARAMETERS[name], span) for name, span in task.ranges.intervals)
+    run = _describe_run(envelope.results, envelope.skipped, counts, wall_s)
+    run["cases"]["skips_tested"] = envelope.skips_tested
+    run["provenance"]["creep_law"] = task.scene.creep_law.name
+    run["provenance"]["settings"] = {"accuracy": task.settings.accuracy}
     return {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
         "ranges": {
-            one.key: [one.show(span.low), one.show(span.high)] for one, span in spans
+            parameter.key: [parameter.show(span.low), parameter.show(span.high)]
+            for parameter, span in spans
         },
         "extremes": [
             _write_bound(envelope, extremes[member], language)
             for member in QUANTITY_KEYS
             if member in extremes
         ],
-        "cases": {
-            "solved": counts.solved,
-            "reused": counts.reused,
-            "skipped": envelope.skipped,
-            "failed": sum(not one.is_converged for one in envelope.results),
-            "asked": len(envelope.results),
-            "skips_tested": envelope.skips_tested,
-        },
         "bound": {
             "gap_asked": task.search.gap,
             "certainty": task.search.certainty,
@@ -90,13 +87,7 @@ def write_envelope_document(
             "rests_on": render(say("envelope.rests_on"), language),
         },
         "log": [_write_addition(envelope, case) for case in envelope.maxima.log],
-        "cost": {"wall_s": wall_s},
-        "provenance": {
-            "version": __version__,
-            "core": name_core(),
-            "creep_law": envelope.task.scene.creep_law.name,
-            "settings": {"accuracy": envelope.task.settings.accuracy},
-        },
+        **run,
     }
 
 
@@ -144,6 +135,14 @@ def write_grid_document(
             }
             for member, extreme in extremes.items()
         ],
+        **_describe_run(results, skipped, counts, wall_s),
+    }
+
+
+def _describe_run(
+    results: Sequence[CaseResult], skipped: int, counts: Counts, wall_s: float
+) -> dict[str, Any]:
+    return {
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,

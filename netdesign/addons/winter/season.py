@@ -21,8 +21,11 @@ from netdesign.addons.winter.maxima import (
     find_many_maxima,
     find_maximum_alone,
 )
-from netdesign.addons.winter.settling.models import SettlingModel, follow_heights
-from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.settling.models import (
+    DayPack,
+    SettlingModel,
+    follow_heights,
+)
 from netdesign.addons.winter.statistics import Sample, choose_sample
 from netdesign.addons.winter.uniform_table import UniformTable
 from netdesign.snow.heights import HeightSeries, split_winters

@@ -27,13 +27,7 @@ from netdesign.addons.evidence.paper.runs import (
     find_steady,
 )
 from netdesign.addons.evidence.paper.tables import list_tables
-from netdesign.addons.history.moments import (
-    LEAST_STRAIN,
-    NODE_DRIFT,
-    PULL_DRIFT,
-    REST_SHARE,
-    REST_WAY,
-)
+from netdesign.addons.history.moments import CRITERION
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.blocks import (
     Block,
@@ -406,14 +400,7 @@ def _tell_histories(study: PaperStudy) -> str:
     return ENGLISH(
         "paper.how_histories",
         days=day_from_second(study.settings.horizon),
-        criterion=ENGLISH(
-            "solved.criterion",
-            strain=LEAST_STRAIN,
-            pull=PULL_DRIFT,
-            node=NODE_DRIFT,
-            rest=REST_SHARE,
-            way=REST_WAY,
-        ),
+        criterion=CRITERION,
         hours=find_history(NORMAL_NET_DEG).scene.time_scale / 3600.0,
     )
 
