@@ -18,7 +18,7 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
-from netdesign.files.scene import GivenSupport
+from netdesign.files.scene import SceneSupport
 from netdesign.panel.solve import EndForces, RopeForces, compute_end_forces
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.solving.runner import Counts
@@ -217,7 +217,7 @@ def _per_metre(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def resolve_support(
-    solution: Solution, settings: Settings, support: GivenSupport
+    solution: Solution, settings: Settings, support: SceneSupport
 ) -> CaseResult:
     """Forces of a support of the net that was solved, by the section and the panel."""
     task = CaseTask(
@@ -230,7 +230,7 @@ def resolve_support(
     return resolve_case(task, keep_state(solution))
 
 
-def _find_end(support: GivenSupport, result: CaseResult) -> EndForces | None:
+def _find_end(support: SceneSupport, result: CaseResult) -> EndForces | None:
     if result.solution is None or not isinstance(result.panel, PanelForces):
         return None
     points = place_support(support.layout, result.solution.head_point)
@@ -240,7 +240,7 @@ def _find_end(support: GivenSupport, result: CaseResult) -> EndForces | None:
 
 
 def write_support(
-    result: CaseResult, support: GivenSupport, language: Language = "en"
+    result: CaseResult, support: SceneSupport, language: Language = "en"
 ) -> dict[str, Any]:
     """Part ``support`` of the solution document: kN on one support."""
     written: dict[str, Any] = {"plain": None, "panel": None, "row_end": None}

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from netdesign.coupling.scene import Scene
-from netdesign.files.scene import SceneFile, build_given
+from netdesign.files.scene import SceneFile, build_scene_of_file
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
@@ -59,7 +59,7 @@ def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
 
 def build_tables(tables: Tables) -> Scene:
     """Scene of the tables of a scene file."""
-    return build_given(SceneFile.model_validate(tables)).scene
+    return build_scene_of_file(SceneFile.model_validate(tables)).scene
 
 
 # Usual ranges of the symbols; stiffness and slip length are drawn on a log scale.
