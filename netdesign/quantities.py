@@ -120,6 +120,8 @@ _ROWS = (
     _row("snow_thickness_m", "d", "m", 2),
     # net, per metre of width
     _force("foot_size_kN_per_m", "T₁", "kN/m"),
+    _force("head_size_kN_per_m", "T₂", "kN/m"),
+    _force("tension_max_kN_per_m", "T", "kN/m"),
     _force("load_kN_per_m", "R_x", "kN/m"),
     _force("error_kN_per_m", "", "kN/m"),
     # members, per anchor, characteristic
