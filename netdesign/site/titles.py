@@ -290,9 +290,9 @@ def _is_named(name: str, plan: SheetPlan) -> bool:
 
 def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
     """A sheet is the planned one: as answered, else by its name."""
-    answer = answers.sheets.get(name, UNANSWERED)
-    if answer != IGNORE and find_plan(answer) is None:  # open, or a finding already
-        return _is_named(name, plan)
+    answer = answers.sheets.get(name)
+    if answer is None or (answer != IGNORE and find_plan(answer) is None):
+        return _is_named(name, plan)  # open, or a finding already
     return answer != IGNORE and _is_named(answer, plan)
 
 
