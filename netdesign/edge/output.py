@@ -241,7 +241,7 @@ _SPELLED = {
         "∞": "inf",
     },
     **{"…": "...", "•": "*", "ß": "ss", "Æ": "AE", "æ": "ae", "Ø": "O", "ø": "o"},
-    **{"œ": "oe", "Œ": "OE", "✓": "(v)", "✗": "(x)", "†": "(+)", "‡": "(++)"},
+    **{"œ": "oe", "Œ": "OE", "✓": "v", "✗": "x", "†": "+", "‡": "++"},
 }
 
 
@@ -318,6 +318,16 @@ def _guard(name: str) -> _Lasting | None:
     )
     setattr(sys, name, guarded)
     return lasting
+
+
+def spell(text: str, encoding: str) -> str:
+    """Text as an output in an encoding shows it, so that its width is known.
+
+    >>> spell("✗ 1.48 ≥ 1", "ascii")
+    'x 1.48 >= 1'
+    """
+    codecs.register_error(_PLAIN, _spell)
+    return text.encode(encoding, _PLAIN).decode(encoding)
 
 
 def _spell(error: UnicodeError) -> tuple[str, int]:

@@ -70,7 +70,7 @@ class Phase:
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
-        Checks; 0 where cases are all there is.
+        Net rows; 0 where cases are all there is.
     seconds : float
         What it takes besides solves [s].
     """
@@ -137,7 +137,7 @@ class RunProgress:
     ) -> None:
         """Take the phases in their order, and what shows a standing.
 
-        ``clear`` takes what is shown off the screen for good.
+        ``clear`` takes what is shown off the screen, until there is more to show.
         """
         self.clear = clear
         self._phases, self._show = tuple(phases), show
@@ -217,7 +217,7 @@ class RunProgress:
         phase, words = self._phase, self._words
         if phase.pieces:
             pieces = {"done": self._pieces, "all": phase.pieces}
-            unit = say("progress.checks")
+            unit = say("progress.rows")
             words = (*words, say("progress.pieces", **pieces, unit=unit))
         self._show(
             Standing(
@@ -257,13 +257,15 @@ def show_phases(
         BarColumn(12),
         TextColumn("{task.description}", table_column=text),
     )
-    with Progress(*columns, console=console, transient=True, expand=True) as progress:
+    progress = Progress(*columns, console=console, transient=True, expand=True)
+    with progress:
         task = progress.add_task("", total=sum(phase.cases for phase in phases))
         last: Message | str = ""
 
         def show(standing: Standing) -> None:
             nonlocal last
             is_new, last = standing.stage != last, standing.stage
+            progress.start()
             progress.update(
                 task,
                 refresh=is_new,  # seen even where it is over before the next look

@@ -30,6 +30,12 @@ from netdesign.words.message import say
 # Progress that nobody is shown.
 _SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)
 OnRow = Callable[[Studies], None]
+
+
+def _keep_silent(_: Studies) -> None:
+    """Tell nobody of a row."""
+
+
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
 
 
@@ -47,7 +53,7 @@ def check_site(
     run: CheckRun,
     runner: Runner | None = None,
     watch: RunProgress | None = None,
-    on_row: OnRow = lambda _: None,
+    on_row: OnRow | None = None,
 ) -> list[Study]:
     """Check a site against limit profiles; its cases are solved once.
 
@@ -81,6 +87,7 @@ def check_site(
     if run.has_reliability:  # refused before anything is solved
         addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
     runner, watch = runner or Runner(), watch or _SILENT
+    on_row = on_row or _keep_silent
     names = name_rows(site, standards, run) if runner.store else {}
     known = find_rows(names, runner, len(standards))
     for studies in known.values():
@@ -103,15 +110,14 @@ def _judge_new(
 ) -> dict[str, Studies]:
     """Studies by the ids of the rows, solved, judged, and kept under their names.
 
-    Where there are rows enough, each is searched and judged in one process.
+    Each row is searched and judged in one process, where there are rows enough for all.
     """
     build = partial(_build_job, site, standards, run, runner)
-    pool = runner.workers.pool
-    groups = list_alike(site, run) if pool is not None else []
-    if pool is not None and len(groups) >= _ROWS_A_PROCESS * pool.processes:
+    groups, pool = list_alike(site, run), runner.workers.pool
+    if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
         watch.enter("checks", say("phase.rows"))
         jobs = [build(rows) for rows in groups]
-    else:
+    else:  # all processes solve cases of the same few rows
         solved = solve_rows(site, run, runner, watch)
         watch.enter("checks")
         jobs = _list_jobs(solved, build)
@@ -119,9 +125,10 @@ def _judge_new(
     def keep(job: RowsJob, judged: list[Studies]) -> None:
         keep_rows(names, job.site.rows, judged, runner)
         for studies in judged:
+            watch.count_piece()
             on_row(studies)
 
-    return judge_rows(jobs, runner, watch.count_piece, keep)
+    return judge_rows(jobs, runner, keep)
 
 
 def solve_rows(
@@ -164,7 +171,9 @@ def judge_solved(
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
     build = partial(_build_job, solved.site, standards, run, runner)
-    judged = judge_rows(_list_jobs(solved, build), runner, watch.count_piece)
+    judged = judge_rows(
+        _list_jobs(solved, build), runner, lambda *_: watch.count_piece()
+    )
     return _gather(solved.site, judged, standards, run)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign import addon_table
@@ -105,7 +105,6 @@ def judge_row(
     standard: Standard,
     run: CheckRun,
     solver: CaseSolver | None = None,
-    on_check: Callable[[], None] = lambda: None,
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowToCheck(
@@ -116,7 +115,6 @@ def judge_row(
         solved=solved,
         extremes=solved.extremes,
         solver=solver,
-        on_check=on_check,
     )
     return _record_row(task, run)
 

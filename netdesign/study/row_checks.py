@@ -63,7 +63,6 @@ def check_row(task: RowToCheck, variants: Sequence[RowForces]) -> RowChecks:
     for one in judged:
         changes = list_remedies(one.known, one) if one.force else []
         checks.append(replace(one.check, changes=changes))
-        task.on_check()
     known = variants[0]
     checks += [*_check_without_force(variants, judged), *check_limits(known)]
     checks = [_apply_declaration(task, one) for one in checks]

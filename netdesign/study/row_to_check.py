@@ -8,7 +8,7 @@ gives a number".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -138,14 +138,12 @@ class RowToCheck(Basis):
     """One net row under one profile.
 
     ``extremes`` are the largest forces of its solved cases; ``solver`` is None where
-    nothing beyond the solved cases is to be solved; ``on_check`` is called after each
-    check of a force.
+    nothing beyond the solved cases is to be solved.
     """
 
     solved: RowEnvelope
     extremes: Mapping[str, Extreme]
     solver: CaseSolver | None
-    on_check: Callable[[], None] = lambda: None
 
     def count_faults(self) -> int:
         """Faults of the program in the solves so far."""

@@ -149,10 +149,6 @@ def _restore(text: str, values: str) -> RowStudy:
     return row
 
 
-# Of a row, by its ground: the looser the snow, the more a limit takes (20 rows).
-_WORK = {"no-slip": 1, "sliding": 2, "free": 3}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowsJob:
     """Some rows of a site, to be judged in one process.
@@ -182,21 +178,19 @@ class RowsJob:
 class JudgedRows:
     """Studies of the rows of a job, and what a worker did for them.
 
-    ``counts`` and ``faults`` are those of the worker's runner, ``checks`` the number of
-    checks of forces that it made, ``told`` what the user should know.
+    ``counts`` and ``faults`` are those of the worker's runner, ``told`` what the user
+    should know.
     """
 
     studies: list[Studies]
     counts: Counts
     faults: dict[Fault, set[str]]
-    checks: int
     told: list[Message]
 
 
 def judge_rows(
     jobs: Sequence[RowsJob],
     runner: Runner,
-    on_check: Callable[[], None],
     on_job: Callable[[RowsJob, list[Studies]], None] = lambda *_: None,
 ) -> dict[str, Studies]:
     """Studies of the rows of all jobs, by their ids.
@@ -207,8 +201,6 @@ def judge_rows(
         Each is done in one process.
     runner : Runner
         Its pool takes the jobs, if it has one; else this process does.
-    on_check : callable
-        Called for each check of a force.
     on_job : callable, optional
         Called with each job once it is done, and with what it found.
     """
@@ -216,7 +208,7 @@ def judge_rows(
     pool = runner.workers.pool
     if pool is not None and len(jobs) > 1:
         told: dict[Message, None] = {}  # once, however many workers say it
-        waiting = sorted(enumerate(jobs), key=lambda one: _expect_work(one[1]))
+        waiting = list(enumerate(jobs))[::-1]  # taken from its end
         for place, judged in pool.spread(judge_away, waiting):
             if judged is None:
                 continue
@@ -226,27 +218,18 @@ def judge_rows(
                     runner.tell(message)
             told |= dict.fromkeys(judged.told)
             runner.take(judged.counts, judged.faults)
-            for _ in range(judged.checks):
-                on_check()
             on_job(jobs[place], judged.studies)
     # Where a worker died, each case is now given to a worker; where it failed, it fails
     # here, by name and place.
     for place, job in enumerate(jobs):
         if place not in found:
-            found[place] = _judge(job, runner, on_check)
+            found[place] = _judge(job, runner)
             on_job(job, found[place])
     return {
         row.id: studies
         for place, job in enumerate(jobs)
         for row, studies in zip(job.site.rows, found[place], strict=True)
     }
-
-
-def _expect_work(job: RowsJob) -> int:
-    """Measure of the work in a job; the most is begun first, so that none waits."""
-    return sum(
-        _WORK[row.ground.kind] * max(1, len(row.layers)) for row in job.site.rows
-    )
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
@@ -260,12 +243,6 @@ def judge_away(job: RowsJob) -> JudgedRows | None:
 
 def _judge_away(job: RowsJob) -> JudgedRows:
     told: list[Message] = []
-    checks = 0
-
-    def count() -> None:
-        nonlocal checks
-        checks += 1
-
     with ExitStack() as stack:
         store: CaseStore | None = None
         if job.store is not None:
@@ -275,25 +252,24 @@ def _judge_away(job: RowsJob) -> JudgedRows:
             except StoreError as error:
                 told.append(say("store.going_on", reason=error.message))
         runner = Runner(store=store, tell=told.append)
-        studies = _judge(job, runner, count)
+        studies = _judge(job, runner)
     for one in chain.from_iterable(studies):
         _ = one.written  # here, while others judge
     return JudgedRows(
         studies=studies,
         counts=runner.counts,
         faults=runner.faults,
-        checks=checks,
         told=told,
     )
 
 
-def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[Studies]:
+def _judge(job: RowsJob, runner: Runner) -> list[Studies]:
     solved: Sequence[RowEnvelope] | None = job.solved
     if solved is None:
         solved = search_site(job.site, job.run, runner)
     keep_faults(job.site.rows, solved, runner)
     return [
-        _judge_row(job, row, of_row, runner, on_check)
+        _judge_row(job, row, of_row, runner)
         for row, of_row in zip(job.site.rows, solved, strict=True)
     ]
 
@@ -303,13 +279,12 @@ def _judge_row(
     row: NetRow,
     solved: RowEnvelope,
     runner: Runner,
-    on_check: Callable[[], None],
 ) -> Studies:
     """Studies of a row; profiles share its cases: forces do not depend on them."""
     solver = CaseSolver(job.run.settings, job.run.creep_law, runner)
     site = cut_site(job.site, row)
     return [
-        judge_row(site, row, solved, standard, job.run, solver, on_check)
+        judge_row(site, row, solved, standard, job.run, solver)
         for standard in job.standards
     ]
 

@@ -39,8 +39,8 @@ from netdesign.report.sections.decision import (
 )
 from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.sections.scopes import describe_study_scopes
-from netdesign.report.sections.whole import list_properties, title_pages
-from netdesign.report.what_if import build_what_if, mark_title, name_kind
+from netdesign.report.sections.whole import list_properties
+from netdesign.report.what_if import build_what_if, mark_title, name_kind, title_pages
 from netdesign.report.words import MISSING, Words, show_text
 from netdesign.report.workbook.check_sheet import (
     FIRST_LINE,
