@@ -54,7 +54,7 @@ _HEADINGS = (
 )
 # Columns of a terminal, and of its parts.
 _WIDE = 100  # has room for the utilisation by the guideline
-_ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 8, 13, 13, 2
+_ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 8, 12, 13, 2
 _LONGEST_ID, _GOVERNING, _LEAST_GOVERNING = 10, 45, 8
 
 
@@ -148,7 +148,7 @@ class Matrix:
         """Content in so many columns; what stands beside its number goes first."""
         short = [one for one in content if not _is_beside(one)]
         for parts in (content, short if len(short) > 1 else content):
-            text = self._spell(write_plain(tuple(parts)))
+            text = " ".join(self._spell(write_plain(tuple(parts))).split())
             if len(text) <= width:
                 return text
         return self._cut(text, width)

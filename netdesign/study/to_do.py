@@ -189,16 +189,20 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     if worst.point is None:
         if check.is_of_force:
             return say("to_do.spans", checks=checks)
-        return say(
-            "to_do.open", checks=checks, reason=shorten_reason(check.plain_reason)
-        )
+        return _describe_open(checks, shorten_reason(check.plain_reason))
     if kind == "lowers":
         told = (x.point.message.arguments["name"] for x in group if x.point)
         names = (name for name in told if isinstance(name, Message))
         named = tuple(dict.fromkeys(names))
         if len(named) > 1:
-            return say("to_do.lowers", names=named, reason=worst.point.message)
-    return say("to_do.open", checks=checks, reason=worst.point.message)
+            return say("to_do.lowers", names=named)
+    return _describe_open(checks, worst.point.message)
+
+
+def _describe_open(checks: tuple[Message, ...], reason: Message) -> Message:
+    """Reason, behind the names of its checks where they are few."""
+    is_few = len(checks) <= _FEW
+    return say("to_do.open", checks=checks, reason=reason) if is_few else reason
 
 
 def shorten_reason(reason: Message) -> Message:
@@ -211,11 +215,13 @@ def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
     """Force beside resistance, and the type that does, where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
-        reason = shorten_reason(check.plain_reason)
-        return say("to_do.open", checks=checks, reason=reason)
-    told = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
+        return _describe_open(checks, shorten_reason(check.plain_reason))
+    forces = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
     other = next((one for one in check.changes if one.sense == "has"), None)
-    return say("to_do.with_type", what=told, type=other.quantity) if other else told
+    if other is None:
+        return forces
+    mode = name_mode(check.mode)
+    return say("to_do.with_type", what=forces, mode=mode, type=other.quantity)
 
 
 def _describe_needed(checks: Sequence[Check]) -> Message:
