@@ -15,7 +15,7 @@ from statistics import fmean
 
 from netdesign.resistance.catalogue import Product
 from netdesign.resistance.ground import Bond, SingleTest
-from netdesign.resistance.products import find_product
+from netdesign.resistance.products import find_bar, find_product
 from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
@@ -292,7 +292,7 @@ def fill_in_section(row: Row) -> Row:
         keys = [key for key in row if row[key].state == "blank"]
     elif "bar_diameter" in row and not may_be_rope(row):
         typed, told, keys = row["id"], "derivation.named_bar", list(_STEEL)
-        product = find_product(typed.word)
+        product = find_bar(typed.word)
     else:
         return row
     is_open = all(row[key].state == "blank" for key in keys)

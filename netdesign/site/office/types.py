@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from netdesign.resistance.catalogue import Product
-from netdesign.resistance.products import find_product
+from netdesign.resistance.products import find_bar
 from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS, ROPES, TESTS
 from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si
 from netdesign.site.readings import Reading, Row, read_nothing
@@ -152,9 +152,8 @@ def _find_steel(row: Row) -> dict[str, Reading]:
     bare = replace(force, field=replace(force.field, computed_from=()))
     if "faulty" in (force.state, diameter.state):
         return {"tendon": bare}
-    product = find_product(row["id"].word)
-    is_bar = product is not None and product.family.endswith("bar")
-    if product is not None and is_bar and force.state != "given":
+    product = find_bar(row["id"].word)
+    if product is not None and force.state != "given":
         return _name_steel(row, product)
     if diameter.state != "given":
         return {}
