@@ -29,7 +29,7 @@ from netdesign.study.member_force import RowForces, find_guideline_force
 from netdesign.study.pulls import ANCHORS
 from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.study.sideways import (
-    find_lack,
+    find_splay,
     place_over,
     weigh_places,
 )
@@ -237,13 +237,11 @@ def _hold_sideways(
     row: NetRow, span: Interval, pull: float, share: float
 ) -> HeldSidewaysRecord | Message:
     """Load along the row under the guideline's load, or why nothing holds it."""
-    lack, splay = find_lack(row), row.guys.splay
-    if lack is not None or splay is None:
-        return lack or say("sideways.no_splay")
-    places = place_over(row, span)
+    splay, places = find_splay(row), place_over(row, span)
+    if isinstance(splay, Message):
+        return splay
     if not all(map(weigh_splay, places)):
         return say("support.not_held_sideways")
-    uphill, downhill, post = weigh_places(places)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -251,10 +249,8 @@ def _hold_sideways(
         pull_kN=pull,
         pull_high_kN=pull,
         least_tension_kN=0.0,  # no anchor follows it
-        uphill_part=uphill,
-        downhill_part=downhill,
-        post_part=post,
         floor_pull_kN=pull,
+        **weigh_places(places),
     )
 
 

@@ -98,13 +98,11 @@ def _record_confirmation(
     one = next((c for c in envelope.confirmations if c.member == member), None)
     if one is None:
         return None
-    screened, confirmed = one.screened.solution, one.confirmed.solution
+    confirmed = one.confirmed.solution
     difference, forces = one.difference, one.confirmed.member_forces
     return ConfirmationRecord(
-        screened_kN=kilonewton_from_newton(one.screened.member_forces[member].value),
         confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
         difference_percent=None if difference is None else 100.0 * difference,
         elements=confirmed.elements if confirmed else None,
-        screened_elements=screened.elements if screened else 0,
         reason=one.confirmed.reason,
     )

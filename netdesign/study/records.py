@@ -417,22 +417,12 @@ class Study:
         return join_items([row.written for row in self.rows])
 
 
-def find_input(row: RowStudy, column: str) -> float | None:
-    """Number of a column of sheet Nets, as understood; None where it is empty."""
-    value = _find(row, column)
-    return None if isinstance(value, str) else value
-
-
-def find_word(row: RowStudy, column: str) -> str:
-    """Word of a column of sheet Nets, by its key; "" where it is empty."""
-    value = _find(row, column)
-    return value if isinstance(value, str) else ""
-
-
 _SHEETS = ("Nets", "rows", "net_types", "project")  # with columns of a net row
 
 
-def _find(row: RowStudy, column: str) -> float | str | None:
+def find_input(row: RowStudy, column: str) -> float | None:
+    """Number of a column of a net row, as understood; None where it is empty."""
     labels = [say(f"column.{sheet}.{column}") for sheet in _SHEETS]
-    found = (one.value for one in row.inputs if one.label in labels)
-    return next((one for one in found if one != ""), None)
+    texts = (echo.value for echo in row.inputs if echo.label in labels)
+    value = next((text for text in texts if text != ""), None)
+    return None if isinstance(value, str) else value

@@ -16,8 +16,6 @@ from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.assumed import Assumed
 from netdesign.structure.members import (
-    BROUGHT_BY,
-    REPORTED_MEMBERS,
     EndMember,
     Member,
     NetPart,
@@ -252,14 +250,6 @@ def find_shown(checks: Sequence[Check]) -> Check | None:
     if governing and governing.used is not None:
         return governing
     return find_highest(checks)
-
-
-def find_shown_member(checks: Sequence[Check]) -> str:
-    """Member whose envelope is shown; "" without any."""
-    shown = find_shown(checks)
-    if shown is None or shown.member in REPORTED_MEMBERS:
-        return shown.member if shown else ""
-    return BROUGHT_BY.get(shown.member, "")
 
 
 def is_far_from_limit(check: Check) -> bool:

@@ -62,12 +62,11 @@ def find_held_sideways(
         What the guideline's load brings at the head; None without a floor.
     """
     row, results = task.row, task.solved.results
-    value, splay = task.standard.find(LATERAL_SHARE), row.guys.splay
+    value, splay = task.standard.find(LATERAL_SHARE), find_splay(row)
     if value is None:
         return say("ends.no_lateral_load", value=LATERAL_SHARE)
-    lack = find_lack(row)
-    if lack is not None or splay is None:
-        return lack or say("sideways.no_splay")
+    if isinstance(splay, Message):
+        return splay
     if not heads:
         return describe_gap(results) or say("check.no_case_solved")
     pulls, places = zip(*((one.head_pull, one.points) for one in heads), strict=True)
@@ -99,7 +98,6 @@ def _record(
     is_assumed = row.panel_assumed or is_layout_assumed(row)
     least = 0.0 if is_assumed else max(0.0, solved - in_guys)
     places = {id(one.points): one.points for one in heads}
-    uphill, downhill, post = weigh_places(places.values())
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -107,22 +105,23 @@ def _record(
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
         least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
-        uphill_part=uphill,
-        downhill_part=downhill,
-        post_part=post,
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
+        **weigh_places(places.values()),
     )
 
 
-def weigh_places(places: Iterable[SupportPoints]) -> tuple[float, float, float]:
-    """Largest weights of the load along the row in uphill, downhill guy, post [-]."""
-    found = [one for one in map(weigh_splay, places) if one is not None]
-    uphill, downhill, post = (
-        max(float(getattr(one, name)) for one in found)
-        for name in ("largest_uphill", "largest_downhill", "post")
-    )
-    return uphill, downhill, post
+def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
+    """Largest weights of the load along the row in both guys and the post [-].
+
+    By the fields of the record.
+    """
+    weights = [weight for weight in map(weigh_splay, places) if weight is not None]
+    return {
+        "uphill_part": max(float(weight.largest_uphill) for weight in weights),
+        "downhill_part": max(float(weight.largest_downhill) for weight in weights),
+        "post_part": max(float(weight.post) for weight in weights),
+    }
 
 
 def _fail(head: SupportState, share: float, splay: float) -> Message | None:
@@ -424,12 +423,10 @@ def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
     )
 
 
-def find_lack(row: NetRow) -> Message | None:
-    """Lack of the workbook, of guys that hold a load along the row."""
+def find_splay(row: NetRow) -> float | Message:
+    """Splay of the guys that hold a load along the row [rad], or why none is held."""
     if row.guys.count < 2:
         return say("sideways.one_guy")
-    if row.guys.splay is None:
-        return say("sideways.no_splay")
-    if row.layout.is_foot_shared:
+    if row.layout.is_foot_shared and row.guys.splay is not None:
         return say("sideways.at_foot")
-    return None
+    return say("sideways.no_splay") if row.guys.splay is None else row.guys.splay
