@@ -61,7 +61,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             seconds=_REPORTS_S * profiles,
         ),
     ]
-    return [one for one in phases if one.most or one.seconds]
+    return [phase for phase in phases if phase.most or phase.seconds]
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
@@ -155,10 +155,10 @@ def have_same_forces(
 
 def list_alike(site: Site, run: CheckRun) -> list[tuple[NetRow, ...]]:
     """Rows of a site, those together that are solved alike."""
-    found: dict[RowTask, list[NetRow]] = {}
+    alike: dict[RowTask, list[NetRow]] = {}
     for row in site.rows:
-        found.setdefault(_build_search(row, site.ranges, run), []).append(row)
-    return [tuple(rows) for rows in found.values()]
+        alike.setdefault(_build_search(row, site.ranges, run), []).append(row)
+    return [tuple(rows) for rows in alike.values()]
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:

@@ -89,14 +89,14 @@ def check_site(
     runner, watch = runner or Runner(), watch or _SILENT
     on_row = on_row or _keep_silent
     names = name_rows(site, standards, run) if runner.store else {}
-    known = find_rows(names, runner, len(standards))
-    for studies in known.values():
+    by_row = find_rows(names, runner, len(standards))
+    for studies in by_row.values():
         on_row(studies)
-    new = tuple(row for row in site.rows if row.id not in known)
+    new = tuple(row for row in site.rows if row.id not in by_row)
     if new:
         part = replace(site, rows=new)
-        known |= _judge_new(part, names, standards, run, runner, watch, on_row)
-    return _gather(site, known, standards, run)
+        by_row |= _judge_new(part, names, standards, run, runner, watch, on_row)
+    return _gather(site, by_row, standards, run)
 
 
 def _judge_new(
@@ -136,28 +136,30 @@ def solve_rows(
     run: CheckRun,
     runner: Runner,
     watch: RunProgress,
-    known: SolvedSite | None = None,
+    before: SolvedSite | None = None,
 ) -> SolvedSite:
-    """Cases of every net row, solved; rows with the same forces as ``known`` are not.
+    """Solve the cases of every net row whose forces differ from those in ``before``.
 
     A what-if has the rows of the site that is known, in their order, and some of them
     may be solved alike: only their checks are other ones.
     """
-    todo = [row for row in site.rows if known is None or _is_new(row, site, known, run)]
+    todo = [
+        row for row in site.rows if before is None or _is_new(row, site, before, run)
+    ]
     part = replace(site, rows=tuple(todo))
-    found = search_site(part, run, runner, watch.report_wave)
-    by_id = dict(zip((row.id for row in todo), found, strict=True))
-    if known is not None:
-        old = zip(known.site.rows, known.rows, strict=True)
+    envelopes = search_site(part, run, runner, watch.report_wave)
+    by_id = dict(zip((row.id for row in todo), envelopes, strict=True))
+    if before is not None:
+        old = zip(before.site.rows, before.rows, strict=True)
         by_id = {row.id: solved for row, solved in old} | by_id
     return SolvedSite(site=site, rows=[by_id[row.id] for row in site.rows])
 
 
-def _is_new(row: NetRow, site: Site, known: SolvedSite, run: CheckRun) -> bool:
+def _is_new(row: NetRow, site: Site, before: SolvedSite, run: CheckRun) -> bool:
     """No row of that id was solved, or its forces are other ones."""
-    old = {one.id: one for one in known.site.rows}.get(row.id)
+    old = {row.id: row for row in before.site.rows}.get(row.id)
     return old is None or not have_same_forces(
-        row, site.ranges, old, known.site.ranges, run
+        row, site.ranges, old, before.site.ranges, run
     )
 
 

@@ -153,8 +153,8 @@ def _drop(part: Any, names: Iterable[str], members: str = "") -> list[Any]:
         return []
     for name in names:
         part.pop(name, None)
-    found = part.get(members)
-    return found if isinstance(found, list) else []
+    listed = part.get(members)
+    return listed if isinstance(listed, list) else []
 
 
 def require_unaltered(study: Study, text: str) -> None:
@@ -318,7 +318,9 @@ def _collect(value: Any, place: str, values: dict[str, Any]) -> None:
 
 def _list_ids(members: Sequence[Any]) -> list[str]:
     """Ids or symbols of the members of a list; none if one lacks it or two share it."""
-    ids = [str(getattr(one, "id", getattr(one, "symbol", ""))) for one in members]
+    ids = [
+        str(getattr(member, "id", getattr(member, "symbol", ""))) for member in members
+    ]
     return ids if all(ids) and len(set(ids)) == len(ids) else []
 
 
@@ -328,7 +330,7 @@ def _find_noise(place: str) -> float:
 
 
 def _is_same(old: Any, new: Any, noise: float) -> bool:
-    if all(isinstance(one, float) or type(one) is int for one in (old, new)):
+    if all(isinstance(value, float) or type(value) is int for value in (old, new)):
         tolerance = SAME if noise else ROUNDING
         return math.isclose(old, new, rel_tol=tolerance, abs_tol=noise)
     return type(old) is type(new) and bool(old == new)

@@ -80,7 +80,7 @@ class RowForces(Basis):
     def find_least(self, member: str) -> FloorForceRecord | None:
         """Force of a member by the guideline's load; None where there is none."""
         forces = self.floor.forces if self.floor else ()
-        return next((one for one in forces if one.member == member), None)
+        return next((force for force in forces if force.member == member), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

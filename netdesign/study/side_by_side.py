@@ -42,7 +42,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
     What is not listed here decides nothing of a row. The notes of a site, its file and
     its project stand beside the rows.
     """
-    monitoring = tuple(one for one in site.monitoring if one.row_id == row.id)
+    monitoring = tuple(series for series in site.monitoring if series.row_id == row.id)
     return Site(
         project=Project(),
         ranges=site.at_row(row).ranges,
@@ -50,13 +50,19 @@ def cut_site(site: Site, row: NetRow) -> Site:
         file_name="",
         sha256="",
         monitoring=monitoring,
-        declared=tuple(one for one in site.declared if one.row_id in ("", row.id)),
+        declared=tuple(
+            declaration
+            for declaration in site.declared
+            if declaration.row_id in ("", row.id)
+        ),
         confirmed=site.confirmed,
         documents=site.documents,
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,
-        uncertain=tuple(one for one in site.uncertain if one.row_id in ("", row.id)),
+        uncertain=tuple(
+            quantity for quantity in site.uncertain if quantity.row_id in ("", row.id)
+        ),
     )
 
 
@@ -101,18 +107,18 @@ def find_rows(
 
     A damaged record is told and left out.
     """
-    found = {}
+    by_row = {}
     for row_id, name in names.items():
         texts = runner.find_row(name.own) or runner.find_row(name.whole)
         if texts is None:
             continue
         try:
             pairs = zip(texts[::2], texts[1::2], range(count), strict=True)
-            found[row_id] = [_restore(text, values) for text, values, _ in pairs]
+            by_row[row_id] = [_restore(text, values) for text, values, _ in pairs]
         except ValueError:
             path = str(runner.store.path if runner.store else "")
             runner.tell(say("store.row_damaged", path=path, name=name.whole[:12]))
-    return found
+    return by_row
 
 
 def keep_rows(
@@ -130,9 +136,9 @@ def keep_rows(
     for row, studies in zip(rows, judged, strict=True):
         name = names.get(row.id)
         if name is not None:
-            parts = [one.written for one in studies]
+            parts = [study.written for study in studies]
             texts = [text for part in parts for text in (part.text, part.values)]
-            proposes = any(check.changes for one in studies for check in one.checks)
+            proposes = any(check.changes for study in studies for check in study.checks)
             runner.keep_row(name.whole if proposes else name.own, texts)
 
 
@@ -178,14 +184,14 @@ class RowsJob:
 class JudgedRows:
     """Studies of the rows of a job, and what a worker did for them.
 
-    ``counts`` and ``faults`` are those of the worker's runner, ``told`` what the user
-    should know.
+    ``counts`` and ``faults`` are those of the worker's runner; the user reads the
+    ``messages``.
     """
 
     studies: list[Studies]
     counts: Counts
     faults: dict[Fault, set[str]]
-    told: list[Message]
+    messages: list[Message]
 
 
 def judge_rows(
@@ -204,31 +210,31 @@ def judge_rows(
     on_job : callable, optional
         Called with each job once it is done, and with what it found.
     """
-    found: dict[int, list[Studies]] = {}
+    judged_at: dict[int, list[Studies]] = {}
     pool = runner.workers.pool
     if pool is not None and len(jobs) > 1:
-        told: dict[Message, None] = {}  # once, however many workers say it
+        shown: dict[Message, None] = {}  # once, however many workers say it
         waiting = list(enumerate(jobs))[::-1]  # taken from its end
         for place, judged in pool.spread(judge_away, waiting):
             if judged is None:
                 continue
-            found[place] = judged.studies
-            for message in judged.told:
-                if message not in told:
+            judged_at[place] = judged.studies
+            for message in judged.messages:
+                if message not in shown:
                     runner.tell(message)
-            told |= dict.fromkeys(judged.told)
+            shown |= dict.fromkeys(judged.messages)
             runner.take(judged.counts, judged.faults)
             on_job(jobs[place], judged.studies)
     # Where a worker died, each case is now given to a worker; where it failed, it fails
     # here, by name and place.
     for place, job in enumerate(jobs):
-        if place not in found:
-            found[place] = _judge(job, runner)
-            on_job(job, found[place])
+        if place not in judged_at:
+            judged_at[place] = _judge(job, runner)
+            on_job(job, judged_at[place])
     return {
         row.id: studies
         for place, job in enumerate(jobs)
-        for row, studies in zip(job.site.rows, found[place], strict=True)
+        for row, studies in zip(job.site.rows, judged_at[place], strict=True)
     }
 
 
@@ -242,24 +248,24 @@ def judge_away(job: RowsJob) -> JudgedRows | None:
 
 
 def _judge_away(job: RowsJob) -> JudgedRows:
-    told: list[Message] = []
+    messages: list[Message] = []
     with ExitStack() as stack:
         store: CaseStore | None = None
         if job.store is not None:
             try:
-                opened = CaseStore(job.store, told.append, is_open=True)
+                opened = CaseStore(job.store, messages.append, is_open=True)
                 store = stack.enter_context(opened)
             except StoreError as error:
-                told.append(say("store.going_on", reason=error.message))
-        runner = Runner(store=store, tell=told.append)
+                messages.append(say("store.going_on", reason=error.message))
+        runner = Runner(store=store, tell=messages.append)
         studies = _judge(job, runner)
-    for one in chain.from_iterable(studies):
-        _ = one.written  # here, while others judge
+    for row in chain.from_iterable(studies):
+        _ = row.written  # here, while others judge
     return JudgedRows(
         studies=studies,
         counts=runner.counts,
         faults=runner.faults,
-        told=told,
+        messages=messages,
     )
 
 
@@ -294,6 +300,6 @@ def keep_faults(
 ) -> None:
     """Tell the runner which net rows the faults in their cases befell."""
     for row, of_row in zip(rows, solved, strict=True):
-        again = (one.confirmed for one in of_row.confirmations)
+        again = (confirmation.confirmed for confirmation in of_row.confirmations)
         for result in (*of_row.results, *again):
             runner.keep_fault(result.fault, row.id)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks import forces as formulas
 from netdesign.checks.forces import MemberLoad, Support, place_end_support
 
@@ -18,7 +18,7 @@ UNITS |= dict.fromkeys(("E_c", "E_p", "E_g", "E_p0"), "kN")
 
 def q(symbol, value, low=None, high=None):
     band = (value if low is None else low, value if high is None else high)
-    return given(symbol, value, UNITS.get(symbol, "-"), "test", band=band)
+    return leaf(symbol, value, UNITS.get(symbol, "-"), "test", band=band)
 
 
 def ends(quantity):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import resist_by_friction, resist_by_tests
 from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.ground import (
@@ -35,10 +35,10 @@ def test_enlargement_multiplies_the_diameter():
 
 def correlate(*, mean, on_mean, least, on_least):
     return resist_by_tests(
-        given("R_m", mean, "kN", "test"),
-        given("ξ_m", on_mean, "-", "test"),
-        given("R_min", least, "kN", "test"),
-        given("ξ_min", on_least, "-", "test"),
+        leaf("R_m", mean, "kN", "test"),
+        leaf("ξ_m", on_mean, "-", "test"),
+        leaf("R_min", least, "kN", "test"),
+        leaf("ξ_min", on_least, "-", "test"),
     ).value
 
 
@@ -70,9 +70,9 @@ def test_a_factor_that_is_not_above_zero_gives_no_resistance(place, factor):
 @pytest.mark.parametrize(("friction", "pressing"), [(0.4, -5.0), (-0.4, 100.0)])
 def test_a_base_that_nothing_presses_has_no_friction(friction, pressing):
     found = resist_by_friction(
-        given("μ_b", friction, "-", "test"),
-        given("γ_E", 1.5, "-", "test"),
-        given("V_k", pressing, "kN", "test"),
+        leaf("μ_b", friction, "-", "test"),
+        leaf("γ_E", 1.5, "-", "test"),
+        leaf("V_k", pressing, "kN", "test"),
     )
     assert found.value is None
     assert found.lacks
