@@ -62,6 +62,8 @@ _BY_TRUSS: Mapping[str, str] = {
     Member.DOWNHILL_GUY: "downhill_guy_kN",
     Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
 }
+# Modes with a force of their own; in all others that of the member counts.
+OWN_FORCES = ("sliding",)
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
@@ -97,7 +99,8 @@ def size_force(
     ModelError
         Where an operation of its formula lies outside its range.
     """
-    key = (resistance.member, resistance.mode == "sliding", width.position)
+    mode = resistance.mode if resistance.mode in OWN_FORCES else ""
+    key = (resistance.member, mode, width.position)
     if key not in forces.sizes:
         forces.sizes[key] = find_force(forces, resistance, width, is_size=True)
     return forces.sizes[key]

@@ -58,7 +58,7 @@ class RowForces(Basis):
     gap: Message | None = None
     panel_gap: Message | None = None
     # forces of which the size alone was asked for, by member and support
-    sizes: dict[tuple[str, bool, str], MemberForce | None] = field(
+    sizes: dict[tuple[str, str, str], MemberForce | None] = field(
         default_factory=dict, compare=False, repr=False
     )
 
