@@ -1,7 +1,7 @@
 """Names of what add-ons offer: the only place where the core knows of them.
 
-A folder of `netdesign/addons` may be missing. Whoever asks for something of it is told
-so in one sentence; everything else goes on.
+A folder of `netdesign/addons` may be missing. What asks for it then ends with one
+sentence; everything else works.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class CommandTable(UserDict[str, Any]):
 
 
 def _load_command(name: str, place: str) -> click.Command:
-    """Command at a place; one that says what is missing, where its add-on is."""
+    """Command at a place; without its add-on, a command that names the add-on."""
     if ":" not in place:
         module, function = place.split(".")
         command: click.Command = getattr(
@@ -194,7 +194,7 @@ def main() -> NoReturn:
 
 
 class _LogPrinter(logging.Handler):
-    """Tells what rooms below have logged."""
+    """Prints on stderr what the rooms below have logged."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print a note."""

@@ -1,10 +1,9 @@
 """Outcomes of solves, verdicts, errors, faults, and guards of values: how things end.
 
 An *outcome* is the end of a solve. An *error* is raised on purpose, for the user. A
-*fault* is whatever the package does not raise on purpose: it is no answer to an
-engineer's question. Whoever has one leaves the case without a result, shows the fault
-on stderr, keeps it from the store, and ends with ``EXIT_CODE``. A *guard* refuses a
-value that is out of range; all are written in the positive, so that NaN fails them.
+*fault* is any other exception: a bug. Its case has no result and is not stored; the
+run shows it on stderr and ends with ``EXIT_CODE``. A *guard* refuses a value that is
+out of range; all are written in the positive, so that NaN fails them.
 """
 
 from __future__ import annotations
@@ -126,7 +125,7 @@ class NetDesignError(Exception):
         self.message = as_message(message)
 
     def __str__(self) -> str:
-        """The message in English, for logs and for whoever uses the package."""
+        """Message in English, for logs and for use from Python."""
         return str(self.message)
 
 

@@ -294,7 +294,7 @@ def guard_streams() -> _Lasting | None:
 
 
 def flush_streams() -> None:
-    """Write what is left; afterwards the fault of a lasting stream is final."""
+    """Flush both streams; a fault of standard output is known afterwards."""
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()

@@ -156,7 +156,7 @@ class RunProgress:
         self._stage: Message | str = self._phase.key
 
     def enter(self, key: str, words: Message | None = None) -> None:
-        """A phase begins, if it is one of those to come; there is no way back.
+        """Begin a phase, if it lies ahead; no phase begins twice.
 
         ``words`` are its name for people, where it does more than its own says.
         """
@@ -169,7 +169,7 @@ class RunProgress:
         self._tell()
 
     def ask(self, count: int) -> None:
-        """So many cases are about to be solved."""
+        """Count the cases that are about to be solved."""
         self._waiting = count
         self._tell()
 

@@ -70,7 +70,7 @@ class HeadForces(MemberSizes[float]):
     outcome: ClassVar[Outcome] = Outcome.CONVERGED
 
     def __post_init__(self) -> None:
-        """Refuse a rope that pushes, and what is no number."""
+        """Refuse negative forces, infinite ones, and NaN."""
         require_within("post compression", self.post_compression, 0.0, math.inf)
         require_within("post tension", self.post_tension, 0.0, math.inf)
         require_within("uphill guy tension", self.uphill_guy_tension, 0.0, math.inf)

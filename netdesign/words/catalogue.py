@@ -153,7 +153,7 @@ def _convert(value: Any, conversion: str, language: Language) -> Any:
 
 
 def _fill(value: Any, form: str, language: Language) -> str:
-    """An argument as text: words of ours in the language of the whole."""
+    """Argument as text; a message among them in the language of the whole."""
     if form == _CLAUSE:
         return _fill(value, "", language).rstrip(".")
     if isinstance(value, str):

@@ -16,7 +16,7 @@ Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Text to be told, in no language yet.
+    """Text for the user, in no language yet.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Message:
     )
 
     def __str__(self) -> str:
-        """The text in English, for logs and for whoever uses the package in Python."""
+        """Text in English, for logs and for use from Python."""
         from netdesign.words.catalogue import render
 
         return render(self, "en")

@@ -105,7 +105,7 @@ def _find_targets(heading: str, measure: str) -> list[Target]:
 
 
 def _convert(value: object, own: str, unit: str) -> float | str | None:
-    """Number in the column's first unit, or words; None of what is neither."""
+    """Number in the column's first unit, or a text; None for any other value."""
     if isinstance(value, str):
         return value.strip() or None
     if isinstance(value, bool) or not isinstance(value, int | float):

@@ -77,7 +77,7 @@ def _merge_pack(pack: DayPack) -> tuple[Layer, ...]:
 
 
 def _scale_layers(layers: Sequence[Layer], factor: float) -> tuple[Layer, ...]:
-    """Layers so many times as thick; none where one is uniform snow."""
+    """Layers with their thicknesses times ``factor``; none for a single layer."""
     if len(layers) == 1:
         return ()
     return tuple(replace(layer, thickness=factor * layer.thickness) for layer in layers)

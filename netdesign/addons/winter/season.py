@@ -179,8 +179,9 @@ def _find_gain(
 ) -> float:
     """Most by which the layers of a day may pull more than its uniform snow.
 
-    Told by the gains of the nearest solved days, where their snow is like that day's;
-    ``gains`` ascends.
+    The gains of the two nearest solved days bound it, if these lie within 8 days of
+    each other and their densities within a tenth of the day's; otherwise
+    ``LAYERED_GAIN`` does. ``gains`` ascends by day.
     """
     places = list(gains)
     after = bisect(places, day.index)

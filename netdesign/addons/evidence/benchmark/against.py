@@ -180,7 +180,7 @@ def compare_versions(
 
 
 def write_sites(folder: Path, rows: int) -> None:
-    """Write the site of so many net rows, those with one value changed, and heights."""
+    """Write a site, copies with one value changed, and a station's snow heights."""
     write_site(folder / "site", rows)
     write_heights(folder / _HEIGHTS, _WINTERS)
     for name, change in CHANGED.items():

@@ -49,7 +49,7 @@ class Slab:
     creep_law: CreepLaw = BOUTILLIER_2004
 
     def __post_init__(self) -> None:
-        """Refuse what is no snow on a slope."""
+        """Refuse dimensions and densities out of range."""
         require_positive("snow thickness", self.thickness, "m")
         require_within("slope angle", self.slope_angle, 0.05, 1.5, "rad")
         require_positive("density", self.density, "kg/m3")
@@ -199,7 +199,7 @@ def compute_slab_force(
 def _find_reach(
     slab: Slab, slip_length: float, upslope_length: float
 ) -> tuple[float, float, float]:
-    """Influence length, length of slope held [m], and what is felt of the end [-]."""
+    """Influence length and held length of slope [m]; effect of the upslope end [-]."""
     if slip_length == math.inf:  # the limit of (H6): the whole snowpack
         require_positive("upslope length", upslope_length, "m")
         return math.inf, upslope_length, 1.0
