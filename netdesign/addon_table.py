@@ -1,7 +1,7 @@
 """Names of what add-ons offer: the only place where the core knows of them.
 
-A folder of `netdesign/addons` may be missing. Whoever asks for something of it is told
-so in one sentence; everything else goes on.
+A folder of `netdesign/addons` may be missing. What asks for it then ends with one
+sentence; everything else works.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def is_there(place: str) -> bool:
     module = place.partition(":")[0]
     # of a folder that is gone, its parents are asked first
     parents = (package, f"{package}.{module.partition('.')[0]}", f"{package}.{module}")
-    return all(find_spec(one) is not None for one in parents)
+    return all(find_spec(parent) is not None for parent in parents)
 
 
 def load(what: str, place: str) -> Any:

@@ -94,15 +94,15 @@ def check(
     -----------
     tests/test_api.py
     """
-    given = _take_rows(_read(site, change or {}), rows)
-    profile = _choose_profile(standard, given)
+    chosen = _take_rows(_read(site, change or {}), rows)
+    profile = _choose_profile(standard, chosen)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         jobs=jobs or 1,
         started=datetime.now(UTC).isoformat(timespec="seconds"),
         has_reliability=reliability,
     )
-    phases = list_phases(given, run, 1)
+    phases = list_phases(chosen, run, 1)
     watch = RunProgress(phases, _show_stages(progress))
     with open_runner(
         executor="",
@@ -113,7 +113,7 @@ def check(
     ) as runner:
         runner.on_ask = lambda asked: watch.ask(len(asked))
         runner.on_done = watch.count_case
-        (study,) = check_site(given, [profile], run, runner, watch)
+        (study,) = check_site(chosen, [profile], run, runner, watch)
     for fault in runner.faults:
         _LOG.warning(str(fault))
     return study
@@ -133,10 +133,10 @@ def _read(site: Site | str | Path | Frames, change: Change) -> Site:
 
 
 def _take_rows(site: Site, ids: Sequence[str] | None) -> Site:
-    known = tuple(row.id for row in site.rows)
-    strange = tuple(one for one in ids or () if one not in known)
+    own = tuple(row.id for row in site.rows)
+    strange = tuple(row_id for row_id in ids or () if row_id not in own)
     if strange:
-        raise ModelError(say("usage.no_row", rows=strange, given=known))
+        raise ModelError(say("usage.no_row", rows=strange, given=own))
     return site if ids is None else site.take_rows(ids)
 
 
@@ -219,7 +219,7 @@ def write_reports(
     from netdesign.report.files import ReportStyle, render_files
 
     names = {"csv": "cases.csv"}
-    unknown = tuple(one for one in kinds if one not in _KINDS)
+    unknown = tuple(kind for kind in kinds if kind not in _KINDS)
     if unknown:
         raise ModelError(say("api.no_kind", given=unknown, known=_KINDS))
     files = [STUDY_FILE, *(names.get(kind, f"report.{kind}") for kind in kinds)]
@@ -271,8 +271,8 @@ def find_envelope(
         search=SearchSettings(gap=accuracy),
         confirmed_by=None,
     )
-    (found,) = search_rows([task], Runner())
-    return found
+    (envelope,) = search_rows([task], Runner())
+    return envelope
 
 
 def find_anchor_forces(

@@ -51,23 +51,23 @@ class CommandTable(UserDict[str, Any]):
 
 
 def _load_command(name: str, place: str) -> click.Command:
-    """Command at a place; one that says what is missing, where its add-on is."""
+    """Command at a place; without its add-on, a command that names the add-on."""
     if ":" not in place:
         module, function = place.split(".")
-        found: click.Command = getattr(
+        command: click.Command = getattr(
             import_module(f"netdesign.commands.{module}"), function
         )
     elif addon_table.is_there(place):
-        found = addon_table.load(name, place)
+        command = addon_table.load(name, place)
     else:
-        found = click.Command(
+        command = click.Command(
             name,
             callback=lambda: addon_table.load(name, place),
             context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
             add_help_option=False,
             hidden=True,
         )
-    return found
+    return command
 
 
 # Commands as the help shows them: by those who use them.
@@ -104,12 +104,12 @@ class GroupedCommands(click.Group):
         """Write the commands of each group, with what each does."""
         width = max(map(len, self.commands))
         for title, names in _GROUPS.items():
-            found = {name: self.get_command(ctx, name) for name in names}
+            commands = {name: self.get_command(ctx, name) for name in names}
             room = formatter.width - width - 6
             lines = [
-                (f"{name:{width}}", one.get_short_help_str(room))
-                for name, one in found.items()
-                if one and not one.hidden
+                (f"{name:{width}}", command.get_short_help_str(room))
+                for name, command in commands.items()
+                if command and not command.hidden
             ]
             if lines:
                 with formatter.section(title):
@@ -194,7 +194,7 @@ def main() -> NoReturn:
 
 
 class _LogPrinter(logging.Handler):
-    """Tells what rooms below have logged."""
+    """Prints on stderr what the rooms below have logged."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print a note."""
@@ -244,7 +244,7 @@ def _run() -> NoReturn:
 
 def _count_findings(error: SiteDataError) -> Message:
     """Number of the faults; remarks on how a file was read are none."""
-    count = sum(one.severity == "error" for one in error.findings)
+    count = sum(finding.severity == "error" for finding in error.findings)
     if count == 1:
         return say("finding.count_one")
     return say("finding.count", count=count)

@@ -1,10 +1,9 @@
 """Outcomes of solves, verdicts, errors, faults, and guards of values: how things end.
 
 An *outcome* is the end of a solve. An *error* is raised on purpose, for the user. A
-*fault* is whatever the package does not raise on purpose: it is no answer to an
-engineer's question. Whoever has one leaves the case without a result, shows the fault
-on stderr, keeps it from the store, and ends with ``EXIT_CODE``. A *guard* refuses a
-value that is out of range; all are written in the positive, so that NaN fails them.
+*fault* is any other exception: a bug. Its case has no result and is not stored; the
+run shows it on stderr and ends with ``EXIT_CODE``. A *guard* refuses a value that is
+out of range; all are written in the positive, so that NaN fails them.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import ClassVar, Protocol, TypeVar, cast
+from typing import ClassVar, Protocol, TypeVar
 
 from netdesign.units import given_degree_from_radian, given_kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -58,7 +57,7 @@ class Verdict(StrEnum):
     PASS = "pass"
     FAIL = "fail"
     NOT_PROVEN = "not_proven"
-    DECLARED = "declared"  # somebody says that it is proven elsewhere: never a pass
+    DECLARED = "declared"  # a document proves it elsewhere: never a pass
 
 
 # Worst first.
@@ -93,8 +92,8 @@ def merge_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
     return Verdict.DECLARED if Verdict.DECLARED in parts else Verdict.PASS
 
 
-class Told(Protocol):
-    """Anything with a message; ``site.cells.findings.Finding`` is one."""
+class Remark(Protocol):
+    """Message with its severity, as ``site.cells.findings.Finding`` has it."""
 
     @property
     def message(self) -> Message:
@@ -105,24 +104,28 @@ class Told(Protocol):
         """``error`` of a fault, ``note`` of a remark."""
 
 
+def as_message(text: Message | str) -> Message:
+    """The message itself; a text of another program as it stands, in any language."""
+    return say("text.as_given", text=text) if isinstance(text, str) else text
+
+
 class NetDesignError(Exception):
     """Base of every error that the program raises on purpose.
 
     Attributes
     ----------
     message : Message
-        What the user is told; somebody else's words may be given as they are.
+        To the user; a text of another program or of the system may stand as it is.
     """
 
     exit_code: ClassVar[int] = 5
 
     def __init__(self, message: Message | str) -> None:
         super().__init__(message)
-        given = say("text.as_given", text=message) if isinstance(message, str) else None
-        self.message = given or cast(Message, message)
+        self.message = as_message(message)
 
     def __str__(self) -> str:
-        """The message in English, for logs and for whoever uses the package."""
+        """Message in English, for logs and for use from Python."""
         return str(self.message)
 
 
@@ -156,12 +159,13 @@ class SiteDataError(NetDesignError):
     exit_code = 3
 
     def __init__(
-        self, findings: Sequence[Told], lines: tuple[Message, ...] = ()
+        self, findings: Sequence[Remark], lines: tuple[Message, ...] = ()
     ) -> None:
         # each once: a cell may be read for two columns
-        self.findings = tuple({str(one.message): one for one in findings}.values())
-        told = lines or tuple(finding.message for finding in self.findings)
-        super().__init__(say("text.lines", lines=told))
+        by_text = {str(finding.message): finding for finding in findings}
+        self.findings = tuple(by_text.values())
+        shown = lines or tuple(finding.message for finding in self.findings)
+        super().__init__(say("text.lines", lines=shown))
         self.args = (findings, lines)
 
 
@@ -202,8 +206,7 @@ class SolveError(NetDesignError):
 
     def __init__(self, outcome: Outcome, reason: Message | str | None = None) -> None:
         self.outcome = outcome
-        given = say("text.as_given", text=reason) if isinstance(reason, str) else reason
-        self.reason: Message = given or outcome.message
+        self.reason = as_message(reason or outcome.message)
         super().__init__(say("error.solve", ended=outcome.word, reason=self.reason))
         self.args = (outcome, self.reason)
 
@@ -218,7 +221,7 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
-    """An exception that nobody meant to raise.
+    """An exception that the program does not raise on purpose.
 
     Attributes
     ----------
@@ -282,9 +285,9 @@ def _find_place(error: Exception) -> str:
     package = Path(__file__).parent
     frames = traceback.extract_tb(error.__traceback__)
     places = [
-        f"{Path(one.filename).relative_to(package).as_posix()}:{one.lineno}"
-        for one in frames
-        if Path(one.filename).is_relative_to(package)
+        f"{Path(frame.filename).relative_to(package).as_posix()}:{frame.lineno}"
+        for frame in frames
+        if Path(frame.filename).is_relative_to(package)
     ]
     return places[-1] if places else "unknown"
 
@@ -344,7 +347,7 @@ def name_quantity(name: str) -> Message:
 
 
 # Units inside, and what an engineer gives: the conversion and the unit's sign.
-_GIVEN = {
+_SHOWN = {
     " rad": (given_degree_from_radian, " deg"),
     " N/m": (given_kilonewton_from_newton, " kN/m"),
 }
@@ -353,15 +356,15 @@ _GIVEN = {
 def show_given_units(refusal: Message) -> Message:
     """Refusal of a number in the unit in which it was given; any other as it is."""
     unit = refusal.arguments.get("unit")
-    if not isinstance(unit, str) or unit not in _GIVEN:
+    if not isinstance(unit, str) or unit not in _SHOWN:
         return refusal
-    convert, given = _GIVEN[unit]
+    convert, shown_unit = _SHOWN[unit]
     numbers = {
-        name: convert(one)
-        for name, one in refusal.arguments.items()
-        if isinstance(one, int | float)
+        name: convert(value)
+        for name, value in refusal.arguments.items()
+        if isinstance(value, int | float)
     }
-    return say(refusal.key, **{**refusal.arguments, **numbers, "unit": given})
+    return say(refusal.key, **{**refusal.arguments, **numbers, "unit": shown_unit})
 
 
 def _in(unit: str) -> str:

@@ -27,11 +27,11 @@ class Form:
     unit : str
         As printed; "" for a pure number.
     decimals : int or None
-        Digits after the point. None: as given, for values that somebody chose
+        Digits after the point. None: as typed or chosen, without more
         (a density of 366.8 kg/m3 is not rounded away).
     most : int
-        Digits after the point at most where ``decimals`` is None: a search goes to
-        values that nobody would type.
+        Digits after the point at most where ``decimals`` is None: a search reaches
+        values with all digits of a float.
     is_force : bool
         Written with three significant digits.
     near_one : bool
@@ -120,6 +120,8 @@ _ROWS = (
     _row("snow_thickness_m", "d", "m", 2),
     # net, per metre of width
     _force("foot_size_kN_per_m", "T₁", "kN/m"),
+    _force("head_size_kN_per_m", "T₂", "kN/m"),
+    _force("tension_max_kN_per_m", "T", "kN/m"),
     _force("load_kN_per_m", "R_x", "kN/m"),
     _force("error_kN_per_m", "", "kN/m"),
     # members, per anchor, characteristic

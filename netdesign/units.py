@@ -25,7 +25,7 @@ def kilonewton_from_newton(value: float) -> float:
 
 
 def given_kilonewton_from_newton(value: float) -> float:
-    """Force in N to the kN that somebody gave, to a billionth."""
+    """Force in N to the kN as typed, to a billionth."""
     return round(value / 1e3, _GIVEN_DECIMALS)
 
 
@@ -75,7 +75,7 @@ def degree_from_radian(value: float) -> float:
 
 
 def given_degree_from_radian(value: float) -> float:
-    """Angle in radians to the degrees that somebody gave.
+    """Angle in radians to the degrees as typed.
 
     Degrees that were turned into radians come back with an error in their last digit.
     Nobody gives an angle to a billionth of a degree: rounding to that restores it.

@@ -175,3 +175,13 @@ def call(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., Ended
     """Calls the program in this process, in an empty folder: ``call("init")``."""
     monkeypatch.chdir(tmp_path)
     return call_program
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """Each worker goes through a half: what a module shares is made by one of them."""
+    if config.getvalue("dist") != "load":
+        return None
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log)

@@ -11,7 +11,7 @@ def write_lines(path, lines):
 
     Without its formats and notes, it is written and read in a third of the time.
     """
-    book = xlsxwriter.Workbook(str(path))
+    book = xlsxwriter.Workbook(str(path), {"in_memory": True})
     for plan in SHEETS:
         sheet = book.add_worksheet(plan.name)
         fields = [field for field in plan.fields if field.is_offered]

@@ -296,16 +296,3 @@ def test_the_page_of_the_architecture_names_what_exists():
     roots = (PACKAGE.parent, PACKAGE, *rooms)
     assert "study/records.py" in files
     assert {f for f in files if not any((r / f).exists() for r in roots)} == set()
-
-
-def test_no_allowance_is_idle():
-    """An allowance that nothing uses is a door left open."""
-    used = {
-        (module, one.target.split(".")[0])
-        for module, path in MODULES.items()
-        for one in find_imports(path.read_text(encoding="utf-8"), module)
-    }
-    for package, allowed in THIRD_PARTY.items():
-        users = [module for module, top in used if top == package]
-        for pattern in allowed:
-            assert any(fnmatch(user, pattern) for user in users), (package, pattern)

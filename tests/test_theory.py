@@ -84,14 +84,3 @@ def test_constants_are_what_the_page_says(room):
         assert values, name
         if printed:
             assert values == [float(printed)], name
-
-
-def test_the_pages_do_name_constants():
-    """Otherwise the test above would pass on nothing."""
-    printed = {
-        room: [value for _, value in CONSTANT.findall(page) if value]
-        for room, page in PAGES.items()
-    }
-    assert len(printed["snow"]) >= 10
-    assert len(printed["coupling"]) >= 20
-    assert len(printed["cable"]) >= 3

@@ -303,7 +303,7 @@ def strip(quantity: Quantity) -> Quantity:
     return cast(Quantity, Bare(quantity.low, quantity.value, quantity.high))
 
 
-def given(
+def leaf(
     symbol: str,
     value: float | None,
     unit: str,

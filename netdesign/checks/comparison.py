@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.checks.forces import rate, resist_by_tests
@@ -55,15 +55,15 @@ def find_tested_resistance(
     factors = [_find_correlation(tests.count, standard, key) for key in _CORRELATIONS]
     if None in factors:
         lack = say("check.no_correlation", count=tests.count, what=what)
-        return given("R_k", None, "kN", source, lack=lack)
+        return leaf("R_k", None, "kN", source, lack=lack)
     on_mean, on_least = (
-        given(symbol, factor, "-", key, kind=Kind.PROFILE)
+        leaf(symbol, factor, "-", key, kind=Kind.PROFILE)
         for symbol, factor, key in zip(
             ("ξ_m", "ξ_min"), factors, _CORRELATIONS, strict=True
         )
     )
     mean, least = (
-        given(symbol, kilonewton_from_newton(force), "kN", source)
+        leaf(symbol, kilonewton_from_newton(force), "kN", source)
         for symbol, force in (("R_m", tests.mean), ("R_min", tests.least))
     )
     return resist_by_tests(mean, on_mean, least, on_least)
@@ -192,7 +192,7 @@ def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     factor = next((limit for limit in values if limit), None)
     lack = None if factor else lack_factor(ACTION_FACTOR)
     source = factor.id if factor else ACTION_FACTOR
-    return given(
+    return leaf(
         *("γ_E", factor.value_si if factor else None, "-", source),
         kind=Kind.PROFILE,
         lack=lack,
@@ -202,7 +202,7 @@ def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
     """Value of a profile under its symbol, in the profile's unit."""
     limit = standard.find(key)
-    return given(
+    return leaf(
         symbol,
         limit.value if limit else None,
         limit.unit if limit else "-",
@@ -214,7 +214,7 @@ def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
 
 def find_missing_force(reason: Message) -> Quantity:
     """Characteristic force that is not known."""
-    return given("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
+    return leaf("E_k", None, "kN", "", kind=Kind.SOLVED, lack=reason)
 
 
 def find_partial_factor(
@@ -246,7 +246,7 @@ def _find_resistance_factor(
     """Factor of the mode on its basis, gamma_R, and its clause."""
     limit = find_partial_factor(resistance, standard)
     if limit is not None:
-        factor = given("γ_R", limit.value_si, "-", limit.id, kind=Kind.PROFILE)
+        factor = leaf("γ_R", limit.value_si, "-", limit.id, kind=Kind.PROFILE)
         return factor, limit.clause
     factors = _list_factors(resistance, standard)
     mode = next(mode for mode, factor in factors if factor is None)
@@ -259,7 +259,7 @@ def _find_resistance_factor(
     # without a resistance there is no basis yet, and no factor to miss
     if bases and not resistance.basis and strength.lacks:
         lack = strength.lacks[0]
-    return given("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
+    return leaf("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
 
 
 def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity:
@@ -272,13 +272,13 @@ def find_resistance(resistance: GivenResistance, standard: Standard) -> Quantity
     if value is not None:
         if not 0.0 < value < math.inf:
             lack = say("check.resistance_not_usable", value=value, what=what)
-            return given("R_k", None, "kN", source, lack=lack)
+            return leaf("R_k", None, "kN", source, lack=lack)
         ends = (value, max(value, resistance.best or 0.0))
         low, high = map(kilonewton_from_newton, ends)
-        return given("R_k", low, "kN", source, band=(low, high))
+        return leaf("R_k", low, "kN", source, band=(low, high))
     if tests is None:
         lack = resistance.lack or say("check.no_resistance", what=what)
-        return given("R_k", None, "kN", source, lack=lack)
+        return leaf("R_k", None, "kN", source, lack=lack)
     return find_tested_resistance(tests, standard, source, what)
 
 

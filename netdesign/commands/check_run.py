@@ -30,7 +30,6 @@ from netdesign.edge.output import (
 from netdesign.site.statements import list_missing
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -78,13 +77,14 @@ def carry_out(
     from netdesign.study.check_site import check_site
 
     is_sized = read_instead is not None
+    is_alone = len(profiles) == 1 and not is_sized and not asked["as_json"]
+    is_live = is_alone and sys.stdout.isatty()
     solved = len(profiles) * (2 if is_sized else 1)
     sized: list[Sized] = []
     with open_run(site, run, asked, solved) as (runner, progress):
         if read_instead is None:
-            studies = check_site(
-                site, profiles, run, runner, progress, _tell_rows(progress, asked)
-            )
+            on_row = _print_rows(site, progress) if is_live else None
+            studies = check_site(site, profiles, run, runner, progress, on_row)
         else:
             studies, sized = _check_and_size(
                 site, profiles, run, read_instead, runner, progress
@@ -92,7 +92,7 @@ def carry_out(
         begun = begin_outputs(outputs, studies, runner)
         if not asked["as_json"]:  # known before the reports are
             progress.clear()
-            _print_summaries(studies, asked["explain"], asked["scopes"])
+            _print_summaries(studies, asked, has_rows=is_live)
         progress.enter("reports")
         files = render_outputs(outputs, studies, sized, begun)
     failed = print_faults(runner.faults)
@@ -110,23 +110,24 @@ def carry_out(
     return failed or find_exit_code(studies, asked["scopes"])
 
 
-def _tell_rows(progress: RunProgress, asked: Mapping[str, Any]) -> OnRow:
-    """Tell somebody at a terminal what a row is as soon as it is known."""
-    if asked["quiet"] or asked["as_json"] or not sys.stderr.isatty():
-        return lambda _: None
-    from netdesign.report.sections.scopes import show_scope
-    from netdesign.report.words import Words, show_text
-    from netdesign.study.scopes import SCOPES
+def _print_rows(site: Site, progress: RunProgress) -> OnRow:
+    """Print the head of the matrix; what is returned prints a row once it is known."""
+    from netdesign.report.console import open_console
+    from netdesign.report.terminal import Matrix
+    from netdesign.report.what_if import title_pages
+    from netdesign.report.words import Words
 
     words = Words(speak())
+    matrix = Matrix([row.id for row in site.rows], open_console(), words)
+    progress.clear()
+    matrix.print_head(title_pages(site, words))
 
-    def tell_row(studies: Sequence[RowStudy]) -> None:
-        row = studies[0]
-        scopes = "  ".join(show_scope(row, one, words)[0] for one in SCOPES)
+    def print_row(studies: Sequence[RowStudy]) -> None:
         progress.clear()
-        tell(as_given(f"{show_text(row.id)}  {scopes}"), err=True)
+        matrix.print_row(studies[0])
+        sys.stdout.flush()
 
-    return tell_row
+    return print_row
 
 
 def _write_documents(studies: Sequence[Study]) -> str:
@@ -139,7 +140,7 @@ def _write_documents(studies: Sequence[Study]) -> str:
 
 
 def _print_summaries(
-    studies: Sequence[Study], explain: bool, scopes: Sequence[str] = ()
+    studies: Sequence[Study], asked: Mapping[str, Any], *, has_rows: bool = False
 ) -> None:
     """Print what each study says, of several below the name of its profile."""
     from netdesign.report.console import open_console, print_lines
@@ -147,11 +148,12 @@ def _print_summaries(
     from netdesign.report.words import Words
 
     console, words = open_console(), Words(speak())
+    shown = {"explain": asked["explain"], "scopes": asked["scopes"]}
     for study in studies:
         if len(studies) > 1:
             profile = words("show.label", label=study.profile.id, text="")
             print_lines((profile.rstrip(),), console)
-        print_summary(study, console, speak(), explain=explain, scopes=scopes)
+        print_summary(study, console, speak(), **shown, has_rows=has_rows)
     sys.stdout.flush()
 
 
@@ -171,7 +173,7 @@ def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
             lines.append(describe_overall(what_if, words))
         elif cells:
             lines.append(words("what_if.no_study"))
-    print_lines(tuple(lines), open_console())
+    print_lines(lines, open_console(), 2)
 
 
 # Made by other processes, which first read the study: so this one makes the workbook,

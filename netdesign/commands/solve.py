@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
-    from netdesign.files.scene import GivenScene
+    from netdesign.files.scene import SceneToSolve
     from netdesign.solving.solve import Settings
 
     Solved = Solution | WallSolution | FailedSolution
@@ -93,7 +93,7 @@ def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     return failed, print_faults({solution: ()})
 
 
-def _resolve_support(solution: Solved, given: GivenScene) -> dict[str, Any] | None:
+def _resolve_support(solution: Solved, given: SceneToSolve) -> dict[str, Any] | None:
     """Support of a net for the document; None without a solution or a support."""
     if given.support is None:
         return None

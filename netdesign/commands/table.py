@@ -23,7 +23,7 @@ from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.site.model import Site
-    from netdesign.study.document import StoredChecks
+    from netdesign.study.records import Study
 
 
 @click.command(cls=ConfiguredCommand)
@@ -52,7 +52,7 @@ def table(site_file: Path | None, **asked: Any) -> None:
     rows = list_guideline_forces(site, profile)
     solved = _find_study(site, site_file, asked["study_file"])
     if solved is not None:
-        rows = add_coupled(rows, solved.rows)
+        rows = add_coupled(rows, {row.id: row.checks for row in solved.rows})
     words = Words(speak())
     if asked["as_json"]:
         from netdesign.report.anchor_table import write_anchor_table
@@ -67,9 +67,7 @@ def table(site_file: Path | None, **asked: Any) -> None:
     print_anchor_table(rows, open_console(), words)
 
 
-def _find_study(
-    site: Site, site_file: Path | None, given: Path | None
-) -> StoredChecks | None:
+def _find_study(site: Site, site_file: Path | None, given: Path | None) -> Study | None:
     """Study with the coupled forces of a site; None where none is at hand.
 
     Raises
@@ -78,14 +76,11 @@ def _find_study(
         If the one that is given is of another site, or of another version of it.
     """
     from netdesign.edge.input_files import is_there
-    from netdesign.structure.members import END_ANCHORS
-    from netdesign.study.document import load_checks
-    from netdesign.study.pulls import ANCHORS
+    from netdesign.study.document import load_study
 
-    members = (*ANCHORS, *END_ANCHORS)
     if given is not None:
-        study = load_checks(given, members)
-        if study.site_sha256 != site.sha256:
+        study = load_study(given)
+        if study.provenance.site_sha256 != site.sha256:
             raise StudyError(say("table.other_site", study=str(given)))
         return study
     folder = site_file.absolute().parent if site_file else Path.cwd()
@@ -93,10 +88,10 @@ def _find_study(
         if not is_there(path):
             continue
         try:
-            study = load_checks(path, members)
+            study = load_study(path)
         except StudyError:  # nobody asked for this one
             continue
-        if study.site_sha256 == site.sha256:
+        if study.provenance.site_sha256 == site.sha256:
             return study
         tell(say("cli.note", text=say("table.not_shown", study=str(path))), err=True)
     return None

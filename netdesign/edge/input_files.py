@@ -93,7 +93,7 @@ def decode_utf8(content: bytes) -> str:
 
 
 def _describe_toml(error: tomllib.TOMLDecodeError) -> Message:
-    """Words of ours for what the parser tells in English only."""
+    """Message, in every language, for a fault that the parser states in English."""
     text = str(error)
     match = _TOML_PLACE.search(text)
     place = say("file.at_end")
@@ -266,7 +266,7 @@ _ALIKE = {
 
 
 def explain(error: BaseException) -> Message | str:
-    """Cause of a failure: a message of ours, or the words of whoever raised it."""
+    """Cause of a failure: the program's message, or the text of system or library."""
     if isinstance(error, NetDesignError | ContentError):
         return error.message
     if isinstance(error, OSError) and error.strerror:

@@ -199,7 +199,7 @@ def restore_json(shape: type, text: str) -> Any:
 
 
 def _inspect(text: str, drop: Drop, needed: set[str]) -> str:
-    """Text without what is dropped of it; one that has two readings is refused."""
+    """Text without the keys that ``drop`` removes; a key that is twice is refused."""
 
     def note_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
         if len(pairs) > _MOST_KEYS:

@@ -241,7 +241,7 @@ _SPELLED = {
         "∞": "inf",
     },
     **{"…": "...", "•": "*", "ß": "ss", "Æ": "AE", "æ": "ae", "Ø": "O", "ø": "o"},
-    **{"œ": "oe", "Œ": "OE", "✓": "(v)", "✗": "(x)", "†": "(+)", "‡": "(++)"},
+    **{"œ": "oe", "Œ": "OE", "✓": "v", "✗": "x", "†": "+", "‡": "++"},
 }
 
 
@@ -294,7 +294,7 @@ def guard_streams() -> _Lasting | None:
 
 
 def flush_streams() -> None:
-    """Write what is left; afterwards the fault of a lasting stream is final."""
+    """Flush both streams; a fault of standard output is known afterwards."""
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()
@@ -318,6 +318,16 @@ def _guard(name: str) -> _Lasting | None:
     )
     setattr(sys, name, guarded)
     return lasting
+
+
+def spell(text: str, encoding: str) -> str:
+    """Text as an output in an encoding shows it, so that its width is known.
+
+    >>> spell("✗ 1.48 ≥ 1", "ascii")
+    'x 1.48 >= 1'
+    """
+    codecs.register_error(_PLAIN, _spell)
+    return text.encode(encoding, _PLAIN).decode(encoding)
 
 
 def _spell(error: UnicodeError) -> tuple[str, int]:

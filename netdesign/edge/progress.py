@@ -13,7 +13,6 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 _LATER_CASES = 6  # of a row that a search has to go on with
-_ENOUGH = 3  # cases from which a phase is timed by itself
 _SILENCE_S = 5.0  # longest that plain lines keep silent while cases end
 
 
@@ -71,7 +70,7 @@ class Phase:
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
-        Checks; 0 where cases are all there is.
+        Net rows; 0 where cases are all there is.
     seconds : float
         What it takes besides solves [s].
     """
@@ -91,15 +90,13 @@ class Standing:
 
     ``open`` counts the solves of this phase and all later ones, as far as they can be
     known: never 0 while there may be another. ``words`` are the phase and what else
-    is known of it. ``seconds`` is None as long as nothing is known of them; ``stage``
-    changes with what a plain line is worth.
+    is known of it. ``stage`` changes with what a plain line is worth.
     """
 
     done: int
     open: int
     words: tuple[Message | str, ...]
     stage: Message | str
-    seconds: float | None
 
     @property
     def count(self) -> Message:
@@ -109,22 +106,15 @@ class Standing:
         return say("progress.solved_to_go", done=self.done, open=self.open)
 
     @property
-    def left(self) -> tuple[Message, ...]:
-        """``about 12 s left``; nothing as long as nothing is known of it."""
-        is_known = self.seconds is not None
-        return (say("progress.left", seconds=self.seconds or 0.0),) if is_known else ()
-
-    @property
     def line(self) -> Message:
-        """``search: 40 solved, about 90 to go; gap 2 %; about 12 s left``."""
+        """``search: 40 solved, about 90 to go; gap 2 %``."""
         phase, *rest = self.words
-        parts = (self.count, *rest, *self.left)
-        return say("progress.line", phase=phase, parts=parts)
+        return say("progress.line", phase=phase, parts=(self.count, *rest))
 
     @property
     def bar(self) -> Message:
         """Words beside a bar, the least important last, where they may be cut."""
-        return say("progress.bar", parts=(self.count, *self.left, *self.words))
+        return say("progress.bar", parts=(self.count, *self.words))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,17 +133,15 @@ class RunProgress:
         self,
         phases: Sequence[Phase],
         show: Callable[[Standing], None],
-        clock: Callable[[], float] = time.monotonic,
         clear: Callable[[], None] = lambda: None,
     ) -> None:
-        """Take the phases in their order, what shows a standing, and a clock [s].
+        """Take the phases in their order, and what shows a standing.
 
-        ``clear`` takes what is shown off the screen for good.
+        ``clear`` takes what is shown off the screen, until there is more to show.
         """
         self.clear = clear
-        self._phases, self._show, self._clock = tuple(phases), show, clock
+        self._phases, self._show = tuple(phases), show
         self._place, self._done, self._waiting = 0, 0, 0
-        self._pace: float | None = None  # seconds of a case whose cost is 1
         self._begin()
         self._named = self._phase.words
 
@@ -162,28 +150,26 @@ class RunProgress:
         return self._phases[self._place]
 
     def _begin(self) -> None:
-        self._began, self._before = self._clock(), self._done
+        self._before = self._done
         self._expected, self._pieces = self._phase.cases, 0
         self._words: tuple[Message, ...] = ()
         self._stage: Message | str = self._phase.key
 
     def enter(self, key: str, words: Message | None = None) -> None:
-        """A phase begins, if it is one of those to come; there is no way back.
+        """Begin a phase, if it lies ahead; no phase begins twice.
 
         ``words`` are its name for people, where it does more than its own says.
         """
         keys = [phase.key for phase in self._phases]
         if key not in keys[self._place + 1 :]:
             return
-        if self._pace is None:  # those of later phases are known less well
-            self._pace = self._measure_pace()
         self._place, self._waiting = keys.index(key), 0
         self._begin()
         self._named = words or self._phase.words
         self._tell()
 
     def ask(self, count: int) -> None:
-        """So many cases are about to be solved."""
+        """Count the cases that are about to be solved."""
         self._waiting = count
         self._tell()
 
@@ -212,13 +198,6 @@ class RunProgress:
     def _done_here(self) -> int:
         return self._done - self._before
 
-    def _measure_pace(self) -> float | None:
-        """Pace of this phase; until that is known, the first phase's."""
-        if self._done_here < _ENOUGH:
-            return self._pace
-        elapsed = self._clock() - self._began
-        return elapsed / self._done_here / self._phase.cost
-
     def _count_left(self) -> int:
         """Solves of this phase that are still expected.
 
@@ -231,15 +210,6 @@ class RunProgress:
             left = math.ceil(seen * (phase.pieces - self._pieces))
         return max(left, self._waiting)
 
-    def _estimate_seconds(self, left: int) -> float | None:
-        pace = self._measure_pace()
-        if pace is None:
-            return None
-        rest = self._phases[self._place :]
-        later = sum(phase.cases * phase.cost for phase in rest[1:])
-        solves = left * self._phase.cost * pace + later * (self._pace or pace)
-        return solves + sum(phase.seconds for phase in rest)
-
     def _tell(self) -> None:
         left = self._count_left()
         later = sum(phase.cases for phase in self._phases[self._place + 1 :])
@@ -247,7 +217,7 @@ class RunProgress:
         phase, words = self._phase, self._words
         if phase.pieces:
             pieces = {"done": self._pieces, "all": phase.pieces}
-            unit = say("progress.checks")
+            unit = say("progress.rows")
             words = (*words, say("progress.pieces", **pieces, unit=unit))
         self._show(
             Standing(
@@ -255,7 +225,6 @@ class RunProgress:
                 open=max(left + later, 0 if is_last else 1),
                 words=(self._named, *words),
                 stage=self._stage,
-                seconds=self._estimate_seconds(left),
             )
         )
 
@@ -275,7 +244,7 @@ def show_phases(
         yield RunProgress(phases, lambda _: None)
         return
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
     from rich.table import Column
 
     console = Console(stderr=True)
@@ -284,17 +253,19 @@ def show_phases(
         return
     text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
     columns = (
-        TimeElapsedColumn(),
+        TimeRemainingColumn(elapsed_when_finished=True),
         BarColumn(12),
         TextColumn("{task.description}", table_column=text),
     )
-    with Progress(*columns, console=console, transient=True, expand=True) as progress:
+    progress = Progress(*columns, console=console, transient=True, expand=True)
+    with progress:
         task = progress.add_task("", total=sum(phase.cases for phase in phases))
         last: Message | str = ""
 
         def show(standing: Standing) -> None:
             nonlocal last
             is_new, last = standing.stage != last, standing.stage
+            progress.start()
             progress.update(
                 task,
                 refresh=is_new,  # seen even where it is over before the next look

@@ -18,7 +18,7 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
-from netdesign.files.scene import GivenSupport
+from netdesign.files.scene import SceneSupport
 from netdesign.panel.solve import EndForces, RopeForces, compute_end_forces
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.solving.runner import Counts
@@ -63,26 +63,23 @@ def write_envelope_document(
     """
     task, extremes = envelope.task, envelope.extremes
     spans = ((PARAMETERS[name], span) for name, span in task.ranges.intervals)
+    run = _describe_run(envelope.results, envelope.skipped, counts, wall_s)
+    run["cases"]["skips_tested"] = envelope.skips_tested
+    run["provenance"]["creep_law"] = task.scene.creep_law.name
+    run["provenance"]["settings"] = {"accuracy": task.settings.accuracy}
     return {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
         "ranges": {
-            one.key: [one.show(span.low), one.show(span.high)] for one, span in spans
+            parameter.key: [parameter.show(span.low), parameter.show(span.high)]
+            for parameter, span in spans
         },
         "extremes": [
             _write_bound(envelope, extremes[member], language)
             for member in QUANTITY_KEYS
             if member in extremes
         ],
-        "cases": {
-            "solved": counts.solved,
-            "reused": counts.reused,
-            "skipped": envelope.skipped,
-            "failed": sum(not one.is_converged for one in envelope.results),
-            "asked": len(envelope.results),
-            "skips_tested": envelope.skips_tested,
-        },
         "bound": {
             "gap_asked": task.search.gap,
             "certainty": task.search.certainty,
@@ -90,13 +87,7 @@ def write_envelope_document(
             "rests_on": render(say("envelope.rests_on"), language),
         },
         "log": [_write_addition(envelope, case) for case in envelope.maxima.log],
-        "cost": {"wall_s": wall_s},
-        "provenance": {
-            "version": __version__,
-            "core": name_core(),
-            "creep_law": envelope.task.scene.creep_law.name,
-            "settings": {"accuracy": envelope.task.settings.accuracy},
-        },
+        **run,
     }
 
 
@@ -144,6 +135,14 @@ def write_grid_document(
             }
             for member, extreme in extremes.items()
         ],
+        **_describe_run(results, skipped, counts, wall_s),
+    }
+
+
+def _describe_run(
+    results: Sequence[CaseResult], skipped: int, counts: Counts, wall_s: float
+) -> dict[str, Any]:
+    return {
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
@@ -218,7 +217,7 @@ def _per_metre(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def resolve_support(
-    solution: Solution, settings: Settings, support: GivenSupport
+    solution: Solution, settings: Settings, support: SceneSupport
 ) -> CaseResult:
     """Forces of a support of the net that was solved, by the section and the panel."""
     task = CaseTask(
@@ -231,7 +230,7 @@ def resolve_support(
     return resolve_case(task, keep_state(solution))
 
 
-def _find_end(support: GivenSupport, result: CaseResult) -> EndForces | None:
+def _find_end(support: SceneSupport, result: CaseResult) -> EndForces | None:
     if result.solution is None or not isinstance(result.panel, PanelForces):
         return None
     points = place_support(support.layout, result.solution.head_point)
@@ -241,7 +240,7 @@ def _find_end(support: GivenSupport, result: CaseResult) -> EndForces | None:
 
 
 def write_support(
-    result: CaseResult, support: GivenSupport, language: Language = "en"
+    result: CaseResult, support: SceneSupport, language: Language = "en"
 ) -> dict[str, Any]:
     """Part ``support`` of the solution document: kN on one support."""
     written: dict[str, Any] = {"plain": None, "panel": None, "row_end": None}

@@ -92,7 +92,7 @@ class PanelTable(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GivenSupport:
+class SceneSupport:
     """Support of a scene's net, and the row in which it stands.
 
     Attributes
@@ -112,7 +112,7 @@ class GivenSupport:
 
 def build_support(
     support: SupportTable | None, panel: PanelTable | None, net_height: float | None
-) -> GivenSupport | None:
+) -> SceneSupport | None:
     """Support of a scene in SI units; None without one.
 
     Parameters
@@ -138,9 +138,9 @@ def build_support(
         raise ModelError(say("text.lines", lines=tuple(faults)))
     layout = _build_layout(support, net_height)
     if panel is None:
-        return GivenSupport(layout=layout)
+        return SceneSupport(layout=layout)
     angle = panel.end_guy_deg
-    return GivenSupport(
+    return SceneSupport(
         layout=layout,
         panel=_build_panel(panel, support.post_spacing_m),
         end_guy_angle=None if angle is None else math.radians(angle),
@@ -295,12 +295,12 @@ class SceneFile(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GivenScene:
+class SceneToSolve:
     """All that a scene file gives; ``support`` is None without such a table."""
 
     scene: Scene
     settings: Settings
-    support: GivenSupport | None
+    support: SceneSupport | None
 
 
 def read_scene(
@@ -311,7 +311,7 @@ def read_scene(
     return file.scene, file.settings
 
 
-def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
+def read_scene_file(path: Path, method: Method | None = None) -> SceneToSolve:
     """Content of a scene file (TOML); ``method`` overrules the file's.
 
     Raises
@@ -326,7 +326,7 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
             say("file.no_toml", file=str(path), cause=explain(error))
         ) from None
     try:
-        return build_given(SceneFile.model_validate(tables), method)
+        return build_scene_of_file(SceneFile.model_validate(tables), method)
     except ValidationError as error:
         faults: Sequence[Message | str] = [_describe(fault) for fault in error.errors()]
     except ModelError as error:
@@ -337,7 +337,7 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
     raise SceneFileError(list_faults(lines))
 
 
-def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
+def build_scene_of_file(file: SceneFile, method: Method | None = None) -> SceneToSolve:
     """Scene, settings and support in SI units; ``method`` overrules the file's."""
     snowpack = _snowpack(file)
     creep_law = _creep_law(file.snow)
@@ -351,7 +351,7 @@ def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
         net_contact=file.net.contact,
     )
     height = scene.net.height_normal if isinstance(scene.net, Net) else None
-    return GivenScene(
+    return SceneToSolve(
         scene=scene,
         settings=_settings(file.solve, method or file.solve.method, scene),
         support=build_support(file.support, file.panel, height),

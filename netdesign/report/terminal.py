@@ -1,16 +1,17 @@
-"""Study -> a terminal: a line for each net row, the verdict, and what is open."""
+"""Study -> a terminal: a line for each net row, what is to be done, the verdict."""
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
-from itertools import groupby
 from typing import TYPE_CHECKING
 
+from netdesign.edge.output import spell
 from netdesign.outcome import SEVERITY, Verdict
+from netdesign.report.blocks import SMALL, Badge, Content, Piece, write_plain
 from netdesign.report.console import print_lines
 from netdesign.report.sections.additions import list_additions
+from netdesign.report.sections.bars import show_rated, sign
 from netdesign.report.sections.basis import (
     describe_cases,
     describe_floor,
@@ -24,44 +25,156 @@ from netdesign.report.sections.checks import (
     list_changes,
     name_case,
 )
-from netdesign.report.sections.open_points import (
-    list_conditions,
-    show_line,
-)
-from netdesign.report.sections.scopes import (
-    describe_study_scopes,
-    list_exceeding,
-    list_headings,
-    show_scope,
-)
-from netdesign.report.what_if import mark_verdict
-from netdesign.report.words import (
-    VerdictWords,
-    Words,
-    show_check,
-    show_text,
-)
+from netdesign.report.sections.decision import show_structure
+from netdesign.report.sections.open_points import list_conditions, show_line
+from netdesign.report.sections.rated import ANCHORS, find_shown, list_anchor, rate
+from netdesign.report.sections.scopes import describe_study_scopes, list_exceeding
+from netdesign.report.what_if import mark_verdict, title_pages
+from netdesign.report.words import Words, show_check, show_member, show_text
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.scopes import SCOPES, find_governing
+from netdesign.study.scopes import Scope, find_governing
 from netdesign.study.to_do import MOST_LINES, WHO, list_to_do
 from netdesign.words.catalogue import Language
-from netdesign.words.names import name
+from netdesign.words.names import name, name_check
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
 
-_NUMBER = re.compile(r"\d")
-_FEW_IDS = 3  # net rows that one line names
 _STYLES = {
     "pass": "green",
     "fail": "bold red",
     "not-proven": "yellow",
     "declared": "cyan",
 }
-# Id of a net row, scopes with their styles, governing check, reason.
-RowLine = tuple[str, tuple[tuple[str, str], ...], str, str]
+_HEADINGS = (
+    "terminal.row",
+    *("terminal.foot", "terminal.uphill", "terminal.downhill", "terminal.end"),
+    *("terminal.structure", "terminal.siting", "terminal.assumed"),
+    "terminal.governing",
+)
+# Columns of a terminal, and of its parts.
+_WIDE = 100  # has room for the utilisation by the guideline
+_ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 8, 12, 13, 2
+_LONGEST_ID, _GOVERNING, _LEAST_GOVERNING = 10, 45, 8
+
+
+class Matrix:
+    """Lines of net rows, one below the other, each as soon as its row is known.
+
+    Every column has its width before any row is known.
+    """
+
+    def __init__(self, ids: Collection[str], console: Console, words: Words) -> None:
+        """Take the ids of all rows, where the lines are printed, and the language."""
+        self._console, self._words = console, words
+        self._headings = [words(key) for key in _HEADINGS]
+        self._widths = self._find_widths(ids)
+
+    def _find_widths(self, ids: Collection[str]) -> list[int]:
+        from rich.cells import cell_len
+
+        total = self._console.width
+        row, *_, siting, _, _ = map(cell_len, self._headings)
+        longest = max((cell_len(self._spell(show_text(x))) for x in ids), default=0)
+        anchor = _ANCHOR_WIDE if total >= _WIDE else _ANCHOR
+        known = [*(anchor for _ in ANCHORS), _STRUCTURE, siting, _COUNT]
+        room = total - sum(known) - len(known) - 1
+        name = max(row, min(longest, max(_LONGEST_ID, room - _GOVERNING)))
+        rest = room - name
+        return [name, *known, *([rest] if rest >= _LEAST_GOVERNING else [])]
+
+    def print_head(self, title: str) -> None:
+        """Print the title of the matrix, and its headings."""
+        print_lines([title], self._console)
+        self._print([(one, "") for one in self._headings])
+
+    def print_row(self, row: RowStudy) -> None:
+        """Print the line of a net row."""
+        words, scopes = self._words, row.scopes
+        anchors = (rate(list_anchor(row, group)) for group in ANCHORS.values())
+        contents = [
+            *(show_rated(rated, words) for rated in anchors),
+            show_structure(row, words),
+            (sign(scopes[Scope.SITING].verdict, words),),
+        ]
+        fitted = zip(contents, self._widths[1:], strict=False)
+        cells = [
+            self._cut(show_text(row.id), self._widths[0], at_front=True),
+            *(self._fit(content, width) for content, width in fitted),
+            str(max(one.assumed for one in scopes.values()) or ""),
+            self._name_governing(row),
+        ]
+        styles = ["", *map(_find_style, contents), "", ""]
+        self._print(zip(cells, styles, strict=True))
+
+    def print_legend(self) -> None:
+        """Print what signs and numbers are."""
+        is_wide = self._widths[1] == _ANCHOR_WIDE
+        numbers = "terminal.numbers_wide" if is_wide else "terminal.numbers"
+        keys = ("terminal.legend", numbers)
+        print_lines(map(self._words, keys), self._console)
+
+    def _print(self, cells: Iterable[tuple[str, str]]) -> None:
+        from rich.cells import set_cell_size
+        from rich.text import Text
+
+        line = Text()
+        for (text, style), width in zip(cells, self._widths, strict=False):
+            line.append(" " if line else "")
+            line.append(set_cell_size(self._spell(text), width), style)
+        line.rstrip()
+        self._console.print(line, soft_wrap=True)
+
+    def _spell(self, text: str) -> str:
+        return spell(text, self._console.encoding)
+
+    def _cut(self, text: str, width: int, *, at_front: bool = False) -> str:
+        """Text in so many columns: what has no room at its end, or front, is left out.
+
+        Ids of rows differ at their ends.
+        """
+        from rich.cells import cell_len, set_cell_size
+
+        spelled, mark = self._spell(text), self._spell("…")[0]
+        if cell_len(spelled) <= width:
+            return spelled
+        if not at_front:
+            return set_cell_size(spelled, width - 1) + mark
+        while cell_len(spelled) >= width:
+            spelled = spelled[1:]
+        return mark + spelled
+
+    def _fit(self, content: Content, width: int) -> str:
+        """Content in so many columns; what stands beside its number goes first."""
+        short = [one for one in content if not _is_beside(one)]
+        for parts in (content, short if len(short) > 1 else content):
+            text = " ".join(self._spell(write_plain(tuple(parts))).split())
+            if len(text) <= width:
+                return text
+        return self._cut(text, width)
+
+    def _name_governing(self, row: RowStudy) -> str:
+        """Check that decides, by as long a name as there is room for."""
+        words, width = self._words, self._widths[-1]
+        check = find_shown(row)
+        if check is None:
+            return self._cut(describe_briefly(row, words), width)
+        names = (
+            show_check(words, check),
+            words.show(name_check(check.member, check.mode)),
+            show_member(words, check.member),
+        )
+        fitting = (one for one in names if len(self._spell(one)) <= width)
+        return next(fitting, self._cut(names[-1], width))
+
+
+def _is_beside(piece: object) -> bool:
+    return isinstance(piece, Piece) and piece.look in ("beside", SMALL)
+
+
+def _find_style(content: Content) -> str:
+    badges = (one.verdict.style for one in content if isinstance(one, Badge))
+    return _STYLES[next(badges, "pass")]
 
 
 def print_summary(
@@ -71,8 +184,9 @@ def print_summary(
     *,
     explain: bool = False,
     scopes: Collection[str] = (),
+    has_rows: bool = False,
 ) -> None:
-    """Print one line per net row, the verdict, what is open, and explanations.
+    """Print a line for each net row, what is to be done, the verdict, explanations.
 
     Colour, width and destination are those of ``console``; texts of the site
     are never read as markup.
@@ -80,7 +194,7 @@ def print_summary(
     Parameters
     ----------
     study : Study
-        What was found.
+        Whose rows are printed.
     console : rich.console.Console
         Where it is printed.
     language : str
@@ -89,112 +203,77 @@ def print_summary(
         Whether to say all that is open, the loads, and what would turn each check.
     scopes : collection of str
         Those that are asked for; none for all.
+    has_rows : bool
+        Whether the lines of the net rows stand there already.
     """
-    from rich.text import Text
-
     words = Words(language)
-    verdict = mark_verdict(study, words)
-    if study.what_if:
-        console.print(Text(words("what_if.mark"), style="bold"), soft_wrap=True)
+    matrix = Matrix([row.id for row in study.rows], console, words)
+    if not has_rows:
+        matrix.print_head(title_pages(study, words))
+        for row in study.rows:
+            matrix.print_row(row)
+    matrix.print_legend()
+    _print_to_do(study, console, words, None if explain else MOST_LINES)
+    print_lines(_list_remarks(study, words, is_short=not explain), console, 2)
+    _print_verdict(study, console, words)
     if study.rows:
-        console.print(_build_table(study, words))
-    overall = Text(words("show.overall", verdict="")).append_text(_word(verdict))
-    console.print(overall.append(f" - {verdict.meaning}"), soft_wrap=True)
-    if study.rows:
-        print_lines(_list_scopes(study, words, scopes), console)
-    lines = _list_lines(study, words, is_short=not explain)
-    print_lines(lines, console)
+        print_lines(_list_scopes(study, words, scopes), console, 2)
     if explain:
-        print_lines(_explain(study, words), console)
+        print_lines(_explain(study, words), console, 2)
 
 
-def _build_table(study: Study, words: Words) -> Table:
-    from rich.table import Table
+def _print_verdict(study: Study, console: Console, words: Words) -> None:
     from rich.text import Text
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
-    for heading in list_headings(words):
-        table.add_column(heading, no_wrap=True)
-    table.add_column(words("heading.governing_check"), overflow="fold", min_width=13)
-    table.add_column(words("heading.reason"), overflow="fold")
-    for row, scopes, *texts in list_rows(study, words):
-        cells = [Text(text, style=_STYLES[style]) for text, style in scopes]
-        table.add_row(Text(row), *cells, *map(Text, texts))
-    return table
+    verdict = mark_verdict(study, words)
+    style = _STYLES[verdict.style]
+    overall = Text(spell(words("show.overall", verdict=""), console.encoding))
+    overall.append(spell(verdict.word, console.encoding), style)
+    console.print(overall, soft_wrap=True)
+    print_lines([verdict.meaning], console, 2)
 
 
 def _list_scopes(study: Study, words: Words, asked: Collection[str]) -> Iterator[str]:
-    """Anchors, structure and siting of all rows; what the symbols are."""
-    yield words("scopes.legend")
+    """Anchors, structure and siting of all rows; numbers of checks and cases."""
     yield describe_study_scopes(study, words)
     if asked:
         named = tuple(words(f"of_scope.{one}") for one in asked)
         verdict = words(f"verdict.{study.find_verdict(asked)}")
         yield words("scopes.asked", scopes=named, verdict=verdict)
-    yield from list_exceeding(study, words)
-
-
-def _word(verdict: VerdictWords) -> Text:
-    from rich.text import Text
-
-    return Text(verdict.word, style=_STYLES[verdict.style])
-
-
-def list_rows(study: Study, words: Words) -> Iterator[RowLine]:
-    """Lines of the net rows; those that say the same without a number are one."""
-    lines = [_show_row(row, words) for row in study.rows]
-    for _, group in groupby(lines, key=_tell_alike):
-        first, *others = group
-        ids = [first[0], *(one[0] for one in others)]
-        few = len(ids) <= _FEW_IDS
-        name = ", ".join(ids) if few else f"{ids[0]} … {ids[-1]} ({len(ids)})"
-        yield (name, *first[1:])
-
-
-def _tell_alike(line: RowLine) -> tuple[object, ...]:
-    """Things that lines in one must share; of one with a number its own name."""
-    name, scopes, check, reason = line
-    has_number = any(_NUMBER.search(text) for text, _ in scopes)
-    return "" if reason and not has_number else name, scopes, check, reason
-
-
-def _show_row(row: RowStudy, words: Words) -> RowLine:
-    check = find_governing(row.checks)
-    return (
-        show_text(row.id),
-        tuple(show_scope(row, scope, words) for scope in SCOPES),
-        show_check(words, check) if check else words("heading.no_check"),
-        describe_briefly(row, words),
-    )
-
-
-def _list_lines(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
-    """Counts, and what is open."""
     verdicts = [check.verdict for row in study.rows for check in row.checks]
     checks = _count_verdicts(verdicts, words)
     yield words("show.counts", checks=checks, cases=describe_cases(study, words))
+
+
+def _list_remarks(study: Study, words: Words, *, is_short: bool) -> Iterator[str]:
+    """What holds beside the numbers: conditions, the floor, add-ons."""
+    conditions = list_conditions(study, words)
+    if is_short and conditions:
+        yield words("terminal.conditions", count=len(study.conditions))
+    elif conditions:
+        yield from conditions
     if has_other_floor(study):
         floor = words("heading.floor")
         yield words("show.label", label=floor, text=describe_floor(study, words))
-    for one in list_additions(study):
-        yield from one.list_lines(study, words)
-    yield from _list_to_do(study, words, MOST_LINES if is_short else None)
-    yield from list_conditions(study, words)
+    for addition in list_additions(study):
+        yield from addition.list_lines(study, words)
     yield from list_exceeding(study, words)
 
 
-def _list_to_do(study: Study, words: Words, most: int | None) -> Iterator[str]:
+def _print_to_do(
+    study: Study, console: Console, words: Words, most: int | None
+) -> None:
     """What is to be done, by who has it: his name before his first line."""
     lines = list_to_do(study, most)
     names = {who: words.show(name("who", who)) for who in WHO}
-    width = max((len(names[one.who]) for one in lines), default=0)
+    width = max((len(names[line.who]) for line in lines), default=0)
     for who in WHO:
-        named = names[who]
-        for one in lines:
-            if one.who == who:
-                yield f"{named:{width}}  {show_line(one, study, words)}"
-                named = ""
+        label = names[who]
+        for line in lines:
+            if line.who == who:
+                text = show_line(line, study, words)
+                print_lines([f"{label:{width}}  {text}"], console, width + 4)
+                label = ""
 
 
 def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
@@ -219,8 +298,8 @@ def _explain(study: Study, words: Words) -> Iterator[str]:
         check = find_governing(row.checks)
         if check and (loads := describe_loads(check, words)):
             place = f"{show_text(row.id)}, {show_check(words, check)}"
-            told = words.join([name_case(check, words), loads])
-            yield words("show.label", label=place, text=told)
+            text = words.join([name_case(check, words), loads])
+            yield words("show.label", label=place, text=text)
     floor = describe_floor(study, words)
     yield words("show.label", label=words("heading.floor"), text=floor)
     for note in list_notes(study, words):
@@ -229,7 +308,7 @@ def _explain(study: Study, words: Words) -> Iterator[str]:
         [
             (row.id, check)
             for row in study.rows
-            for check in sorted(row.checks, key=lambda one: one.rank)
+            for check in sorted(row.checks, key=lambda check: check.rank)
         ],
         words,
     )

@@ -14,6 +14,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.site.model import Site
 from netdesign.study.records import Study
 from netdesign.study.sizing import SizedCell
 
@@ -57,8 +58,19 @@ def describe_overall(study: Study, words: Words) -> str:
     return f"{words('show.overall', verdict=verdict.word)} - {verdict.meaning}"
 
 
-def mark_title(study: Study, title: str, words: Words) -> str:
-    """Line that runs along with the pages, which says what no page may leave open."""
+def title_pages(study: Study | Site, words: Words) -> str:
+    """Line that runs along with pages, and stands above a terminal's rows.
+
+    It says what none of them may leave open.
+    """
+    project = study.project
+    texts = (project.number, project.name, project.revision)
+    title = " · ".join(show_text(text) for text in texts if text)
+    return mark_title(study, title, words)
+
+
+def mark_title(study: Study | Site, title: str, words: Words) -> str:
+    """Title behind the marks of a what-if and of a part of a site."""
     marks = [words("what_if.mark")] if study.what_if else []
     marks += [words("left_out.mark")] if study.left_out else []
     return " · ".join(one for one in (*marks, title) if one)

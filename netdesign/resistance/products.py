@@ -27,6 +27,7 @@ from netdesign.resistance.catalogue import (
 )
 
 _LONGEST_NAME = 200
+_ONE_SIZE = 1.1  # of the largest diameter to the least: makers differ by less
 _DECIMAL = r"(\d+(?:\.\d+)?)"
 _END = r"(?:(?= ?mm(?!\w))|(?![\w/]|\.\d))"
 _NUMBER = rf"(?<![\w./]){_DECIMAL}{_END}"
@@ -70,6 +71,23 @@ def find_product(name: str) -> Product | None:
     )
     products = [product for find in finders if (product := find(text)) is not None]
     return products[0] if len(products) == 1 else None
+
+
+def find_bar(name: str) -> Product | None:
+    """Bar that the name of a type means; None of one that says no size it is made in.
+
+    Examples
+    --------
+    >>> find_bar("GEWI 32").id
+    'GEWI 32'
+    >>> find_bar("GEWI 35") is None
+    True
+    """
+    product = find_product(name)
+    if product is None or not product.family.endswith("bar"):
+        return None
+    least, largest = product.values["outer_diameter"]
+    return product if largest < _ONE_SIZE * least else None
 
 
 def _simplify(name: str) -> str:

@@ -277,7 +277,7 @@ def require_admissible(law: CreepLaw, relative_density: float) -> None:
 
 
 def _require_snow(law: CreepLaw, relative_density: float) -> float:
-    """Density at which the coefficients are taken; refuses what is not snow."""
+    """Relative density of the coefficients, clamped; refuses one outside 0 to 0.99."""
     if not 0 < relative_density <= DENSEST_SNOW:
         raise ModelError(
             say(

@@ -401,7 +401,7 @@ def _column_points(
 
 @lru_cache(maxsize=256)
 def _divide(below: float, above: float, rows: int) -> Floats:
-    """Heights of so many equal rows, without the lowest."""
+    """Heights of the upper bounds of ``rows`` equal rows."""
     return freeze(np.linspace(below, above, rows + 1)[1:])
 
 

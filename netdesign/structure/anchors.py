@@ -28,6 +28,7 @@ from netdesign.structure.head import (
     compute_head_forces,
     find_direction,
     hold_head,
+    list_directions,
 )
 from netdesign.structure.layout import ManyLayouts, Point, SupportLayout, SupportPoints
 from netdesign.structure.members import Member
@@ -376,7 +377,7 @@ def compute_forces_of_layouts(
         (spread_over(x, still) + still, spread_over(y, still) + still)
         for x, y in (
             zip(*ways, strict=True)
-            for ways in zip(*map(_list_ways, places), strict=True)
+            for ways in zip(*map(list_directions, places), strict=True)
         )
     )
     held = hold_head(_scale(head_pull_per_m, post_spacing), post, uphill, downhill)
@@ -387,12 +388,6 @@ def compute_forces_of_layouts(
         is_foot_shared=places[0].is_foot_shared,
     )
     return of_members, as_mask(held.is_held)
-
-
-def _list_ways(points: SupportPoints) -> list[Point]:
-    """Unit vectors from the head to post base, uphill and downhill anchor."""
-    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
-    return [find_direction(points.head, end) for end in ends]
 
 
 def _list_forces(

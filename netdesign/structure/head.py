@@ -70,7 +70,7 @@ class HeadForces(MemberSizes[float]):
     outcome: ClassVar[Outcome] = Outcome.CONVERGED
 
     def __post_init__(self) -> None:
-        """Refuse a rope that pushes, and what is no number."""
+        """Refuse negative forces, infinite ones, and NaN."""
         require_within("post compression", self.post_compression, 0.0, math.inf)
         require_within("post tension", self.post_tension, 0.0, math.inf)
         require_within("uphill guy tension", self.uphill_guy_tension, 0.0, math.inf)
@@ -115,14 +115,12 @@ def compute_head_forces(
             outcome=Outcome.NONFINITE,
             reason=say("support.head_no_number"),
         )
-    post = find_direction(points.head, points.post_base)
+    post, uphill, downhill = list_directions(points)
     if post == (0.0, 0.0):
         return FailedSupport(
             outcome=Outcome.OUT_OF_VALIDITY,
             reason=say("support.no_length"),
         )
-    uphill = find_direction(points.head, points.uphill_anchor)
-    downhill = find_direction(points.head, points.downhill_anchor)
     held = hold_head(pull, post, uphill, downhill)
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
@@ -152,7 +150,7 @@ def hold_head(
     -----------
     tests/structure/test_many_forces.py
     """
-    across = _cross(pull, post)
+    across = cross(pull, post)
     size = measure_length(*pull)
     is_alone = abs(across) <= _ROUNDING * size
     along = pull[0] * post[0] + pull[1] * post[1]
@@ -212,10 +210,10 @@ def _share_between_guys(
 
     Where both lie along one line each may have all of it.
     """
-    sine, size = _cross(uphill, downhill), measure_length(*pull)
+    sine, size = cross(uphill, downhill), measure_length(*pull)
     is_one_line = abs(sine) < math.sin(MIN_GUY_ANGLE)
     divisor = sine + is_one_line
-    up, down = -_cross(pull, downhill) / divisor, _cross(pull, uphill) / divisor
+    up, down = -cross(pull, downhill) / divisor, cross(pull, uphill) / divisor
     return choose(is_one_line, size, up), choose(is_one_line, size, down)
 
 
@@ -325,11 +323,11 @@ class HeldHead(MemberSizes[Number]):
 def _resolve(
     pull: Vector[Number], post: Vector[Number], guy: Vector[Number]
 ) -> _Pair[Number]:
-    sine = _cross(post, guy)
+    sine = cross(post, guy)
     is_along = abs(sine) < math.sin(MIN_GUY_ANGLE)
     divisor = sine + is_along  # never 0; the forces are of no use where it is along
-    compression = _cross(pull, guy) / divisor
-    tension = _cross(pull, post) / divisor
+    compression = cross(pull, guy) / divisor
+    tension = cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
     rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
     is_slack = find_none(tension >= 0.0)  # also what is no number
@@ -366,7 +364,7 @@ def _explain_pair(pair: _Pair[float]) -> Message:
     return say("support.guy_along_post" if pair.is_along else "support.guy_pushes")
 
 
-def _cross(a: Vector[Number], b: Vector[Number]) -> Number:
+def cross(a: Vector[Number], b: Vector[Number]) -> Number:
     """Moment of ``b`` about the tail of ``a``, positive from X towards Y."""
     return a[0] * b[1] - a[1] * b[0]
 
@@ -377,6 +375,16 @@ def find_direction(start: Vector[Number], end: Vector[Number]) -> Vector[Number]
     length = measure_length(x, y)
     divisor = length + (length == 0.0)
     return x / divisor, y / divisor
+
+
+def list_directions(points: SupportPoints) -> tuple[Point, Point, Point]:
+    """Unit vectors from the head along post, uphill and downhill guy, as a section.
+
+    That of a member without a length is (0, 0).
+    """
+    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
+    post, uphill, downhill = (find_direction(points.head, end) for end in ends)
+    return post, uphill, downhill
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:

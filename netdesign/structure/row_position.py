@@ -435,7 +435,7 @@ def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
 
 
 def _shorten(way: Sequence[float]) -> Place:
-    """The same of length 1."""
+    """Unit vector along ``way``."""
     length = math.hypot(*way)
     x, y, z = (part / length for part in way)
     return x, y, z

@@ -18,9 +18,10 @@ from netdesign.outcome import Outcome, require_within
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
-    Vector,
     compute_head_forces,
+    cross,
     hold_head,
+    list_directions,
 )
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import say
@@ -234,22 +235,18 @@ def is_held_sideways(
     directions: dict[int, tuple[Point, Point, Point]] = {}
     for points in places:  # many states stand on one support
         if id(points) not in directions:
-            directions[id(points)] = _list_directions(points)
+            directions[id(points)] = list_directions(points)
     ways = np.array([directions[id(points)] for points in places]).transpose(1, 2, 0)
     x, y = np.array(pulls).T
     (post, uphill, downhill) = ((way[0], way[1]) for way in ways)
     head = hold_head((x, y), post, uphill, downhill)
     held = share * np.hypot(x, y) / math.tan(splay)
-    above, below = _cross_all(uphill, post), _cross_all(downhill, post)
-    in_uphill = (-_cross_all((x, y), post) - held * below) / (above - below)
+    above, below = cross(uphill, post), cross(downhill, post)
+    in_uphill = (-cross((x, y), post) - held * below) / (above - below)
     tension = head.uphill_guy_tension + head.downhill_guy_tension
     is_loaded = (in_uphill >= 0.0) & (held - in_uphill >= 0.0)
     is_between = above * below < 0.0
     return bool((head.is_held & is_between & ((tension >= held) | is_loaded)).all())
-
-
-def _cross_all(a: Vector[Floats], b: Vector[Floats]) -> Floats:
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def weigh_splay(points: SupportPoints) -> SplayWeights | None:
@@ -262,8 +259,8 @@ def weigh_splay(points: SupportPoints) -> SplayWeights | None:
     points : SupportPoints
         Head, post base and anchors, in the section [m].
     """
-    post, uphill, downhill = _list_directions(points)
-    above, below = _cross(uphill, post), _cross(downhill, post)
+    post, uphill, downhill = list_directions(points)
+    above, below = cross(uphill, post), cross(downhill, post)
     if not above * below < 0.0:
         return None
     share = abs(below) / (abs(above) + abs(below))
@@ -360,7 +357,7 @@ def share_with_end_guy(
     loads = np.array([(*head.pull, head.along) for head in heads])
     axial = np.array(stiffness)
     ends = axial[:, [0, 0, 1, 1, 2]] / lengths[:, None]  # (n, m, 5)
-    posts = np.array([(*_list_directions(head.points)[0], 0.0) for head in heads])
+    posts = np.array([(*list_directions(head.points)[0], 0.0) for head in heads])
     of_post = axial[:, 3] / np.array([[head.points.post_length] for head in heads])
     frame = of_post[..., None, None] * (posts[:, :, None] * posts[:, None, :])[:, None]
     squares = ways[..., :, None] * ways[..., None, :]  # (n, 5, 3, 3)
@@ -391,7 +388,7 @@ def _list_ropes(
     """
     ways, lengths = [], []
     for points in places:
-        _, *guys = _list_directions(points)
+        _, *guys = list_directions(points)
         anchors = (points.uphill_anchor, points.downhill_anchor)
         in_section = [math.dist(points.head, anchor) for anchor in anchors]
         flat, out = math.cos(splay), math.sin(splay)
@@ -409,11 +406,11 @@ def _share_on_loaded_side(
     pull: Point, points: SupportPoints, held: float, splay: float
 ) -> SplayedHead | FailedSupport:
     """Eq. (S16): one guy uphill, one downhill and the post, all in force."""
-    post, uphill, downhill = _list_directions(points)
-    above, below = _cross(uphill, post), _cross(downhill, post)
+    post, uphill, downhill = list_directions(points)
+    above, below = cross(uphill, post), cross(downhill, post)
     if not above * below < 0.0:
         return _fail()
-    in_uphill = (-_cross(pull, post) - held * below) / (above - below)
+    in_uphill = (-cross(pull, post) - held * below) / (above - below)
     in_downhill = held - in_uphill
     compression = (
         _dot(pull, post)
@@ -435,23 +432,6 @@ def _fail() -> FailedSupport:
     return FailedSupport(
         outcome=Outcome.NO_EQUILIBRIUM, reason=say("support.not_held_sideways")
     )
-
-
-def _list_directions(points: SupportPoints) -> tuple[Point, Point, Point]:
-    """Unit vectors from the head along post, uphill and downhill guy."""
-    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
-    post, uphill, downhill = (_point_to(points.head, end) for end in ends)
-    return post, uphill, downhill
-
-
-def _point_to(start: Point, end: Point) -> Point:
-    x, y = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(x, y)
-    return (x / length, y / length) if length > 0.0 else (0.0, 0.0)
-
-
-def _cross(a: Point, b: Point) -> float:
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def _dot(a: Point, b: Point) -> float:

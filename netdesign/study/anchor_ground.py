@@ -42,35 +42,35 @@ from netdesign.words.names import name_member
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
-def check_anchor_distance(known: RowForces, gap: Message | None) -> Check | None:
+def check_anchor_distance(forces: RowForces, gap: Message | None) -> Check | None:
     """Check how near the anchors of a row come to each other in the ground.
 
     Nearer than the profile says is not proven: a test of the group may show it. None
     without any pull.
     """
-    row, pulls, ranges = known.row, known.pulls, known.site.ranges
-    limit = known.standard.find(ANCHOR_DISTANCE)
+    row, pulls, ranges = forces.row, forces.pulls, forces.site.ranges
+    limit = forces.standard.find(ANCHOR_DISTANCE)
     if not pulls:
         return None
     if limit is None:
         lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
         return leave_open("anchors", OpenKind.RESISTANCE_MISSING, lack)
     ends = ranges["inclination"]
-    places = [place_row(row, one) for one in (ends.low, ends.high)]
+    places = [place_row(row, inclination) for inclination in (ends.low, ends.high)]
     pairs = (
         _list_nearest(each, ranges, place, pulls)
         for place in places
         for each in _list_sharings(row)
     )
     # of equal distances the first: a millionth is rounding
-    least, anchors = min(chain(*pairs), key=lambda one: round(one[0], 6))
+    least, anchors = min(chain(*pairs), key=lambda pair: round(pair[0], 6))
     is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
     reason = say(key, least=least, limit=limit.value, anchors=anchors)
     if gap is None and is_apart:
         return compare("anchors", Verdict.PASS, reason, limit)
-    found = compare("anchors", Verdict.NOT_PROVEN, None, limit)
-    return found.with_open(OpenKind.UNSOLVED, gap or reason)
+    near = compare("anchors", Verdict.NOT_PROVEN, None, limit)
+    return near.with_open(OpenKind.UNSOLVED, gap or reason)
 
 
 def _list_sharings(row: NetRow) -> list[NetRow]:
@@ -89,11 +89,11 @@ def _list_nearest(
     of_row: dict[str, list[Bore]] = {}
     for anchor, bore in _list_beside(row, points, pulls):
         of_row.setdefault(anchor, []).append(bore)
-    for (one, bores), (other, others) in product(of_row.items(), repeat=2):
-        named = (name_member(one), name_member(other))
-        if one == other:
+    for (member, bores), (other, others) in product(of_row.items(), repeat=2):
+        named = (name_member(member), name_member(other))
+        if member == other:
             yield find_least_distance(bores), named
-        elif one < other:
+        elif member < other:
             distances = (measure_distance(*pair) for pair in product(bores, others))
             yield min(distances), named
         if row.has_row_above:
@@ -133,29 +133,29 @@ def place_end_anchors(
         starts[EndMember.LATERAL_ANCHOR] = (0.0, 0.0, -end.lateral_distance)
     if end.guy is not None:
         starts[EndMember.END_GUY_ANCHOR] = end.guy.find_anchor(points)
-    for one, start in starts.items():
-        pull, kind = find_pull(pulls, one, "edge"), end.find_anchor_type(one)
+    for member, start in starts.items():
+        pull, kind = find_pull(pulls, member, "edge"), end.find_anchor_type(member)
         if pull is not None:
             length = kind.drilled if kind else None
-            yield one, Bore(start=start, direction=pull.way, length=length)
+            yield member, Bore(start=start, direction=pull.way, length=length)
 
 
-def check_cover(known: RowForces, gap: Message | None) -> Check | None:
+def check_cover(forces: RowForces, gap: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
     What nobody gives is a condition, `study/conditions.py`. None where the profile
     leaves it to others, where nothing of it is given, or without any pull.
     """
-    row, pulls = known.row, known.pulls
-    if "anchor_ground" in known.standard.not_checked:
+    row, pulls = forces.row, forces.pulls
+    if "anchor_ground" in forces.standard.not_checked:
         return None
     bonds = list_bonds(row, pulls)
-    if not any(one.is_checked for one in bonds):
+    if not any(bond.is_checked for bond in bonds):
         return None
-    short = next((lack for one in bonds for lack in one.list_short()), None)
+    short = next((lack for bond in bonds for lack in bond.list_short()), None)
     if short is not None:
         return compare("cover", Verdict.FAIL, short)
-    asked = next(filter(None, (one.ask_edge() for one in bonds)), None)
+    asked = next(filter(None, (bond.ask_edge() for bond in bonds)), None)
     if asked is not None:
         return leave_open("cover", OpenKind.VALUE_ASKED, asked)
     if gap is not None:
@@ -206,15 +206,15 @@ class BondInGround:
 
     def list_short(self) -> Iterator[Message]:
         """What lies too near to the surface, or to an edge."""
-        told = {"anchor": name_member(self.anchor)}
+        named = {"anchor": name_member(self.anchor)}
         cover, least = self.cover, self.least_cover
         if cover is not None and self.leaves_ground:
-            yield say("bores.leaves_ground", **told, height=-cover)
+            yield say("bores.leaves_ground", **named, height=-cover)
         elif cover is not None and least is not None and cover < least:
-            yield say("bores.too_shallow", **told, cover=cover, least=least)
+            yield say("bores.too_shallow", **named, cover=cover, least=least)
         edge, least = self.edge, self.least_edge
         if edge is not None and least is not None and edge < least:
-            yield say("bores.too_near_edge", **told, edge=edge, least=least)
+            yield say("bores.too_near_edge", **named, edge=edge, least=least)
 
     def ask_edge(self) -> Message | None:
         """Question about an edge nearer than a bore is long, that nobody asks for."""
@@ -228,7 +228,7 @@ class BondInGround:
 
 def list_bonds(row: NetRow, pulls: Sequence[PullRecord]) -> list[BondInGround]:
     """Bonds of those anchors of a row whose types are given."""
-    found = []
+    bonds = []
     for pull in pulls:
         kind = row.find_anchor_type(pull.anchor, pull.position)
         if kind is None:
@@ -244,8 +244,8 @@ def list_bonds(row: NetRow, pulls: Sequence[PullRecord]) -> list[BondInGround]:
             least_edge=kind.least_edge,
             has_soil=kind.soil is not None,
         )
-        found.append(bond)
-    return found
+        bonds.append(bond)
+    return bonds
 
 
 def place_anchors(
@@ -287,7 +287,7 @@ def _spread(
     half = 0.5 * row.layout.post_spacing
     if anchor == Member.FOOT_ANCHOR:
         yield 0.0, 0.0
-        if any(one.has_mid_anchors for one in row.panels):
+        if any(panel.has_mid_anchors for panel in row.panels):
             yield half, 0.0
         return
     splay = row.guys.splay or 0.0
@@ -304,7 +304,7 @@ def _spread(
 
 
 def find_ground_resistance(
-    given: Resistance,
+    resistance: Resistance,
     anchor: AnchorType,
     soil: Soil,
     basis: Basis,
@@ -318,18 +318,18 @@ def find_ground_resistance(
     factors = [standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
     for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
         if factor is None:
-            return replace(given, lack=lack_factor(key))
-    on_cohesion, on_friction = (one.value for one in factors if one)
+            return replace(resistance, lack=lack_factor(key))
+    on_cohesion, on_friction = (factor.value for factor in factors if factor)
     if pull is None:
-        return given
+        return resistance
     depths = [x for axis in _list_axes(row, pull) for x in anchor.list_depths(axis)]
     if not depths:
         names = row.list_unsaid_bore(pull.anchor, pull.position)
-        return replace(given, lack=say("check.unsaid", names=names))
+        return replace(resistance, lack=say("check.unsaid", names=names))
     if not min(depths) > 0.0:
-        return replace(given, lack=say("wedge.no_depth"))
+        return replace(resistance, lack=say("wedge.no_depth"))
     reduced = soil.reduce(on_cohesion, on_friction)
-    told: dict[str, float | Message] = {
+    numbers: dict[str, float | Message] = {
         "cohesion": soil.cohesion / 1e3,
         "friction": degree_from_radian(soil.friction),
         "weight": soil.weight / 1e3,
@@ -339,15 +339,19 @@ def find_ground_resistance(
     }
     stability = compute_slab_stability(reduced, max(depths), row.slope_angle)
     if stability < 1.0:
-        told |= {"depth": max(depths), "stability": stability}
-        return replace(given, lack=say("wedge.slab", **told))
+        numbers |= {"depth": max(depths), "stability": stability}
+        return replace(resistance, lack=say("wedge.slab", **numbers))
     width = _find_ground_width(row, pull)
-    found = {one: _lift_ground(reduced, basis, pull, one, width) for one in depths}
-    depth = min(found, key=lambda one: found[one].value)
-    plane = degree_from_radian(found[depth].plane)
-    told |= {"depth": depth, "width": width, "plane": plane}
+    wedges = {
+        depth: _lift_ground(reduced, basis, pull, depth, width) for depth in depths
+    }
+    depth = min(wedges, key=lambda each: wedges[each].value)
+    plane = degree_from_radian(wedges[depth].plane)
+    numbers |= {"depth": depth, "width": width, "plane": plane}
     key = "wedge.lifts_cone" if pull.anchor in END_ANCHORS else "wedge.lifts"
-    return replace(given, value=found[depth].value, derivation=say(key, **told))
+    return replace(
+        resistance, value=wedges[depth].value, derivation=say(key, **numbers)
+    )
 
 
 def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
@@ -378,19 +382,22 @@ def _lift_ground(
         )
     ways = [(0.0, 0.0, -1.0)]  # of the lower rope
     if pull.anchor == EndMember.END_GUY_ANCHOR and guy is not None:
-        ways = [guy.find_way(place_row(row, one)) for one in (span.low, span.high)]
+        ways = [
+            guy.find_way(place_row(row, inclination))
+            for inclination in (span.low, span.high)
+        ]
     pulls = [(-x, -y, -z) for x, y, z in ways]
-    found = (
-        compute_cone_resistance(soil, depth=depth, slope=slope, pull=one)
-        for one in pulls
+    cones = (
+        compute_cone_resistance(soil, depth=depth, slope=slope, pull=pull)
+        for pull in pulls
     )
-    return min(found, key=lambda one: one.value)
+    return min(cones, key=lambda each: each.value)
 
 
 def _find_ground_width(row: NetRow, pull: PullRecord) -> float:
     """Width of ground that one anchor has along the row [m]."""
     if pull.anchor == Member.FOOT_ANCHOR:
-        is_doubled = any(one.has_mid_anchors for one in row.panels)
+        is_doubled = any(panel.has_mid_anchors for panel in row.panels)
     else:
         is_doubled = row.guys.count > 1 and not row.guys.are_shared
     return row.layout.post_spacing / (2.0 if is_doubled else 1.0)

@@ -62,17 +62,19 @@ def settle(
     -----------
     tests/study/test_best_ends.py
     """
-    known: dict[object, RowForces | None] = {_name(one.row): one for one in variants}
-    ends = _BestEnds(task=task, known=known)
-    return [ends.settle(one) for one in judged]
+    forces_at: dict[object, RowForces | None] = {
+        _name(forces.row): forces for forces in variants
+    }
+    ends = _BestEnds(task=task, forces_at=forces_at)
+    return [ends.settle(member_check) for member_check in judged]
 
 
-def _take_off_ropes(known: RowForces) -> RowForces:
+def _take_off_ropes(forces: RowForces) -> RowForces:
     """The row whose border ropes pull no support along it."""
-    end = known.row.row_end
-    row = replace(known.row, row_end=end and replace(end, ropes_slide=True))
-    pulls = tuple(one for one in known.pulls if one.position != "second")
-    return replace(known, row=row, pulls=pulls, end_guy=None)
+    end = forces.row.row_end
+    row = replace(forces.row, row_end=end and replace(end, ropes_slide=True))
+    pulls = tuple(pull for pull in forces.pulls if pull.position != "second")
+    return replace(forces, row=row, pulls=pulls, end_guy=None)
 
 
 def _has_open_truss(row: NetRow) -> bool:
@@ -111,33 +113,33 @@ class _BestEnds:
     """Row at other values of what is assumed of it; each is worked out once."""
 
     task: RowToCheck
-    known: dict[object, RowForces | None] = field(default_factory=dict)
+    forces_at: dict[object, RowForces | None] = field(default_factory=dict)
 
     @property
     def searched(self) -> list[Assumed]:
         """What is assumed of the net, and searched with its cases."""
-        found = (self.task.row.find_assumed(key) for key in SEARCHED)
-        return [one for one in found if one is not None and one.is_range]
+        assumed = (self.task.row.find_assumed(key) for key in SEARCHED)
+        return [each for each in assumed if each is not None and each.is_range]
 
-    def settle(self, one: MemberCheck) -> MemberCheck:
+    def settle(self, member_check: MemberCheck) -> MemberCheck:
         """Check at the best ends, with the value that decides it."""
-        check = one.check
+        check = member_check.check
         high = check.utilisation_band[1]
         is_beyond = check.is_unbounded or (high is not None and high > 1.0)
         if is_beyond and self._is_rope_of_assumed_sag(check):
-            return replace(one, check=_leave_to_sags(check))
-        if one.again is None or not is_beyond:
-            return one
-        if check.verdict is Verdict.FAIL and self._has_open_pull(one):
-            check = self._ease(one, _take_off_ropes, "assumed.by_ropes")
-        if check.verdict is Verdict.FAIL and _has_open_truss(one.known.row):
-            check = self._ease(one, take_off_truss, "assumed.by_stiffness")
+            return replace(member_check, check=_leave_to_sags(check))
+        if member_check.again is None or not is_beyond:
+            return member_check
+        if check.verdict is Verdict.FAIL and self._has_open_pull(member_check):
+            check = self._ease(member_check, _take_off_ropes, "assumed.by_ropes")
+        if check.verdict is Verdict.FAIL and _has_open_truss(member_check.forces.row):
+            check = self._ease(member_check, take_off_truss, "assumed.by_stiffness")
         is_open = bool(self.searched or self.task.row.panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
-            check = check.ease(self._find_least(one))
-        if check.verdict is not Verdict.FAIL and (told := self._tell(one)):
-            check = check.with_open(OpenKind.ASSUMED_DECIDES, told)
-        return replace(one, check=check)
+            check = check.ease(self._find_least(member_check))
+        if check.verdict is not Verdict.FAIL and (deciding := self._tell(member_check)):
+            check = check.with_open(OpenKind.ASSUMED_DECIDES, deciding)
+        return replace(member_check, check=check)
 
     @property
     def _are_sags_assumed(self) -> bool:
@@ -152,65 +154,79 @@ class _BestEnds:
         is_rope = check.member in ROPE_OF and is_of_structure(check)
         return is_rope and self._are_sags_assumed
 
-    def _has_open_pull(self, one: MemberCheck) -> bool:
+    def _has_open_pull(self, member_check: MemberCheck) -> bool:
         """A border rope pulls by what nobody says: its sag, or that it slides."""
-        end = one.known.row.row_end
-        if end is None or one.check.member in ROPE_OF:
+        end = member_check.forces.row.row_end
+        if end is None or member_check.check.member in ROPE_OF:
             return False
-        may_slide = one.width.position == "second" and end.ropes_slide is None
-        is_pulled = not _PULLS.isdisjoint(one.check.step_of)
+        may_slide = member_check.width.position == "second" and end.ropes_slide is None
+        is_pulled = not _PULLS.isdisjoint(member_check.check.step_of)
         return is_pulled and (may_slide or self._are_sags_assumed)
 
     def _ease(
-        self, one: MemberCheck, take_off: Callable[[RowForces], RowForces], key: str
+        self,
+        member_check: MemberCheck,
+        take_off: Callable[[RowForces], RowForces],
+        key: str,
     ) -> Check:
         """Check without a pull that hangs on what nobody says, if it passes so."""
-        low = _find_low(self._judge(one, take_off(one.best or one.known)))
-        worst = _rate(one.check)
+        low = _find_low(
+            self._judge(
+                member_check, take_off(member_check.best or member_check.forces)
+            )
+        )
+        worst = _rate(member_check.check)
         if not 0.0 < low <= 1.0 or math.isinf(worst):
-            return one.check
-        told = say(key, used=worst, without=low)
-        return one.check.ease(low).with_open(OpenKind.ASSUMED_DECIDES, told)
+            return member_check.check
+        deciding = say(key, used=worst, without=low)
+        return member_check.check.ease(low).with_open(
+            OpenKind.ASSUMED_DECIDES, deciding
+        )
 
-    def _find_least(self, one: MemberCheck) -> float:
+    def _find_least(self, member_check: MemberCheck) -> float:
         """Low end of the utilisation at the best corner of what is searched [-].
 
         In the case that governs the check, at its density, friction and inclination:
         over all cases it is no less. Of an assumed panel what any brings at least. 0
         where that cannot be calculated.
         """
-        row = (one.best or one.known).row
+        row = (member_check.best or member_check.forces).row
         if not self.searched:
-            return _find_low(self._judge(one, self._know_panels(row)))
+            return _find_low(self._judge(member_check, self._know_panels(row)))
         names = [each.key for each in self.searched]
         corners = product(*((each.low, each.high) for each in self.searched))
         at = (dict(zip(names, corner, strict=True)) for corner in corners)
-        known = (self._know_at(row, one, x, know_least) for x in at)
-        return min(_find_low(self._judge(one, x)) for x in known)
+        at_corners = (self._know_at(row, member_check, x, know_least) for x in at)
+        return min(_find_low(self._judge(member_check, x)) for x in at_corners)
 
     def _know_panels(self, row: NetRow) -> RowForces | None:
         """Knowledge of a corner by all cases, with the best of its assumed panels."""
         key = (_name(row), know_least.__name__)
-        if key not in self.known:
+        if key not in self.forces_at:
             place = list_layouts(self.task.row).index(row.layout)
             solved = self.task.solved.at_layout(place)
-            self.known[key] = know_least(self.task, row, solved)
-        return self.known[key]
+            self.forces_at[key] = know_least(self.task, row, solved)
+        return self.forces_at[key]
 
-    def _judge(self, one: MemberCheck, known: RowForces | None) -> Check | None:
-        if known is None or one.again is None:
+    def _judge(
+        self, member_check: MemberCheck, forces: RowForces | None
+    ) -> Check | None:
+        if forces is None or member_check.again is None:
             return None
-        return one.again(known).check
+        return member_check.again(forces).check
 
-    def _tell(self, one: MemberCheck) -> Message | None:
+    def _tell(self, member_check: MemberCheck) -> Message | None:
         """What is decided by the value that lowers a check most; None of none."""
-        worst = _rate(one.check)
-        options = [*self._vary_statics(one), *self._vary_searched(one)]
+        worst = _rate(member_check.check)
+        options = [
+            *self._vary_statics(member_check),
+            *self._vary_searched(member_check),
+        ]
         rated = [(each.rate(1.0), each) for each in options]
         least, option = min(rated, key=lambda x: x[0], default=(math.inf, None))
         if option is None or not least < _BETTER * worst:
             return None
-        told: dict[str, Message | float] = {
+        numbers: dict[str, Message | float] = {
             "name": option.assumed.name,
             "at": option.show(option.worst),
             "used": least if math.isinf(worst) else worst,
@@ -218,16 +234,16 @@ class _BestEnds:
         if least > 1.0:
             return say(
                 "check.assumed_lowers",
-                **told,
+                **numbers,
                 other=option.show(option.other),
                 least=least,
             )
         bound = option.show(_round(option, _find_share(option.rate)))
-        return say("check.assumed_decides", **told, bound=bound)
+        return say("check.assumed_decides", **numbers, bound=bound)
 
-    def _vary_statics(self, one: MemberCheck) -> Iterator[_Option]:
+    def _vary_statics(self, member_check: MemberCheck) -> Iterator[_Option]:
         """Other ends of what is assumed of the row's statics, each alone."""
-        values = read_values(one.known.row)
+        values = read_values(member_check.forces.row)
         for key, worst in values.items():
             assumed = self.task.row.find_assumed(key)
             if assumed is None or not assumed.is_range:
@@ -239,18 +255,23 @@ class _BestEnds:
                 assumed=assumed,
                 worst=worst,
                 other=other,
-                rate=partial(self._rate_statics, one, key, worst, other),
+                rate=partial(self._rate_statics, member_check, key, worst, other),
             )
             yield option
 
     def _rate_statics(
-        self, one: MemberCheck, key: str, worst: float, other: float, share: float
+        self,
+        member_check: MemberCheck,
+        key: str,
+        worst: float,
+        other: float,
+        share: float,
     ) -> float:
         """Utilisation at another value: at the end over all cases, else in proportion.
 
         That is to the governing case, at the same value of all else.
         """
-        values = read_values(one.known.row)
+        values = read_values(member_check.forces.row)
         values[key] = worst + share * (other - worst)
         if key == "guy_count":
             splay = self.task.row.find_assumed("guy_splay")
@@ -258,20 +279,20 @@ class _BestEnds:
                 values["guy_splay"] = splay.high
         row = place_variant(self.task.row, values)
         if share == 1.0:
-            return _rate(self._judge(one, self.known.get(_name(row))))
-        if key == "guy_count" or one.force is None:
+            return _rate(self._judge(member_check, self.forces_at.get(_name(row))))
+        if key == "guy_count" or member_check.force is None:
             return math.inf
         here, there = (
-            _rate(self._judge(one, self._know_alone(at, one.force)))
-            for at in (one.known.row, row)
+            _rate(self._judge(member_check, self._know_alone(at, member_check.force)))
+            for at in (member_check.forces.row, row)
         )
-        return _scale(one.check, here, there)
+        return _scale(member_check.check, here, there)
 
-    def _vary_searched(self, one: MemberCheck) -> Iterator[_Option]:
+    def _vary_searched(self, member_check: MemberCheck) -> Iterator[_Option]:
         """Other ends of what is searched with the cases, each alone."""
-        if one.check.case is None:
+        if member_check.check.case is None:
             return
-        values = read_point(one.check.case).values
+        values = read_point(member_check.check.case).values
         for assumed in self.searched:
             worst = values.get(assumed.key)
             if worst is None:
@@ -282,50 +303,57 @@ class _BestEnds:
                 assumed=assumed,
                 worst=worst,
                 other=other,
-                rate=partial(self._rate_searched, one, assumed.key, worst, other),
+                rate=partial(
+                    self._rate_searched, member_check, assumed.key, worst, other
+                ),
             )
 
     def _rate_searched(
-        self, one: MemberCheck, key: str, worst: float, other: float, share: float
+        self,
+        member_check: MemberCheck,
+        key: str,
+        worst: float,
+        other: float,
+        share: float,
     ) -> float:
         """Utilisation at another value, in proportion to that of the governing case."""
-        row = one.known.row
+        row = member_check.forces.row
         at = {key: worst + share * (other - worst)}
         rated = (
-            _rate(self._judge(one, self._know_at(row, one, values)))
+            _rate(self._judge(member_check, self._know_at(row, member_check, values)))
             for values in ({key: worst}, at)
         )
-        return _scale(one.check, *rated)
+        return _scale(member_check.check, *rated)
 
     def _know_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
         """Knowledge of a variant of the row, by the case that governs a force alone."""
         task, point = self.task, force.largest.case
         key = (_name(row), point)
-        if key not in self.known:
+        if key not in self.forces_at:
             results = task.solved.results
             result = next(x for x in results if record_point(x.case) == point)
             solved = _wrap(task.solved, result).on_layout(row.layout)
-            self.known[key] = know_alone(task, row, solved)
-        return self.known[key]
+            self.forces_at[key] = know_alone(task, row, solved)
+        return self.forces_at[key]
 
     def _know_at(
         self,
         row: NetRow,
-        one: MemberCheck,
+        member_check: MemberCheck,
         values: Mapping[str, float],
         know: _Know = know_alone,
     ) -> RowForces | None:
         """Knowledge of a variant by the governing case of a check, at other values."""
         task = self.task
-        if task.solver is None or one.check.case is None:
+        if task.solver is None or member_check.check.case is None:
             return None
-        case = read_point(one.check.case)
+        case = read_point(member_check.check.case)
         for name, value in values.items():
             case = case.with_value(name, value)
         key = (_name(row), case, know.__name__)
-        if key not in self.known:
-            self.known[key] = self._know_case(row, case, values, know)
-        return self.known[key]
+        if key not in self.forces_at:
+            self.forces_at[key] = self._know_case(row, case, values, know)
+        return self.forces_at[key]
 
     def _know_case(
         self, row: NetRow, case: Case, values: Mapping[str, float], know: _Know
@@ -333,8 +361,8 @@ class _BestEnds:
         task = self.task
         if task.solver is None:
             return None
-        found = (one for one in task.solved.results if one.case == case)
-        result = next(found, None)
+        solved_here = (result for result in task.solved.results if result.case == case)
+        result = next(solved_here, None)
         if result is None:
             (result,) = task.solver.solve_all([(task.row, case, task.law)])
         if not result.is_converged:
@@ -355,8 +383,8 @@ def _name(row: NetRow) -> object:
 
 def _wrap(solved: RowEnvelope, result: CaseResult) -> RowEnvelope:
     """Envelope of one case alone: nothing hides beside it."""
-    forces = [result.member_forces.get(one) for one in solved.members]
-    sizes = tuple(one.value if one else 0.0 for one in forces)
+    forces = [result.member_forces.get(member) for member in solved.members]
+    sizes = tuple(force.value if force else 0.0 for force in forces)
     maxima = replace(solved.maxima, maximum=sizes, upper_bound=sizes, is_closed=True)
     return replace(
         solved, results=(result,), maxima=maxima, confirmations=(), lifted={}

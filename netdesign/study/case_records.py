@@ -22,11 +22,9 @@ from netdesign.words.message import Message, Text
 class ConfirmationRecord:
     """The governing case solved again by another fidelity."""
 
-    screened_kN: float
     confirmed_kN: float | None
     difference_percent: float | None
     elements: int | None
-    screened_elements: int
     reason: Text | None  # why there is no confirmation
 
 

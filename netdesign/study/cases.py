@@ -17,7 +17,6 @@ from netdesign.search.upper_bound import list_first_design
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.solving.runner import Runner
-from netdesign.structure.members import CONNECTED
 from netdesign.study.row_to_check import CheckRun, build_scene, list_layouts
 from netdesign.words.message import Message, group_reasons, say
 
@@ -45,7 +44,6 @@ def _count_row(ranges: Ranges) -> int:
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
-    checks = sum(map(_count_checks, site.rows))
     phases = [
         _plan_envelope(site, run),
         Phase(
@@ -54,7 +52,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             cases=rows * _BESIDE,
             most=profiles * rows * _BESIDE,
             cost=1.0 / min(run.jobs, rows),
-            pieces=profiles * checks,
+            pieces=rows,
         ),
         Phase(
             key="reports",
@@ -63,18 +61,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             seconds=_REPORTS_S * profiles,
         ),
     ]
-    return [one for one in phases if one.most or one.seconds]
-
-
-def _count_checks(row: NetRow) -> int:
-    """Checks of forces, on the supports inside the row and at its end, or nearly."""
-    at_end = row.resistances_at("edge") if row.has_end else ()
-    held = row.row_end.resistances if row.row_end else ()
-    every = (*row.resistances, *at_end, *row.net_parts, *held)
-    links = sum(
-        one.mode in ("rope", "tendon") and one.member in CONNECTED for one in every
-    )
-    return len(every) + links
+    return [phase for phase in phases if phase.most or phase.seconds]
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
@@ -168,10 +155,10 @@ def have_same_forces(
 
 def list_alike(site: Site, run: CheckRun) -> list[tuple[NetRow, ...]]:
     """Rows of a site, those together that are solved alike."""
-    found: dict[RowTask, list[NetRow]] = {}
+    alike: dict[RowTask, list[NetRow]] = {}
     for row in site.rows:
-        found.setdefault(_build_search(row, site.ranges, run), []).append(row)
-    return [tuple(rows) for rows in found.values()]
+        alike.setdefault(_build_search(row, site.ranges, run), []).append(row)
+    return [tuple(rows) for rows in alike.values()]
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:

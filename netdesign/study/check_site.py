@@ -30,6 +30,12 @@ from netdesign.words.message import say
 # Progress that nobody is shown.
 _SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)
 OnRow = Callable[[Studies], None]
+
+
+def _keep_silent(_: Studies) -> None:
+    """Tell nobody of a row."""
+
+
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
 
 
@@ -47,7 +53,7 @@ def check_site(
     run: CheckRun,
     runner: Runner | None = None,
     watch: RunProgress | None = None,
-    on_row: OnRow = lambda _: None,
+    on_row: OnRow | None = None,
 ) -> list[Study]:
     """Check a site against limit profiles; its cases are solved once.
 
@@ -81,15 +87,16 @@ def check_site(
     if run.has_reliability:  # refused before anything is solved
         addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
     runner, watch = runner or Runner(), watch or _SILENT
+    on_row = on_row or _keep_silent
     names = name_rows(site, standards, run) if runner.store else {}
-    known = find_rows(names, runner, len(standards))
-    for studies in known.values():
+    by_row = find_rows(names, runner, len(standards))
+    for studies in by_row.values():
         on_row(studies)
-    new = tuple(row for row in site.rows if row.id not in known)
+    new = tuple(row for row in site.rows if row.id not in by_row)
     if new:
         part = replace(site, rows=new)
-        known |= _judge_new(part, names, standards, run, runner, watch, on_row)
-    return _gather(site, known, standards, run)
+        by_row |= _judge_new(part, names, standards, run, runner, watch, on_row)
+    return _gather(site, by_row, standards, run)
 
 
 def _judge_new(
@@ -103,15 +110,14 @@ def _judge_new(
 ) -> dict[str, Studies]:
     """Studies by the ids of the rows, solved, judged, and kept under their names.
 
-    Where there are rows enough, each is searched and judged in one process.
+    Each row is searched and judged in one process, where there are rows enough for all.
     """
     build = partial(_build_job, site, standards, run, runner)
-    pool = runner.workers.pool
-    groups = list_alike(site, run) if pool is not None else []
-    if pool is not None and len(groups) >= _ROWS_A_PROCESS * pool.processes:
+    groups, pool = list_alike(site, run), runner.workers.pool
+    if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
         watch.enter("checks", say("phase.rows"))
         jobs = [build(rows) for rows in groups]
-    else:
+    else:  # all processes solve cases of the same few rows
         solved = solve_rows(site, run, runner, watch)
         watch.enter("checks")
         jobs = _list_jobs(solved, build)
@@ -119,9 +125,10 @@ def _judge_new(
     def keep(job: RowsJob, judged: list[Studies]) -> None:
         keep_rows(names, job.site.rows, judged, runner)
         for studies in judged:
+            watch.count_piece()
             on_row(studies)
 
-    return judge_rows(jobs, runner, watch.count_piece, keep)
+    return judge_rows(jobs, runner, keep)
 
 
 def solve_rows(
@@ -129,28 +136,30 @@ def solve_rows(
     run: CheckRun,
     runner: Runner,
     watch: RunProgress,
-    known: SolvedSite | None = None,
+    before: SolvedSite | None = None,
 ) -> SolvedSite:
-    """Cases of every net row, solved; rows with the same forces as ``known`` are not.
+    """Solve the cases of every net row whose forces differ from those in ``before``.
 
     A what-if has the rows of the site that is known, in their order, and some of them
     may be solved alike: only their checks are other ones.
     """
-    todo = [row for row in site.rows if known is None or _is_new(row, site, known, run)]
+    todo = [
+        row for row in site.rows if before is None or _is_new(row, site, before, run)
+    ]
     part = replace(site, rows=tuple(todo))
-    found = search_site(part, run, runner, watch.report_wave)
-    by_id = dict(zip((row.id for row in todo), found, strict=True))
-    if known is not None:
-        old = zip(known.site.rows, known.rows, strict=True)
+    envelopes = search_site(part, run, runner, watch.report_wave)
+    by_id = dict(zip((row.id for row in todo), envelopes, strict=True))
+    if before is not None:
+        old = zip(before.site.rows, before.rows, strict=True)
         by_id = {row.id: solved for row, solved in old} | by_id
     return SolvedSite(site=site, rows=[by_id[row.id] for row in site.rows])
 
 
-def _is_new(row: NetRow, site: Site, known: SolvedSite, run: CheckRun) -> bool:
+def _is_new(row: NetRow, site: Site, before: SolvedSite, run: CheckRun) -> bool:
     """No row of that id was solved, or its forces are other ones."""
-    old = {one.id: one for one in known.site.rows}.get(row.id)
+    old = {row.id: row for row in before.site.rows}.get(row.id)
     return old is None or not have_same_forces(
-        row, site.ranges, old, known.site.ranges, run
+        row, site.ranges, old, before.site.ranges, run
     )
 
 
@@ -164,7 +173,9 @@ def judge_solved(
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
     build = partial(_build_job, solved.site, standards, run, runner)
-    judged = judge_rows(_list_jobs(solved, build), runner, watch.count_piece)
+    judged = judge_rows(
+        _list_jobs(solved, build), runner, lambda *_: watch.count_piece()
+    )
     return _gather(solved.site, judged, standards, run)
 
 

@@ -93,31 +93,31 @@ class Condition:
     rows: Items[str] = field(default_factory=list)
 
 
-def list_conditions(known: RowForces) -> list[Condition]:
+def list_conditions(forces: RowForces) -> list[Condition]:
     """Conditions of one net row, each once."""
     return merge_conditions(
-        replace(one, rows=[known.row.id])
+        replace(condition, rows=[forces.row.id])
         for part in (_list_of_snow, _list_of_types, _list_of_ground, _list_of_bores)
-        for one in part(known)
+        for condition in part(forces)
     )
 
 
 def merge_conditions(conditions: Iterable[Condition]) -> list[Condition]:
     """Conditions by key, each with the number of the row that needs most."""
-    found: dict[str, Condition] = {}
-    for one in conditions:
-        before = found.setdefault(one.key, one)
-        rows = [*dict.fromkeys([*before.rows, *one.rows])]
-        worse = one if _is_worse(one, before) else before
-        found[one.key] = replace(worse, rows=rows)
-    return sorted(found.values(), key=lambda one: list(_WHO).index(one.key))
+    merged: dict[str, Condition] = {}
+    for condition in conditions:
+        before = merged.setdefault(condition.key, condition)
+        rows = [*dict.fromkeys([*before.rows, *condition.rows])]
+        worse = condition if _is_worse(condition, before) else before
+        merged[condition.key] = replace(worse, rows=rows)
+    return sorted(merged.values(), key=lambda each: list(_WHO).index(each.key))
 
 
-def _is_worse(one: Condition, other: Condition) -> bool:
-    if one.value is None or other.value is None:
-        return other.value is None and one.value is not None
-    is_less = one.value < other.value
-    return is_less if one.key in _LEAST_COUNTS else one.value > other.value
+def _is_worse(condition: Condition, other: Condition) -> bool:
+    if condition.value is None or other.value is None:
+        return other.value is None and condition.value is not None
+    is_less = condition.value < other.value
+    return is_less if condition.key in _LEAST_COUNTS else condition.value > other.value
 
 
 def _state(key: Key, value: float | None = None) -> Condition:
@@ -127,9 +127,9 @@ def _state(key: Key, value: float | None = None) -> Condition:
     return Condition(key=key, who=_WHO[key], message=text, value=value)
 
 
-def _list_of_snow(known: RowForces) -> Iterator[Condition]:
+def _list_of_snow(forces: RowForces) -> Iterator[Condition]:
     """Heights and glide factors, which a document or an authority confirms."""
-    row, ranges, documents = known.row, known.site.ranges, known.site.documents
+    row, ranges, documents = forces.row, forces.site.ranges, forces.site.documents
     if "snow_document" not in documents:
         yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
     glide = row.glide_factor
@@ -141,16 +141,18 @@ def _list_of_snow(known: RowForces) -> Iterator[Condition]:
         yield _state("glide_factor", glide)
 
 
-def _list_of_types(known: RowForces) -> Iterator[Condition]:
+def _list_of_types(forces: RowForces) -> Iterator[Condition]:
     """What the types of a row do not say of corrosion, grounds and sleeves."""
-    row, left_out = known.row, known.standard.not_checked
-    for one in _list_resistances(row):
-        if one.wear is not None and "corrosion" not in left_out:
-            yield from _list_of_wear(one.wear, row.design_life)
-        if one.mode == "pull_out" and (one.value is not None or one.tests):
-            if not (row.ground_type and one.ground):
+    row, left_out = forces.row, forces.standard.not_checked
+    for resistance in _list_resistances(row):
+        if resistance.wear is not None and "corrosion" not in left_out:
+            yield from _list_of_wear(resistance.wear, row.design_life)
+        if resistance.mode == "pull_out" and (
+            resistance.value is not None or resistance.tests
+        ):
+            if not (row.ground_type and resistance.ground):
                 yield _state("ground")
-            if one.may_be_sleeved and one.basis != "tested":
+            if resistance.may_be_sleeved and resistance.basis != "tested":
                 yield _state("sleeve")
     if row.find_assumed("panel_system"):
         yield _state("rectangular")
@@ -174,11 +176,11 @@ def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
         yield _state("protected", float(life))
 
 
-def _list_of_ground(known: RowForces) -> Iterator[Condition]:
+def _list_of_ground(forces: RowForces) -> Iterator[Condition]:
     """Ground above and beside the bonds of which nobody says what it has to be."""
-    if "anchor_ground" in known.standard.not_checked:
+    if "anchor_ground" in forces.standard.not_checked:
         return
-    for bond in list_bonds(known.row, known.pulls):
+    for bond in list_bonds(forces.row, forces.pulls):
         if bond.least_cover is None and not bond.has_soil and not bond.leaves_ground:
             yield _state("cover", bond.cover)
         elif bond.least_cover is not None and bond.cover is None:
@@ -187,10 +189,10 @@ def _list_of_ground(known: RowForces) -> Iterator[Condition]:
             yield _state("edge", bond.least_edge or bond.length)
 
 
-def _list_of_bores(known: RowForces) -> Iterator[Condition]:
+def _list_of_bores(forces: RowForces) -> Iterator[Condition]:
     """Ways and places of the bores, and what stands beside the row."""
-    row, standard = known.row, known.standard
-    if any(not one.is_axis_given for one in known.pulls):
+    row, standard = forces.row, forces.standard
+    if any(not pull.is_axis_given for pull in forces.pulls):
         yield _state("axes", given_degree_from_radian(USUAL_DIP))
     apart, gap = standard.find(ANCHOR_DISTANCE), standard.find(MAX_GAP)
     end = row.row_end

@@ -11,8 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from netdesign.calculation.quantity import Quantity
-from netdesign.calculation.quantity import given as quantity
+from netdesign.calculation.quantity import Quantity, leaf
 from netdesign.checks import Standard, StandardValue
 from netdesign.checks.comparison import (
     find_action_factor,
@@ -69,7 +68,7 @@ _LARGEST_ANGLE = math.radians(89.0)
 
 
 def find_resistance_for_force(
-    given: Resistance,
+    resistance: Resistance,
     basis: Basis,
     pull: PullRecord | None,
     width: LoadedWidth,
@@ -79,38 +78,38 @@ def find_resistance_for_force(
 
     ``force`` is the characteristic one [kN].
     """
-    if given.mode == "direction":
-        return _find_head_resistance(given, basis.standard, pull, force)
-    match given.dimensions:
-        case AnchorType(soil=Soil() as soil) as anchor if given.mode == "wedge":
-            return find_ground_resistance(given, anchor, soil, basis, pull)
+    if resistance.mode == "direction":
+        return _find_head_resistance(resistance, basis.standard, pull, force)
+    match resistance.dimensions:
+        case AnchorType(soil=Soil() as soil) as anchor if resistance.mode == "wedge":
+            return find_ground_resistance(resistance, anchor, soil, basis, pull)
         case AnchorType() as anchor:
-            is_held = holds_across(given, basis.standard, pull, force)
+            is_held = holds_across(resistance, basis.standard, pull, force)
             anchor = anchor if is_held else replace(anchor, across=None)
-            return _find_bent_resistance(given, anchor, pull)
+            return _find_bent_resistance(resistance, anchor, pull)
         case PostSection() as section:
-            return find_post_resistance(given, section, basis, width)
+            return find_post_resistance(resistance, section, basis, width)
         case BasePlate() as plate:
-            return find_plate_resistance(given, plate, basis)
+            return find_plate_resistance(resistance, plate, basis)
         case _:
-            return given
+            return resistance
 
 
 def _find_bent_resistance(
-    given: Resistance, anchor: AnchorType, pull: PullRecord | None
+    resistance: Resistance, anchor: AnchorType, pull: PullRecord | None
 ) -> Resistance:
     section, free = anchor.section, anchor.lever
     if section is None or free is None:
-        return replace(given, lack=say("bending.no_section"))
+        return replace(resistance, lack=say("bending.no_section"))
     if pull is None:
-        return given
+        return resistance
     if pull.angle > _LARGEST_ANGLE:
-        return replace(given, lack=say("bending.too_far", angle=pull.angle_deg))
+        return replace(resistance, lack=say("bending.too_far", angle=pull.angle_deg))
     yields = 0.0 if anchor.is_in_block else anchor.ground_lever
     lever = free + yields
     worst = _bend(section, pull.angle, lever)
     key = "bending.of_block" if anchor.is_in_block else "bending.of_bar"
-    told = say(
+    derivation = say(
         "bending.of_tube" if anchor.has_tube else key,
         of=_describe_bending(section, worst),
         lever=1e3 * lever,
@@ -124,56 +123,59 @@ def _find_bent_resistance(
     elif anchor.is_lever_assumed:
         best = _bend(section, pull.angle, yields).value
         doubt = say("bending.lever_assumed", free=1e3 * free)
-    return replace(given, value=worst.value, best=best, doubt=doubt, derivation=told)
+    return replace(
+        resistance, value=worst.value, best=best, doubt=doubt, derivation=derivation
+    )
 
 
 def _bend(section: RoundSection, largest: float, lever: float) -> BentBar:
     """Least resistance to a pull beside the axis, by up to the largest angle."""
     angles = (largest, _find_weakest(section, lever, largest))
-    found = (
-        compute_bent_bar_resistance(section, angle=one, lever=lever) for one in angles
+    bars = (
+        compute_bent_bar_resistance(section, angle=angle, lever=lever)
+        for angle in angles
     )
-    return min(found, key=lambda one: one.value)
+    return min(bars, key=lambda each: each.value)
 
 
 def _find_head_resistance(
-    given: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
+    resistance: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
 ) -> Resistance:
     """Resistance to the pull of what takes the force across the axis at its head.
 
     Theory: resistance/THEORY.md, (R9c).
     """
     if pull is None:
-        return given
+        return resistance
     limit = standard.find(ROPE_ANGLE)
-    told = {"angle": pull.angle_deg, "most": limit.value if limit else 0.0}
+    numbers = {"angle": pull.angle_deg, "most": limit.value if limit else 0.0}
     if pull.angle > _LARGEST_ANGLE:
-        return replace(given, lack=say("direction.rope_beyond", **told))
-    across, anchor = max(math.sin(pull.angle), _NOT_ACROSS), given.dimensions
+        return replace(resistance, lack=say("direction.rope_beyond", **numbers))
+    across, anchor = max(math.sin(pull.angle), _NOT_ACROSS), resistance.dimensions
     holds = anchor.across if isinstance(anchor, AnchorType) else None
     if holds is None:
         factor = find_action_factor(standard).value or 1.0
-        told |= {"force": factor * across * (force.high or 0.0)}
-        return replace(given, lack=say("direction.no_head", **told))
-    key = "direction.by_block" if may_bend(given) else "direction.by_head"
-    told |= {"across": kilonewton_from_newton(holds)}
+        numbers |= {"force": factor * across * (force.high or 0.0)}
+        return replace(resistance, lack=say("direction.no_head", **numbers))
+    key = "direction.by_block" if may_bend(resistance) else "direction.by_head"
+    numbers |= {"across": kilonewton_from_newton(holds)}
     return replace(
-        given,
+        resistance,
         value=holds / across,
         basis="declared",
-        derivation=say(key, **told),
+        derivation=say(key, **numbers),
     )
 
 
 def holds_across(
-    given: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
+    resistance: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
 ) -> bool:
     """What is at the head takes the design force across the axis, (R9c).
 
     A block that does not is none to a bar, which then bends in the ground. ``force`` is
     the characteristic one [kN].
     """
-    asked = replace(given, mode="direction", basis="declared")
+    asked = replace(resistance, mode="direction", basis="declared")
     head = _find_head_resistance(asked, standard, pull, force)
     on_action, on_head = (
         find_action_factor(standard),
@@ -185,9 +187,9 @@ def holds_across(
     return design <= kilonewton_from_newton(head.value) / on_head.value_si
 
 
-def may_bend(given: Resistance) -> bool:
+def may_bend(resistance: Resistance) -> bool:
     """Bar or micropile: it bends where the block at its head does not hold."""
-    anchor = given.dimensions
+    anchor = resistance.dimensions
     return isinstance(anchor, AnchorType) and anchor.kind in BENDING
 
 
@@ -213,55 +215,57 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
 
 
 def settle_basis(
-    given: Resistance, standard: Standard
+    resistance: Resistance, standard: Standard
 ) -> tuple[Resistance, Message | None]:
     """Pull-out resistance of which nobody says how it was found: the worse counts.
 
     It is computed, or that of one test. With why it may not count: the profile has no
     factor on one of these. Others as they are.
     """
-    if given.mode != "pull_out" or given.basis or given.value is None:
-        return given, None
-    single = PullOutTests(count=1, least=given.value, mean=given.value)
+    if resistance.mode != "pull_out" or resistance.basis or resistance.value is None:
+        return resistance, None
+    single = PullOutTests(count=1, least=resistance.value, mean=resistance.value)
     ways = [
-        replace(given, basis="computed"),
-        replace(given, basis="tested", value=None, tests=single),
+        replace(resistance, basis="computed"),
+        replace(resistance, basis="tested", value=None, tests=single),
     ]
-    found: list[tuple[float, float, Resistance]] = []
+    rated: list[tuple[float, float, Resistance]] = []
     for way in ways:
         strength = find_resistance(way, standard).low
         factor = find_partial_factor(way, standard)
         if factor is not None and strength is not None:
-            found.append((strength / factor.value_si, factor.value_si, way))
-    if not found:
-        return given, None
-    design, factored, worse = min(found, key=lambda one: one[0])
+            rated.append((strength / factor.value_si, factor.value_si, way))
+    if not rated:
+        return resistance, None
+    design, factored, worse = min(rated, key=lambda each: each[0])
     name = say("column.Anchors.basis")
-    if len(found) < len(ways):
+    if len(rated) < len(ways):
         return worse, say("check.no_basis", name=name)
-    better = max(one for one, _, _ in found)
-    ends = (newton_from_kilonewton(one * factored) for one in (design, better))
+    better = max(strength for strength, _, _ in rated)
+    ends = (
+        newton_from_kilonewton(strength * factored) for strength in (design, better)
+    )
     value, best = ends
-    told = say("check.basis_decides", name=name)
-    return replace(worse, value=value, best=best, tests=None, doubt=told), None
+    undecided = say("check.basis_decides", name=name)
+    return replace(worse, value=value, best=best, tests=None, doubt=undecided), None
 
 
-def shorten_bond(given: Resistance, standard: Standard) -> Resistance:
+def shorten_bond(resistance: Resistance, standard: Standard) -> Resistance:
     """Pull-out resistance of the bond that counts, in ground and grout; others as is.
 
     Theory: resistance/THEORY.md, (R33) and (R34).
     """
-    bond, longest = given.bond, standard.find(LONGEST_BOND)
-    factor = find_partial_factor(given, standard)
-    if bond is None or given.value is None or factor is None:
-        return given
+    bond, longest = resistance.bond, standard.find(LONGEST_BOND)
+    factor = find_partial_factor(resistance, standard)
+    if bond is None or resistance.value is None or factor is None:
+        return resistance
     if longest is None:
-        return replace(given, value=None, lack=lack_factor(LONGEST_BOND))
+        return replace(resistance, value=None, lack=lack_factor(LONGEST_BOND))
     counted = bond.find_counted(longest.value)
     if not counted:
         lack = say("derivation.no_bond", length=bond.length)
-        return replace(given, value=None, lack=lack)
-    value, derivation = given.value * counted / bond.length, given.derivation
+        return replace(resistance, value=None, lack=lack)
+    value, derivation = resistance.value * counted / bond.length, resistance.derivation
     if counted < bond.length and derivation:
         derivation = say(
             "derivation.bond_counted",
@@ -275,7 +279,7 @@ def shorten_bond(given: Resistance, standard: Standard) -> Resistance:
         of_steel = factor.value_si * compute_steel_bond(bond.steel, counted)
     if of_steel < value:
         value, derivation = of_steel, _describe_steel_bond(bond, counted, factor)
-    return replace(given, value=value, derivation=derivation)
+    return replace(resistance, value=value, derivation=derivation)
 
 
 def _describe_steel_bond(bond: Bond, counted: float, factor: StandardValue) -> Message:
@@ -291,34 +295,34 @@ def _describe_steel_bond(bond: Bond, counted: float, factor: StandardValue) -> M
     )
 
 
-def resist(given: Resistance, standard: Standard, force: MemberForce) -> Quantity:
+def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Quantity:
     """Characteristic resistance of a member, also one that its force brings [kN]."""
-    base, pressing = given.dimensions, force.on.pressing
+    base, pressing = resistance.dimensions, force.on.pressing
     if not isinstance(base, float) or pressing is None or not pressing.value:
-        return find_resistance(given, standard)
-    friction = quantity("μ_b", base, "-", given.source)
+        return find_resistance(resistance, standard)
+    friction = leaf("μ_b", base, "-", resistance.source)
     return resist_by_friction(friction, find_action_factor(standard), pressing)
 
 
-def corrode(given: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
+def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
     Bare steel whose diameter nobody gives has none that is known. As it is, and no
     doubt, of what does not corrode, what has a condition in the place of its
     protection, and where the profile leaves corrosion to others.
     """
-    wear, life = given.wear, basis.row.design_life
+    wear, life = resistance.wear, basis.row.design_life
     if wear is None or "corrosion" in basis.standard.not_checked:
-        return given, None
+        return resistance, None
     if wear.is_bare and None in (wear.outer, wear.inner):
         lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))
-        return replace(given, value=None, dimensions=None, lack=lack), None
+        return replace(resistance, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
-        return given, _doubt_protection(wear, life)
+        return resistance, _doubt_protection(wear, life)
     try:
-        return _take_loss(given, wear, life), None
+        return _take_loss(resistance, wear, life), None
     except ModelError as error:
-        return given, error.message
+        return resistance, error.message
 
 
 def _doubt_protection(wear: Wear, life: int) -> Message | None:
@@ -330,30 +334,34 @@ def _doubt_protection(wear: Wear, life: int) -> Message | None:
     return say("corrosion.short", years=years, life=life)
 
 
-def _take_loss(given: Resistance, wear: Wear, life: int) -> Resistance:
+def _take_loss(resistance: Resistance, wear: Wear, life: int) -> Resistance:
     loss = find_loss(wear.soil or USUAL_SOIL, life)
     outer, inner = wear.outer or 0.0, wear.inner or 0.0
     share = leave_area(outer, inner, loss.value / 1e3)
     if not share:
         raise ModelError(say("corrosion.nothing_left", years=life))
-    if isinstance(given.dimensions, AnchorType) and given.dimensions.section:
-        section = replace(given.dimensions.section, outer=outer - 2e-3 * loss.value)
-        return replace(given, dimensions=replace(given.dimensions, section=section))
-    if given.value is None:
-        return given
-    derivation = _describe_loss(given, wear, life, loss, share)
-    return replace(given, value=share * given.value, derivation=derivation)
+    if isinstance(resistance.dimensions, AnchorType) and resistance.dimensions.section:
+        section = replace(
+            resistance.dimensions.section, outer=outer - 2e-3 * loss.value
+        )
+        return replace(
+            resistance, dimensions=replace(resistance.dimensions, section=section)
+        )
+    if resistance.value is None:
+        return resistance
+    derivation = _describe_loss(resistance, wear, life, loss, share)
+    return replace(resistance, value=share * resistance.value, derivation=derivation)
 
 
 def _describe_loss(
-    given: Resistance, wear: Wear, life: int, loss: Datum, share: float
+    resistance: Resistance, wear: Wear, life: int, loss: Datum, share: float
 ) -> Message:
     origin = {"status": name("status", loss.status), "source": loss.source}
-    told = {"of": given.derivation} if given.derivation else {}
+    whole = {"of": resistance.derivation} if resistance.derivation else {}
     return say(
-        "corrosion.left_of" if told else "corrosion.left",
-        **told,
-        before=kilonewton_from_newton(given.value or 0.0),
+        "corrosion.left_of" if whole else "corrosion.left",
+        **whole,
+        before=kilonewton_from_newton(resistance.value or 0.0),
         share=share,
         loss=loss.value,
         years=life,
@@ -366,7 +374,7 @@ CONNECTION = "connection"
 
 
 def connect(
-    given: Resistance,
+    resistance: Resistance,
     chains: Mapping[str, tuple[Link, ...]],
     pull: PullRecord | None,
     standard: Standard,
@@ -375,7 +383,7 @@ def connect(
 
     Parameters
     ----------
-    given : Resistance
+    resistance : Resistance
         Of the member's steel or rope, which names the type.
     chains : mapping of str to tuple of Link
         By type.
@@ -385,67 +393,72 @@ def connect(
     standard : Standard
         Limit profile.
     """
-    links, type_id = chains.get(given.type_id, ()), given.type_id
-    found = Resistance(
-        member=given.member, mode=CONNECTION, type_id=type_id, source=given.source
+    links, type_id = chains.get(resistance.type_id, ()), resistance.type_id
+    weakest_link = Resistance(
+        member=resistance.member,
+        mode=CONNECTION,
+        type_id=type_id,
+        source=resistance.source,
     )
     if not type_id:
-        return found
+        return weakest_link
     if not links:
         lack = say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
-        return replace(found, lack=lack)
+        return replace(weakest_link, lack=lack)
     on_action = find_action_factor(standard).value
     factor = standard.find_resistance_factor(CONNECTION, "declared")
     if on_action is None or factor is None:
-        return replace(found, basis="declared")
+        return replace(weakest_link, basis="declared")
     on_resistance = factor.value
     pulled = None if pull is None else pull.angle
     strengths = [
         resist_link(
-            one, pulled=pulled, on_action=on_action, on_resistance=on_resistance
+            link, pulled=pulled, on_action=on_action, on_resistance=on_resistance
         )
-        for one in links
+        for link in links
     ]
     weakest = min(range(len(links)), key=strengths.__getitem__)
-    found = replace(
-        found,
+    weakest_link = replace(
+        weakest_link,
         value=strengths[weakest],
         basis="declared",
         source=links[weakest].source,
         derivation=_describe_link(links[weakest], pulled, (on_action, on_resistance)),
         dimensions=links[weakest],
     )
-    is_whole = any(one.is_of_whole for one in links)
-    return found if is_whole else _add_usual_link(found, given.value)
+    is_whole = any(link.is_of_whole for link in links)
+    return weakest_link if is_whole else _add_usual_link(weakest_link, resistance.value)
 
 
-def _add_usual_link(found: Resistance, strength: float | None) -> Resistance:
+def _add_usual_link(resistance: Resistance, strength: float | None) -> Resistance:
     """Chain that nobody calls complete: a usual link may be weaker, (R17a).
 
     It is a shackle as strong as the steel or rope of its type, pulled at a right angle.
     """
-    doubt = say("connection.incomplete", type=found.type_id, sheet=say("sheet.Links"))
+    doubt = say(
+        "connection.incomplete", type=resistance.type_id, sheet=say("sheet.Links")
+    )
     if strength is None:
-        return replace(found, doubt=doubt)
+        return replace(resistance, doubt=doubt)
     usual = Link(
         kind=SHACKLE,
         breaking=strength,
         limit=None,
         count=1,
         angle=None,
-        source=found.source,
+        source=resistance.source,
     )
     value = resist_link(usual, pulled=math.pi / 2, on_action=1.0, on_resistance=1.0)
-    listed = found.value or 0.0
+    listed = resistance.value or 0.0
     if value >= listed:
-        return found
-    told = _describe_link(usual, math.pi / 2, (1.0, 1.0))
+        return resistance
+    derivation = _describe_link(usual, math.pi / 2, (1.0, 1.0))
     return replace(
-        found,
+        resistance,
         value=value,
         best=listed,
         doubt=doubt,
-        derivation=say("connection.usual", of=told),
+        derivation=say("connection.usual", of=derivation),
         dimensions=usual,
     )
 
@@ -455,7 +468,7 @@ def _describe_link(
 ) -> Message:
     """Way from a link's strength to its characteristic resistance."""
     force = kilonewton_from_newton(link.limit or link.breaking or 0.0)
-    told = say(
+    text = say(
         "connection.breaking",
         link=say(f"choice.link.{link.kind}"),
         count=link.count,
@@ -463,15 +476,15 @@ def _describe_link(
     )
     if link.limit is not None:
         action, resistance = factors
-        told = say("connection.limit", of=told, action=action, resistance=resistance)
+        text = say("connection.limit", of=text, action=action, resistance=resistance)
     if link.kind != SHACKLE:
-        return told
+        return text
     own = find_angle(link, pulled)
     factor = find_direction_factor(own)
     origin = {"status": name("status", factor.status), "source": factor.source}
     return say(
         "connection.beside",
-        strength=told,
+        strength=text,
         factor=factor.value,
         angle=degree_from_radian(own),
         origin=say("derivation.origin", **origin),

@@ -9,7 +9,7 @@ import hashlib
 import json
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, is_dataclass
 from datetime import datetime
 from enum import Enum
@@ -30,7 +30,6 @@ from netdesign.edge.json_text import (
     join_members,
     list_fields,
     read_json,
-    require_few_values,
     restore_json,
     write_part,
 )
@@ -56,10 +55,7 @@ def compute_digest(study: Study) -> str:
 
 def hash_text(text: str) -> str:
     """SHA-256 of a document as it is stored, without its own digest."""
-    return _hash_parsed(json.loads(text, parse_int=float))
-
-
-def _hash_parsed(document: dict[str, Any]) -> str:
+    document = json.loads(text, parse_int=float)
     values = json.dumps({**document, "digest": ""}, check_circular=False)
     return hashlib.sha256(values.encode()).hexdigest()
 
@@ -157,8 +153,8 @@ def _drop(part: Any, names: Iterable[str], members: str = "") -> list[Any]:
         return []
     for name in names:
         part.pop(name, None)
-    found = part.get(members)
-    return found if isinstance(found, list) else []
+    listed = part.get(members)
+    return listed if isinstance(listed, list) else []
 
 
 def require_unaltered(study: Study, text: str) -> None:
@@ -212,75 +208,6 @@ def load_study(path: Path) -> Study:
     except StudyError as error:
         named = say("text.at_place", place=str(path), text=error.message)
         raise StudyError(named) from None
-
-
-# What reading another file than a study may end with.
-_ODD = (
-    *(OSError, ValueError, LookupError, TypeError, AttributeError),
-    RecursionError,
-)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StoredChecks:
-    """Checks of some members from a stored study, with the site that they are of.
-
-    Attributes
-    ----------
-    site_file, site_sha256 : str
-        Of the site.
-    rows : mapping of str to list of Check
-        By the id of the net row.
-    """
-
-    site_file: str
-    site_sha256: str
-    rows: Mapping[str, list[Check]]
-
-
-def load_checks(path: Path, members: Collection[str]) -> StoredChecks:
-    """Checks of some members from a stored file, in a third of the time of all of it.
-
-    Raises
-    ------
-    StudyError
-        As `load_study` does.
-    """
-    try:
-        text = decode_utf8(read_bounded(path, MAX_JSON_BYTES))
-        require_few_values(text)
-        document = json.loads(text, parse_int=float)
-        if document["schema"] == SCHEMA and document["digest"] == _hash_parsed(
-            document
-        ):
-            return _restore_checks(document, members)
-    except (
-        OSError,
-        ValueError,
-        LookupError,
-        TypeError,
-        AttributeError,
-        RecursionError,
-    ):
-        pass
-    load_study(path)  # it says what is wrong
-    raise StudyError(say("study.unreadable", path=str(path), cause=SCHEMA))
-
-
-def _restore_checks(document: Any, members: Collection[str]) -> StoredChecks:
-    made = document["provenance"]
-    rows = {}
-    for row in document["rows"]:
-        found = [one for one in row["checks"] if one["member"] in members]
-        for one in found:
-            _drop(one, Check.WRITTEN)
-        texts = (json.dumps(one, check_circular=False) for one in found)
-        rows[str(row["id"])] = [restore_json(Check, text) for text in texts]
-    return StoredChecks(
-        site_file=str(made["site_file"]),
-        site_sha256=str(made["site_sha256"]),
-        rows=rows,
-    )
 
 
 SAME = 1e-6  # relative; other machines differ in the last digits only
@@ -391,7 +318,9 @@ def _collect(value: Any, place: str, values: dict[str, Any]) -> None:
 
 def _list_ids(members: Sequence[Any]) -> list[str]:
     """Ids or symbols of the members of a list; none if one lacks it or two share it."""
-    ids = [str(getattr(one, "id", getattr(one, "symbol", ""))) for one in members]
+    ids = [
+        str(getattr(member, "id", getattr(member, "symbol", ""))) for member in members
+    ]
     return ids if all(ids) and len(set(ids)) == len(ids) else []
 
 
@@ -401,7 +330,7 @@ def _find_noise(place: str) -> float:
 
 
 def _is_same(old: Any, new: Any, noise: float) -> bool:
-    if all(isinstance(one, float) or type(one) is int for one in (old, new)):
+    if all(isinstance(value, float) or type(value) is int for value in (old, new)):
         tolerance = SAME if noise else ROUNDING
         return math.isclose(old, new, rel_tol=tolerance, abs_tol=noise)
     return type(old) is type(new) and bool(old == new)

@@ -39,9 +39,9 @@ def list_anchors(study: Study) -> DataFrame:
 def list_open(study: Study) -> DataFrame:
     """Reasons why checks are not proven, each once in a net row."""
     lines = [
-        (row.id, one.kind.value, render(one.text, "en"), one.needs_kN)
+        (row.id, point.kind.value, render(point.text, "en"), point.needs_kN)
         for row in study.rows
-        for one in row.open
+        for point in row.open
     ]
     return _build(_OPEN, lines)
 
@@ -50,12 +50,12 @@ def list_forces(study: Study) -> DataFrame:
     """Largest forces of each net row, characteristic, and the case of each."""
     lines = [
         (
-            *(row.id, one.quantity, one.low_kN, one.value_kN, one.high_kN),
-            *(one.bound_kN, one.case.density_kg_m3, one.case.friction_deg),
-            one.case.inclination_deg,
+            *(row.id, force.quantity, force.low_kN, force.value_kN, force.high_kN),
+            *(force.bound_kN, force.case.density_kg_m3, force.case.friction_deg),
+            force.case.inclination_deg,
         )
         for row in study.rows
-        for one in row.forces
+        for force in row.forces
     ]
     return _build(_FORCES, lines)
 
@@ -72,10 +72,10 @@ def _of_row(row: RowStudy) -> Iterator[tuple[object, ...]]:
     for check in list_of_scope(row.checks, Scope.ANCHORS):
         if check.is_of_force:
             groups.setdefault((check.member, check.position), []).append(check)
-    assumed = ", ".join(render(one.input, "en") for one in row.assumed)
+    assumed = ", ".join(render(assumed.input, "en") for assumed in row.assumed)
     for (member, position), checks in groups.items():
         check = min(checks, key=_rank)
-        missing = dict.fromkeys(str(x.message) for one in checks for x in one.open)
+        missing = dict.fromkeys(str(x.message) for check in checks for x in check.open)
         yield (
             *(row.id, member, position, check.read("E_k"), check.demand_kN),
             *(check.resistance_kN, check.used, check.verdict.value),
@@ -100,12 +100,12 @@ def write_repr(study: Study) -> str:
 
 def write_html(study: Study) -> str:
     """Verdict of each scope of each net row as a table; every text is escaped."""
-    heads = ("row", "verdict", *(str(one.value) for one in SCOPES))
+    heads = ("row", "verdict", *(str(scope.value) for scope in SCOPES))
     lines = [
         "".join(f"<td>{escape(text)}</td>" for text in _list_texts(row))
         for row in study.rows
     ]
-    head = "".join(f"<th>{escape(one)}</th>" for one in heads)
+    head = "".join(f"<th>{escape(title)}</th>" for title in heads)
     body = "".join(f"<tr>{line}</tr>" for line in lines)
     caption = escape(write_repr(study)[1:-1])
     return f"<table><caption>{caption}</caption><tr>{head}</tr>{body}</table>"
@@ -114,6 +114,6 @@ def write_html(study: Study) -> str:
 def _list_texts(row: RowStudy) -> Iterator[str]:
     yield row.id
     yield row.verdict.value
-    for one in row.scopes.values():
-        used = "" if one.utilisation is None else f" {one.utilisation:.2f}"
-        yield f"{one.verdict.value}{used}"
+    for scope in row.scopes.values():
+        used = "" if scope.utilisation is None else f" {scope.utilisation:.2f}"
+        yield f"{scope.verdict.value}{used}"

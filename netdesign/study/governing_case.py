@@ -197,8 +197,8 @@ def record_model_form(
     variants = [_place(law, placed) for law in others]
     results = _solve(solver, placed, case, variants)
     records = [
-        _record(one, found, member, own.value)
-        for one, found in zip(variants, results, strict=True)
+        _record(variant, result, member, own.value)
+        for variant, result in zip(variants, results, strict=True)
     ]
     return ModelFormRecord(
         case=record_point(result.case),
@@ -233,28 +233,32 @@ def _solve(
         solver.solve_all(
             [
                 # on another ground, whatever the row's glide factor says
-                (replace(row, ground=one.ground, glide_factor=None), case, one.law)
-                for one in variants
-                if one.reason is None
+                (
+                    replace(row, ground=variant.ground, glide_factor=None),
+                    case,
+                    variant.law,
+                )
+                for variant in variants
+                if variant.reason is None
             ]
         )
     )
-    return [next(solved) if one.reason is None else None for one in variants]
+    return [next(solved) if variant.reason is None else None for variant in variants]
 
 
 def _record(
-    one: _Variant,
-    found: CaseResult | None,
+    variant: _Variant,
+    result: CaseResult | None,
     member: str,
     own: float,
 ) -> VariantRecord:
-    forces = found.member_forces if found and found.is_converged else {}
+    forces = result.member_forces if result and result.is_converged else {}
     values = {name: band.value for name, band in forces.items()}
-    reason = one.reason
-    if found is not None and member not in values:
-        reason = found.reason
+    reason = variant.reason
+    if result is not None and member not in values:
+        reason = result.reason
     return VariantRecord(
-        creep_law=one.law.name,
+        creep_law=variant.law.name,
         ratio=values[member] / own if member in values else None,
         reason=reason,
     )

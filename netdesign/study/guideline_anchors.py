@@ -29,7 +29,7 @@ from netdesign.study.member_force import RowForces, find_guideline_force
 from netdesign.study.pulls import ANCHORS
 from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.study.sideways import (
-    find_lack,
+    find_splay,
     place_over,
     weigh_places,
 )
@@ -92,21 +92,21 @@ class RowAnchors:
 
     def find(self, anchor: str, *positions: str) -> AnchorForce | None:
         """Anchor with the largest forces at some positions; None without any."""
-        found = [
-            one
-            for one in self.anchors
-            if one.anchor == anchor and one.position in positions
+        matching = [
+            force
+            for force in self.anchors
+            if force.anchor == anchor and force.position in positions
         ]
-        if not found:
+        if not matching:
             return None
         guideline, coupled = (
             max((x for x in forces if x is not None), default=None)
             for forces in (
-                [one.guideline_kN for one in found],
-                [one.coupled_kN for one in found],
+                [force.guideline_kN for force in matching],
+                [force.coupled_kN for force in matching],
             )
         )
-        return replace(found[0], guideline_kN=guideline, coupled_kN=coupled)
+        return replace(matching[0], guideline_kN=guideline, coupled_kN=coupled)
 
 
 def list_guideline_forces(site: Site, standard: Standard) -> list[RowAnchors]:
@@ -138,21 +138,21 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
     loads = _find_loads(row, ranges, standard)
     variants = []
     if not isinstance(loads, Message):
-        for one in _list_statics(row):
-            load, span = loads[one.layout], ranges["inclination"]
+        for variant in _list_statics(row):
+            load, span = loads[variant.layout], ranges["inclination"]
             pull = kilonewton_from_newton(load[HEAD_PULL])
-            known = RowForces(
+            at_corner = RowForces(
                 site=site,
-                row=one,
+                row=variant,
                 standard=standard,
                 law=BOUTILLIER_2004,  # no force here depends on it
                 effects=effects,
                 largest={},
                 floor=None,
-                held=_hold_sideways(one, span, pull, effects.lateral_share),
+                held=_hold_sideways(variant, span, pull, effects.lateral_share),
                 tilt=0.0,
             )
-            variants.append((known, load))
+            variants.append((at_corner, load))
     forces = [
         AnchorForce(
             anchor=anchor,
@@ -162,7 +162,7 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
         for width in effects.supports
         for anchor in ANCHORS
     ]
-    has_end = any(one.position == "edge" for one in effects.supports)
+    has_end = any(support.position == "edge" for support in effects.supports)
     forces += [
         AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
         for anchor in (END_ANCHORS if has_end else ())
@@ -171,7 +171,7 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
         id=row.id,
         anchors=forces,
         reason=loads if isinstance(loads, Message) else None,
-        notes=_list_notes(row, [known for known, _ in variants]),
+        notes=_list_notes(row, [at_corner for at_corner, _ in variants]),
     )
 
 
@@ -183,14 +183,14 @@ def _find_loads(row: NetRow, ranges: Ranges, standard: Standard) -> Loads | Mess
     floor = find_row_floor(row, ranges, standard)
     if floor is None or floor.head is None:
         return (floor.reason if floor else None) or say("check.no_case_solved")
-    forces = {one.member: one.force for one in floor.forces}
+    forces = {force.member: force.force for force in floor.forces}
     return {row.layout: {**forces, HEAD_PULL: floor.head.pull}}
 
 
 def _list_statics(row: NetRow) -> list[NetRow]:
     """The row at each corner of its statics; the end guy has no part in them."""
-    found = {(one.layout, one.guys): one for one in list_variants(row)}
-    return list(found.values())
+    apart = {(variant.layout, variant.guys): variant for variant in list_variants(row)}
+    return list(apart.values())
 
 
 def _find_largest(
@@ -200,14 +200,14 @@ def _find_largest(
 ) -> float | None:
     """Largest force on an anchor of a support at any corner of the statics [kN]."""
     if anchor == Member.FOOT_ANCHOR:  # no statics change it, unless a guy ends there
-        shared = [one for one in variants if one[0].row.layout.is_foot_shared]
+        shared = [each for each in variants if each[0].row.layout.is_foot_shared]
         variants = shared or variants[:1]
     return max(
         (
             find_guideline_force(
-                known, anchor, width, kilonewton_from_newton(load[anchor])
+                forces, anchor, width, kilonewton_from_newton(load[anchor])
             )
-            for known, load in variants
+            for forces, load in variants
         ),
         default=None,
     )
@@ -218,10 +218,17 @@ def _list_notes(row: NetRow, variants: Sequence[RowForces]) -> list[Message]:
 
     A single guy on each side holds none; of guys that nobody gives, two do.
     """
-    lacks = [one.held for one in variants if isinstance(one.held, Message)]
+    lacks = [forces.held for forces in variants if isinstance(forces.held, Message)]
     held = lacks[:1] if len(lacks) == len(variants) else []
-    ranged = [one for one in row.assumed if one.is_range and one.key in _IN_LOADS]
-    shown = [say("table.assumed_one", name=one.name, text=one.text) for one in ranged]
+    ranged = [
+        assumed
+        for assumed in row.assumed
+        if assumed.is_range and assumed.key in _IN_LOADS
+    ]
+    shown = [
+        say("table.assumed_one", name=assumed.name, text=assumed.text)
+        for assumed in ranged
+    ]
     assumed = [say("table.assumed", ranges=tuple(shown))] if shown else []
     return [*list_assumed(row), *assumed, *held]
 
@@ -237,13 +244,11 @@ def _hold_sideways(
     row: NetRow, span: Interval, pull: float, share: float
 ) -> HeldSidewaysRecord | Message:
     """Load along the row under the guideline's load, or why nothing holds it."""
-    lack, splay = find_lack(row), row.guys.splay
-    if lack is not None or splay is None:
-        return lack or say("sideways.no_splay")
-    places = place_over(row, span)
+    splay, places = find_splay(row), place_over(row, span)
+    if isinstance(splay, Message):
+        return splay
     if not all(map(weigh_splay, places)):
         return say("support.not_held_sideways")
-    uphill, downhill, post = weigh_places(places)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -251,10 +256,8 @@ def _hold_sideways(
         pull_kN=pull,
         pull_high_kN=pull,
         least_tension_kN=0.0,  # no anchor follows it
-        uphill_part=uphill,
-        downhill_part=downhill,
-        post_part=post,
         floor_pull_kN=pull,
+        **weigh_places(places),
     )
 
 
@@ -275,17 +278,21 @@ def add_coupled(
 
 def _add_of_row(row: RowAnchors, checks: Sequence[Check]) -> RowAnchors:
     forces = [
-        replace(one, coupled_kN=find_coupled(checks, one.anchor, one.position))
-        for one in row.anchors
+        replace(anchor, coupled_kN=find_coupled(checks, anchor.anchor, anchor.position))
+        for anchor in row.anchors
     ]
     return replace(row, anchors=forces)
 
 
 def find_coupled(checks: Sequence[Check], anchor: str, position: str) -> float | None:
     """Largest solved force on an anchor, by the checks of its row [kN]."""
-    own = (one for one in checks if (one.member, one.position) == (anchor, position))
-    found = next((one for one in own if one.mode in _OF_FORCE), None)
-    return max(_list_solved(found), default=None) if found else None
+    own = (
+        check
+        for check in checks
+        if (check.member, check.position) == (anchor, position)
+    )
+    whole = next((check for check in own if check.mode in _OF_FORCE), None)
+    return max(_list_solved(whole), default=None) if whole else None
 
 
 def _list_solved(check: Check) -> Iterator[float]:

@@ -82,7 +82,7 @@ def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
     usual = {name: ranges[name].low for name in USUAL}
     ends = product(*({ranges[name].low, ranges[name].high} for name in names))
     return [
-        row.at(Case.of({**usual, **dict(zip(names, one, strict=True))})) for one in ends
+        row.at(Case.of({**usual, **dict(zip(names, end, strict=True))})) for end in ends
     ]
 
 
@@ -110,8 +110,8 @@ class RowEffects:
 
     def find_support(self, position: str) -> LoadedWidth:
         """Support at a position; the one inside the row where it has no other."""
-        found = [one for one in self.supports if one.position == position]
-        return (found or self.supports)[0]
+        there = [support for support in self.supports if support.position == position]
+        return (there or self.supports)[0]
 
 
 def find_row_glide_factor(row: NetRow) -> float:
@@ -151,25 +151,25 @@ def find_altitude_factor(row: NetRow) -> float:
 
 def list_assumed(row: NetRow) -> list[Message]:
     """What the guideline's load takes for granted about a row."""
-    found = []
+    messages = []
     if row.altitude is None:
-        found.append(say("row.altitude_assumed", factor=find_altitude_factor(row)))
+        messages.append(say("row.altitude_assumed", factor=find_altitude_factor(row)))
     glide = row.glide_factor
     if glide is None:
         anything = (1.0, LARGEST_GLIDE_FACTOR)
         glide = find_glide_factor(row.ground, row.snow_thickness, anything)
     least = load_glide_limits()[0]
     if glide < least:
-        found.append(say("row.glide_assumed", glide=glide, least=least))
-    return found
+        messages.append(say("row.glide_assumed", glide=glide, least=least))
+    return messages
 
 
 @lru_cache(maxsize=1)
 def load_glide_limits() -> tuple[float, float]:
     """Least and largest glide factor of the guideline's tables [-]."""
-    tables = [one for one in load_guideline().tables if one.id in GLIDE_FACTORS]
-    found = [value for table in tables for _, _, value in table.rows]
-    return min(found), max(found)
+    tables = [table for table in load_guideline().tables if table.id in GLIDE_FACTORS]
+    factors = [value for table in tables for _, _, value in table.rows]
+    return min(factors), max(factors)
 
 
 def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
@@ -226,10 +226,10 @@ def find_row_anchor_forces(
     """Forces of the guideline's load on a row's anchors, on each of some layouts."""
     model = read_floor_model(standard)
     nets = _list_nets(row, ranges)
-    found = find_anchor_forces(model, nets, row.altitude, layouts)
-    if isinstance(found, Message):
-        return found
-    return dict(zip(layouts, found, strict=True))
+    forces = find_anchor_forces(model, nets, row.altitude, layouts)
+    if isinstance(forces, Message):
+        return forces
+    return dict(zip(layouts, forces, strict=True))
 
 
 def read_floor_model(standard: Standard) -> LoadModel:
@@ -284,7 +284,7 @@ def record_floor(
         return None
     return FloorRecord(
         profile=load_guideline().id,
-        forces=[_record_force(one) for one in floor.forces],
+        forces=[_record_force(force) for force in floor.forces],
         altitude_factor=find_altitude_factor(row),
         assumed=list_assumed(row),
         reason=floor.reason,
@@ -293,29 +293,31 @@ def record_floor(
     )
 
 
-def _record_force(one: FloorForce) -> FloorForceRecord:
+def _record_force(force: FloorForce) -> FloorForceRecord:
     return FloorForceRecord(
-        member=one.member, force_kN=kilonewton_from_newton(one.force), **list_load(one)
+        member=force.member,
+        force_kN=kilonewton_from_newton(force.force),
+        **list_load(force),
     )
 
 
-def list_load(one: FloorForce) -> dict[str, Any]:
+def list_load(force: FloorForce) -> dict[str, Any]:
     """Load that brings a force, by the keys of a ``LoadOnNet``."""
-    net, (along, across) = one.at.net, one.load.resultant
+    net, (along, across) = force.at.net, force.load.resultant
     return {
-        "load_case": one.case.name,
-        "normal_share": one.case.normal_share,
+        "load_case": force.case.name,
+        "normal_share": force.case.normal_share,
         "inclination_deg": given_degree_from_radian(net.inclination),
         "snow_thickness_m": net.snow_thickness,
-        "density_kg_m3": one.case.density,
-        "height_vertical_m": one.case.height_vertical,
-        "creep_factor": one.load.creep_factor,
-        "glide_factor": one.load.glide_factor,
+        "density_kg_m3": force.case.density,
+        "height_vertical_m": force.case.height_vertical,
+        "creep_factor": force.load.creep_factor,
+        "glide_factor": force.load.glide_factor,
         "load_along_kN_per_m": kilonewton_from_newton(along),
         "load_across_kN_per_m": kilonewton_from_newton(across),
         "stiffness_kN_per_m": kilonewton_from_newton(net.stiffness),
         "slack": net.slack,
-        "chord_tension_kN_per_m": kilonewton_from_newton(one.pull.chord_tension),
+        "chord_tension_kN_per_m": kilonewton_from_newton(force.pull.chord_tension),
     }
 
 
@@ -387,7 +389,7 @@ def compare_case(
         case=record_point(case),
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
-        cases=[_record_case(one, net) for one in cases],
+        cases=[_record_case(case, net) for case in cases],
         sentence=_explain_difference(row, case, foot, cases),
     )
 
@@ -397,7 +399,7 @@ def _explain_difference(
 ) -> Message:
     """Sentence on the larger of the two at the foot, its excess and known cause."""
     same, *governing = cases
-    largest = max(governing, key=lambda one: one.foot or 0.0)
+    largest = max(governing, key=lambda each: each.foot or 0.0)
     other = largest.foot
     if not other or foot <= 0.0 or same.load is None:
         return _name_cause(row)
@@ -442,19 +444,19 @@ def _name_cause(row: NetRow) -> Message:
     return say("guideline.on_free_ground" if is_free else "guideline.on_sliding_ground")
 
 
-def _record_case(one: GuidelineResult, net: NetGeometry[float]) -> GuidelineCase:
-    snow, forces = one.load, one.anchors.member_forces if one.anchors else {}
+def _record_case(result: GuidelineResult, net: NetGeometry[float]) -> GuidelineCase:
+    snow, forces = result.load, result.anchors.member_forces if result.anchors else {}
     along = snow.resultant[0] if snow else None
-    filled = one.case.height_vertical * math.cos(net.slope_angle) / net.net_height
+    filled = result.case.height_vertical * math.cos(net.slope_angle) / net.net_height
     return GuidelineCase(
-        name=one.case.name,
-        density_kg_m3=one.case.density,
-        height_vertical_m=one.case.height_vertical,
-        loaded_share=one.case.settled * min(filled, 1.0),
+        name=result.case.name,
+        density_kg_m3=result.case.density,
+        height_vertical_m=result.case.height_vertical,
+        loaded_share=result.case.settled * min(filled, 1.0),
         creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
         rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
-        reason=one.reason,
+        reason=result.reason,
         load_kN_per_m=kilonewton_if_known(along),
         foot_anchor_kN=kilonewton_if_known(forces.get(Member.FOOT_ANCHOR)),
         uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),

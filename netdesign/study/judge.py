@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign import addon_table
@@ -105,7 +105,6 @@ def judge_row(
     standard: Standard,
     run: CheckRun,
     solver: CaseSolver | None = None,
-    on_check: Callable[[], None] = lambda: None,
 ) -> RowStudy:
     """Study of one row of a site, as ``judge_site`` makes it."""
     task = RowToCheck(
@@ -116,18 +115,17 @@ def judge_row(
         solved=solved,
         extremes=solved.extremes,
         solver=solver,
-        on_check=on_check,
     )
     return _record_row(task, run)
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     row, variants = task.row, know_variants(task)
-    found = check_row(task, [one.known for one in variants])
-    worst = _find_worst_variant(found, variants)
-    found, model_form = _ask_other_models(worst.task, found)
-    checks, known, extremes = found.checks, worst.known, worst.task.extremes
-    cases = [record_case(one) for one in task.solved.results]
+    row_checks = check_row(task, [variant.forces for variant in variants])
+    worst = _find_worst_variant(row_checks, variants)
+    row_checks, model_form = _ask_other_models(worst.task, row_checks)
+    checks, forces, extremes = row_checks.checks, worst.forces, worst.task.extremes
+    cases = [record_case(result) for result in task.solved.results]
     governing = _governing_result(find_worst(checks), worst.task)
     foot = extremes.get(Member.FOOT_ANCHOR)
     return RowStudy(
@@ -135,24 +133,26 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         checks=checks,
         cases=cases,
         inputs=list(row.inputs),
-        parts=list_parts(known.row, task.site.ranges["inclination"]),
-        drawing=record_drawing(known.row, governing),
+        parts=list_parts(forces.row, task.site.ranges["inclination"]),
+        drawing=record_drawing(forces.row, governing),
         questions=list(row.questions),
-        assumed=[record_assumed(one) for one in row.assumed if not one.is_typed],
-        pulls=list(known.pulls),
-        independent=record_independent(known.row, governing),
-        forces=list(known.largest.values()),
-        guideline=record_guideline(known.row, foot, task.standard),
-        floor=known.floor,
+        assumed=[
+            record_assumed(assumed) for assumed in row.assumed if not assumed.is_typed
+        ],
+        pulls=list(forces.pulls),
+        independent=record_independent(forces.row, governing),
+        forces=list(forces.largest.values()),
+        guideline=record_guideline(forces.row, foot, task.standard),
+        floor=forces.floor,
         model_form=model_form,
         panel=_record_panel(row),
-        notes=list_judged_notes(known, checks, cases, governing),
-        held_sideways=known.along_row,
-        tilt=known.tilt,
-        end_guy=known.at_end,
-        reliability=_find_reliability(worst, found, run),
+        notes=list_judged_notes(forces, checks, cases, governing),
+        held_sideways=forces.along_row,
+        tilt=forces.tilt,
+        end_guy=forces.at_end,
+        reliability=_find_reliability(worst, row_checks, run),
         conditions=merge_conditions(
-            one for each in variants for one in list_conditions(each.known)
+            condition for each in variants for condition in list_conditions(each.forces)
         ),
     )
 
@@ -165,39 +165,41 @@ def _record_panel(row: NetRow) -> PanelRecord | None:
     return PanelRecord(has_mid_anchors=has_mid_anchors, assumed=list(row.panel_assumed))
 
 
-def _find_worst_variant(found: RowChecks, variants: Sequence[Variant]) -> Variant:
+def _find_worst_variant(row_checks: RowChecks, variants: Sequence[Variant]) -> Variant:
     """Variant of the most used check: its forces and its drawing are those shown."""
-    worst = find_worst(found.checks)
+    worst = find_worst(row_checks.checks)
     if worst is None:
         return variants[0]
-    known = found.judged[worst.id].known
-    return next(one for one in variants if one.known is known)
+    forces = row_checks.judged[worst.id].forces
+    return next(variant for variant in variants if variant.forces is forces)
 
 
 def _find_reliability(
-    at: Variant, found: RowChecks, run: CheckRun
+    at: Variant, row_checks: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
     """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
     solver = CaseSolver(run.settings, run.creep_law)
     record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
-    made: ReliabilityRecord = record(at.task, at.known, found, solver)
+    made: ReliabilityRecord = record(at.task, at.forces, row_checks, solver)
     return made
 
 
 def _ask_other_models(
-    task: RowToCheck, found: RowChecks
+    task: RowToCheck, row_checks: RowChecks
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of those, it is not trusted in the checks either.
     """
     before = task.count_faults()
-    form = _find_model_form(task, find_worst(found.checks))
+    form = _find_model_form(task, find_worst(row_checks.checks))
     if task.count_faults() > before:
-        found = replace(found, checks=[distrust(one) for one in found.checks])
-    return found, form
+        row_checks = replace(
+            row_checks, checks=[distrust(check) for check in row_checks.checks]
+        )
+    return row_checks, form
 
 
 def _name_largest(check: Check) -> str:
@@ -210,8 +212,8 @@ def _name_largest(check: Check) -> str:
 def _governing_result(worst: Check | None, task: RowToCheck) -> CaseResult | None:
     """Case of the worst check on its layout; without any, of the largest foot force."""
     largest = _name_largest(worst) if worst else Member.FOOT_ANCHOR
-    found = task.extremes.get(largest)
-    return found.governing.stand(task.row.layout) if found else None
+    extreme = task.extremes.get(largest)
+    return extreme.governing.stand(task.row.layout) if extreme else None
 
 
 def _find_model_form(task: RowToCheck, worst: Check | None) -> ModelFormRecord | None:

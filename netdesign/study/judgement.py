@@ -67,13 +67,13 @@ AT_SUPPORT: Mapping[Position, str] = {
 class MemberCheck:
     """Check of one member of one support in one mode, with what it was judged from.
 
-    ``force`` is None where it is not known at all; ``known`` is the variant of the row
-    on which the check is worst, ``best`` that on which it is least used, ``again``
-    judges the same on another one.
+    ``force`` is None where no case gives it. ``forces`` are those of the variant on
+    which the check is worst, ``best`` those of the variant on which it is least used.
+    ``again`` judges the same member on another variant.
     """
 
-    known: RowForces
-    given: Resistance
+    forces: RowForces
+    resistance: Resistance
     width: LoadedWidth
     check: Check
     force: MemberForce | None = None
@@ -84,12 +84,12 @@ class MemberCheck:
     @property
     def name(self) -> tuple[str, str]:
         """Member and mode."""
-        return self.given.member, self.given.mode
+        return self.resistance.member, self.resistance.mode
 
     @property
     def is_of_end(self) -> bool:
         """A border rope, or what holds its pull along the row."""
-        return self.given.member in ROPE_OF
+        return self.resistance.member in ROPE_OF
 
     @property
     def use(self) -> float | None:
@@ -110,44 +110,58 @@ class MemberCheck:
 
 
 def judge_member(
-    known: RowForces, given: Resistance, width: LoadedWidth
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberCheck:
     """Check of a member of one support, on one variant of the row."""
-    unsaid = _find_unsaid(known, given, width)
+    unsaid = _find_unsaid(forces, resistance, width)
     if unsaid:  # whatever else is missing
         points = [Open(kind=OpenKind.UNSOLVED, message=unsaid)]
-        check = replace(judge_force(known, given, None, width, points), open=points)
-        return MemberCheck(known=known, given=given, width=width, check=check)
-    force = find_force(known, given, width)
-    pull = find_pull(known.pulls, given.member, width.position)
-    given, points = _resist_and_ask(known, given, width, force)
-    check = judge_force(known, given, force, width, points)
-    short = find_short_post(given, known)
+        check = replace(
+            judge_force(forces, resistance, None, width, points), open=points
+        )
+        return MemberCheck(
+            forces=forces, resistance=resistance, width=width, check=check
+        )
+    force = find_force(forces, resistance, width)
+    pull = find_pull(forces.pulls, resistance.member, width.position)
+    resistance, points = _resist_and_ask(forces, resistance, width, force)
+    check = judge_force(forces, resistance, force, width, points)
+    short = find_short_post(resistance, forces)
     if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
-        given = replace(given, value=None, lack=short)
-        check = judge_force(known, given, force, width, points)
+        resistance = replace(resistance, value=None, lack=short)
+        check = judge_force(forces, resistance, force, width, points)
     met = rate_utilisation(*check.utilisation_band)
-    if given.doubt and (given.best is None or met is Verdict.NOT_PROVEN):
-        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, given.doubt)
+    if resistance.doubt and (resistance.best is None or met is Verdict.NOT_PROVEN):
+        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, resistance.doubt)
     return MemberCheck(
-        known=known, given=given, width=width, force=force, check=check, pull=pull
+        forces=forces,
+        resistance=resistance,
+        width=width,
+        force=force,
+        check=check,
+        pull=pull,
     )
 
 
 def _resist_and_ask(
-    known: RowForces, given: Resistance, width: LoadedWidth, force: MemberForce | None
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    force: MemberForce | None,
 ) -> tuple[Resistance, list[Open]]:
     """Resistance of a member to a force, and all that is open of both."""
-    pull = find_pull(known.pulls, given.member, width.position)
-    given, unsure = find_lasting(known, given, pull)
+    pull = find_pull(forces.pulls, resistance.member, width.position)
+    resistance, unsure = find_lasting(forces, resistance, pull)
     if force is not None:
-        given = find_resistance_for_force(given, known, pull, width, force.action)
-    points = list(_list_open(known, given, width))
-    if asked := ask_efficiency(given, known, width):
+        resistance = find_resistance_for_force(
+            resistance, forces, pull, width, force.action
+        )
+    points = list(_list_open(forces, resistance, width))
+    if asked := ask_efficiency(resistance, forces, width):
         points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
     if unsure:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
-    return given, points
+    return resistance, points
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,59 +183,61 @@ class Rating:
 
 
 def rate_member(
-    known: RowForces, given: Resistance, width: LoadedWidth
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Rating | None:
     """Rating of a member's check; None where only the check itself tells it."""
-    if _find_unsaid(known, given, width):
+    if _find_unsaid(forces, resistance, width):
         return Rating(group=(), low=0.0, high=0.0)
     try:
-        force = size_force(known, given, width)
+        force = size_force(forces, resistance, width)
     except ModelError:  # outside the range of an operation
         return None
     if force is None:
         return None
-    lasting, points = _resist_and_ask(known, given, width, force)
+    lasting, points = _resist_and_ask(forces, resistance, width, force)
     least, most = _find_resistance_ends(lasting, force)
-    action, short = force.action, find_short_post(lasting, known)
+    action, short = force.action, find_short_post(lasting, forces)
     if action.low is None or action.high is None:
         return None
     lack = lasting.lack.key if lasting.lack else ""
-    kinds = [(one.kind, one.message.key) for one in points]
+    kinds = [(point.kind, point.message.key) for point in points]
     is_known = (lasting.value is None, lasting.doubt is None, lasting.best is None)
     group = (*kinds, lack, short is None, *is_known, action.low > 0.0)
     return Rating(group=group, low=action.low / most, high=action.high / least)
 
 
-def _find_resistance_ends(given: Resistance, force: MemberForce) -> tuple[float, float]:
+def _find_resistance_ends(
+    resistance: Resistance, force: MemberForce
+) -> tuple[float, float]:
     """Least and largest resistance to a force, [N] or of any unit; 1 where unknown."""
     pressing = force.on.pressing
-    if isinstance(given.dimensions, float) and pressing is not None:
-        found = given.dimensions * (pressing.value or 0.0)
-        return found or 1.0, found or 1.0
-    least = given.value or 1.0
-    return least, max(least, given.best or 0.0)
+    if isinstance(resistance.dimensions, float) and pressing is not None:
+        friction = resistance.dimensions * (pressing.value or 0.0)
+        return friction or 1.0, friction or 1.0
+    least = resistance.value or 1.0
+    return least, max(least, resistance.best or 0.0)
 
 
 def _list_open(
-    known: RowForces, given: Resistance, width: LoadedWidth
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Iterator[Open]:
     """What is open of a member's force: of its cases, of what pulls it."""
     gaps = (
-        known.gap,
-        known.panel_gap,
-        None if given.member in ROPE_OF else known.floor_gap,
-        _find_other_panel(known.row, given, width.position),
-        _find_loose_end(known, given.member, width.position),
+        forces.gap,
+        forces.panel_gap,
+        None if resistance.member in ROPE_OF else forces.floor_gap,
+        _find_other_panel(forces.row, resistance, width.position),
+        _find_loose_end(forces, resistance.member, width.position),
     )
     for gap in filter(None, gaps):
         yield Open(kind=OpenKind.UNSOLVED, message=gap)
-    if width.position == "edge" and (asked := ask_end_guy(known)):
+    if width.position == "edge" and (asked := ask_end_guy(forces)):
         yield Open(kind=OpenKind.VALUE_ASKED, message=asked)
 
 
 def judge_force(
-    known: RowForces,
-    given: Resistance,
+    forces: RowForces,
+    resistance: Resistance,
     force: MemberForce | None,
     width: LoadedWidth,
     points: Sequence[Open] = (),
@@ -231,17 +247,17 @@ def judge_force(
     Nothing of the post is left for its force then: the utilisation has no bound. So it
     is with a loose foot that its post surely lifts.
     """
-    standard = known.standard
+    standard = forces.standard
     gap = points[0].message if points else say("check.no_case_solved")
     check = check_member(
         force.action if force else find_missing_force(gap),
-        given,
+        resistance,
         standard,
         points,
-        strength=resist(given, standard, force) if force else None,
+        strength=resist(resistance, standard, force) if force else None,
         beside=force.on.by_model if force and standard.is_by_guideline else (),
     )
-    least = known.find_least(given.member) if force else None
+    least = forces.find_least(resistance.member) if force else None
     doubted = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
     check = replace(
         check,
@@ -250,27 +266,29 @@ def judge_force(
         case=force.largest.case if force else None,
         load_case=least.load_case if least else "",
         load_inclination_deg=least.inclination_deg if least else None,
-        resistance_derivation=given.derivation,
-        resistance_years=known.row.design_life if given.wear and not doubted else None,
-        tests=_record_tests(given, standard),
-        proof_limit_kN=kilonewton_if_known(given.proof_limit),
+        resistance_derivation=resistance.derivation,
+        resistance_years=forces.row.design_life
+        if resistance.wear and not doubted
+        else None,
+        tests=_record_tests(resistance, standard),
+        proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
     )
-    lack = given.lack
+    lack = resistance.lack
     if lack == FOOT_LOOSE and force and force.action.low:
         lack = LOOSE_LIFTS
     is_unbounded = lack is not None and lack.key in UNBOUNDED
     return check.with_open(OpenKind.FAILS, lack) if lack and is_unbounded else check
 
 
-def _record_tests(given: Resistance, standard: Standard) -> TestSeries | None:
-    tests = given.tests
-    if tests is None or given.value is not None:
+def _record_tests(resistance: Resistance, standard: Standard) -> TestSeries | None:
+    tests = resistance.tests
+    if tests is None or resistance.value is not None:
         return None
     return TestSeries(
         count=tests.count,
         least_kN=kilonewton_from_newton(tests.least),
         mean_kN=kilonewton_from_newton(tests.mean),
-        singles=[_record_single(one) for one in tests.singles],
+        singles=[_record_single(test) for test in tests.singles],
         proof_factor=find_proof_factor(standard),
     )
 
@@ -287,33 +305,33 @@ def _record_single(test: PullOutTest) -> SingleTest:
 
 
 def find_lasting(
-    basis: Basis, given: Resistance, pull: PullRecord | None
+    basis: Basis, resistance: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
-    given, unsaid = settle_basis(given, basis.standard)
-    lasting, worn = corrode(shorten_bond(given, basis.standard), basis)
+    resistance, unsaid = settle_basis(resistance, basis.standard)
+    lasting, worn = corrode(shorten_bond(resistance, basis.standard), basis)
     doubt = unsaid or worn
-    if given.basis == BY_REPORT:
+    if resistance.basis == BY_REPORT:
         doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))
-    return lasting, doubt or doubt_mortar(given, pull, basis.standard)
+    return lasting, doubt or doubt_mortar(resistance, pull, basis.standard)
 
 
 def _find_unsaid(
-    known: RowForces, given: Resistance, width: LoadedWidth
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
-    row = known.row
-    if given.member in ROPE_OF and known.effects.end_lack is not None:
-        return known.effects.end_lack
-    is_inside = width.position != "edge" and given.member in tuple(Member)
-    return None if is_inside else _find_lack(row, given)
+    row = forces.row
+    if resistance.member in ROPE_OF and forces.effects.end_lack is not None:
+        return forces.effects.end_lack
+    is_inside = width.position != "edge" and resistance.member in tuple(Member)
+    return None if is_inside else _find_lack(row, resistance)
 
 
-def _find_lack(row: NetRow, given: Resistance) -> Message | None:
+def _find_lack(row: NetRow, resistance: Resistance) -> Message | None:
     """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
-    if given.member in _ROPES:
+    if resistance.member in _ROPES:
         return None if row.panels else row.panel_lack
-    if row.row_end is None or given.member not in (*EndMember, *PUSHED):
+    if row.row_end is None or resistance.member not in (*EndMember, *PUSHED):
         return None
     return None if row.panels else row.panel_lack
 
@@ -327,7 +345,7 @@ def _find_loose_end(
 
 
 def _find_other_panel(
-    row: NetRow, given: Resistance, position: Position
+    row: NetRow, resistance: Resistance, position: Position
 ) -> Message | None:
     """Doubt that the ropes between the posts are those that were computed.
 
@@ -337,7 +355,7 @@ def _find_other_panel(
     if row.layout.is_foot_shared or (position == "second" and row.row_end):
         pulled.append(Member.FOOT_ANCHOR)
     at_end = (*EndMember, *PUSHED) if position != "intermediate" and row.row_end else ()
-    return row.panel_lack if given.member in (*pulled, *at_end) else None
+    return row.panel_lack if resistance.member in (*pulled, *at_end) else None
 
 
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
@@ -345,12 +363,14 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
 
     What is not known of the row's end alone leaves no other check open.
     """
-    members = [one for one in judged if not one.is_of_end]
-    of_end = [_find_lack(row, one.given) or row.panel_lack for one in members]
+    members = [member_check for member_check in judged if not member_check.is_of_end]
+    of_end = [
+        _find_lack(row, member.resistance) or row.panel_lack for member in members
+    ]
     points = (
         point.message
-        for one in members
-        for point in one.check.open
+        for member in members
+        for point in member.check.open
         if point.kind is OpenKind.UNSOLVED and point.message not in of_end
     )
     return next(points, None)

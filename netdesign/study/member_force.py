@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from netdesign.calculation.quantity import Kind, Quantity, given, strip
+from netdesign.calculation.quantity import Kind, Quantity, leaf, strip
 from netdesign.checks import Standard
 from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
@@ -62,6 +62,8 @@ _BY_TRUSS: Mapping[str, str] = {
     Member.DOWNHILL_GUY: "downhill_guy_kN",
     Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
 }
+# Modes with a force of their own; in all others that of the member counts.
+OWN_FORCES = ("sliding",)
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
@@ -75,12 +77,12 @@ PARTS: Mapping[str, str] = {
 def find_cell(row: NetRow, column: str, sheet: str = "Nets") -> str:
     """Cell of a row's input; "" where it has none."""
     label = say(f"column.{sheet}.{column}")
-    return next((one.cell for one in row.inputs if one.label == label), "")
+    return next((echo.cell for echo in row.inputs if echo.label == label), "")
 
 
 def solve_for(record: LargestForce, symbol: str) -> Quantity:
     """Largest solved force as a quantity [kN]."""
-    return given(
+    return leaf(
         *(symbol, record.value_kN, "kN", record.quantity),
         kind=Kind.SOLVED,
         band=(record.low_kN, record.high_kN),
@@ -97,7 +99,8 @@ def size_force(
     ModelError
         Where an operation of its formula lies outside its range.
     """
-    key = (resistance.member, resistance.mode == "sliding", width.position)
+    mode = resistance.mode if resistance.mode in OWN_FORCES else ""
+    key = (resistance.member, mode, width.position)
     if key not in forces.sizes:
         forces.sizes[key] = find_force(forces, resistance, width, is_size=True)
     return forces.sizes[key]
@@ -108,7 +111,7 @@ def _calculate(
 ) -> SupportForce:
     """Force from its leaves, with its way unless its size alone is asked for."""
     kept = map(strip, leaves) if is_size else leaves
-    symbols = (one.symbol for one in leaves)
+    symbols = (quantity.symbol for quantity in leaves)
     return calculate_force(
         dict(zip(symbols, kept, strict=True)),
         by_guideline=forces.standard.is_by_guideline,
@@ -210,7 +213,7 @@ def find_end_pull(forces: RowForces) -> float | None:
         return None
     leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
     leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
-    pull = calculate_force({one.symbol: one for one in leaves}).action
+    pull = calculate_force({quantity.symbol: quantity for quantity in leaves}).action
     return newton_from_kilonewton(high_of(pull))
 
 
@@ -221,12 +224,12 @@ def find_one_way_pull(forces: RowForces) -> float:
         return 0.0
     leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
     leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
-    found = calculate_force({one.symbol: one for one in leaves})
-    return high_of(found.push)
+    force = calculate_force({quantity.symbol: quantity for quantity in leaves})
+    return high_of(force.push)
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
-    return given(symbol, value, unit, source, kind=Kind.SOLVED)
+    return leaf(symbol, value, unit, source, kind=Kind.SOLVED)
 
 
 def _list_support_leaves(
@@ -239,17 +242,17 @@ def _list_support_leaves(
     if width.position == "intermediate":
         return []
     rule, count = "end.constant", find_cell(row, "post_count")
-    factor = given("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
+    factor = leaf("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
     if member == NetPart.MESH:
         return [factor]
     parts = {"s_2" if width.position == "second" else "s_e": width.share}
     if is_shared(row, member):
         parts["s_n"] = width.beside
     return [
-        given("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
+        leaf("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
         factor,
-        given("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
-        *(given(symbol, part, "-", count) for symbol, part in parts.items() if part),
+        leaf("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
+        *(leaf(symbol, part, "-", count) for symbol, part in parts.items() if part),
     ]
 
 
@@ -263,9 +266,9 @@ def _list_load_leaves(
         return ([share] if share.is_known else []), 0.0
     if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
         return [], 0.0  # it presses a post, (S18)
-    splay = given("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
+    splay = leaf("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
     by_floor = _list_floor_leaves(forces, member, held)
-    pull = given(
+    pull = leaf(
         *("P", held.pull_kN, "kN", "head_pull"),
         kind=Kind.SOLVED,
         band=(held.pull_low_kN, held.pull_high_kN),
@@ -279,7 +282,7 @@ def _list_load_leaves(
             return leaves, rise
         cell = find_cell(forces.row, "guy_anchors")
         symbol = GUYS_ON_ANCHOR[forces.standard.shared_sum]
-        return [given(symbol, 2.0, "-", cell), *leaves], 2.0 * rise
+        return [leaf(symbol, 2.0, "-", cell), *leaves], 2.0 * rise
     weight = _solved("w", held.post_part, "-", "post_part")
     nothing, least = (
         _solved("T_min", force, "kN", "least_tension")
@@ -314,8 +317,8 @@ def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
     """Some case, or the guideline's load, may pull a post off its base."""
     least = floor.forces if floor else ()
     pulls = [
-        *(one.high_kN for one in forces if one.quantity in POST_PULLS),
-        *(one.force_kN for one in least if one.member == Member.POST_FOOT),
+        *(force.high_kN for force in forces if force.quantity in POST_PULLS),
+        *(force.force_kN for force in least if force.member == Member.POST_FOOT),
     ]
     return any(force > 0.0 for force in pulls)
 
@@ -372,7 +375,7 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
     if angle is None:
         return []
     cell = find_cell(row, "end_guy_angle", "Ends")
-    return [given("γ", degree_from_radian(angle), "deg", cell)]
+    return [leaf("γ", degree_from_radian(angle), "deg", cell)]
 
 
 def is_shared(row: NetRow, member: str) -> bool:
@@ -393,4 +396,4 @@ def list_maker_leaves(row: NetRow, standard: Standard, member: str) -> list[Quan
     stated = getattr(row.approval, name) if row.approval and name else None
     if stated is None or not standard.has_maker_floor:
         return []
-    return [given("E_m0", kilonewton_from_newton(stated.value), "kN", stated.cell)]
+    return [leaf("E_m0", kilonewton_from_newton(stated.value), "kN", stated.cell)]

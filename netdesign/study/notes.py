@@ -55,7 +55,7 @@ def list_site_notes(
 
 def _search_notes(site: Site, accuracy: float) -> list[Message]:
     """Say where a search ends before the accuracy that its cases have."""
-    axes = [one for row in site.rows for one in site.at_row(row).ranges.axes]
+    axes = [axis for row in site.rows for axis in site.at_row(row).ranges.axes]
     if not axes or accuracy >= CLOSEST_GAP:
         return []
     asked, closest = 100.0 * accuracy, 100.0 * CLOSEST_GAP
@@ -91,17 +91,17 @@ def _list_law_notes(
 
 def _describe_other_laws(rows: Sequence[RowStudy]) -> Iterator[Message]:
     """What the other creep laws change in the governing forces, and which they turn."""
-    found = {row.id: row.model_form for row in rows if row.model_form}
-    if not found:
+    spreads = {row.id: row.model_form for row in rows if row.model_form}
+    if not spreads:
         return
-    low = min(one.ratios[0] for one in found.values())
-    high = max(one.ratios[1] for one in found.values())
+    low = min(spread.ratios[0] for spread in spreads.values())
+    high = max(spread.ratios[1] for spread in spreads.values())
     yield say("note.other_laws", low=100.0 * (low - 1.0), high=100.0 * (high - 1.0))
     turned = [
         row
-        for row, one in found.items()
-        if one.utilisation is not None
-        and one.utilisation <= 1.0 < one.utilisation * one.ratios[1]
+        for row, spread in spreads.items()
+        if spread.utilisation is not None
+        and spread.utilisation <= 1.0 < spread.utilisation * spread.ratios[1]
     ]
     if turned:
         yield say("note.turned_by_law", rows=tuple(turned))
@@ -142,18 +142,18 @@ def _layer_notes(site: Site) -> list[Message]:
 
 
 def list_judged_notes(
-    known: RowForces,
+    forces: RowForces,
     checks: Sequence[Check],
     cases: Sequence[CaseRecord],
     drawn: CaseResult | None,
 ) -> list[Message]:
     """Notes of a row by its inputs, checks and cases, of which one is drawn."""
-    row, ranges, standard = known.row, known.site.ranges, known.standard
+    row, ranges, standard = forces.row, forces.site.ranges, forces.standard
     return [
-        *list_row_notes(known),
+        *list_row_notes(forces),
         describe_model_code(row, ranges["density"]),
         *_list_sharing_notes(row, standard),
-        *_list_base_notes(known.tilt, checks),
+        *_list_base_notes(forces.tilt, checks),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
@@ -164,49 +164,51 @@ def list_judged_notes(
     ]
 
 
-def list_row_notes(known: RowForces) -> list[Message]:
+def list_row_notes(forces: RowForces) -> list[Message]:
     """What was taken for granted about this row."""
-    row, notes = known.row, []
+    row, notes = forces.row, []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    for width in known.effects.supports:
+    for width in forces.effects.supports:
         if width.other_width is not None:
             wider, other = width.width, width.other_width
-            told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
-            notes.append(told)
+            threshold = say(
+                "row.gap_at_threshold", gap=row.gap, wider=wider, other=other
+            )
+            notes.append(threshold)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
-    notes += [*_list_end_notes(known), *list_assumed(row)]
+    notes += [*_list_end_notes(forces), *list_assumed(row)]
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
     if row.panel_assumed and row.panels:
         notes.append(say("panel.assumed", names=row.panel_assumed))
-    return [*notes, *_list_pull_notes(known.pulls)]
+    return [*notes, *_list_pull_notes(forces.pulls)]
 
 
-def _list_end_notes(known: RowForces) -> Iterator[Message]:
+def _list_end_notes(forces: RowForces) -> Iterator[Message]:
     """What is assumed of the end of a row: its posts, the end guy and its anchor."""
-    row, end = known.row, known.row.row_end
+    row, end = forces.row, forces.row.row_end
     if row.has_end and row.post_count is None:
         yield say("row.posts_unknown")
-    if end is None or known.at_end is None:
+    if end is None or forces.at_end is None:
         return
     yield say("row.end_guy_holds_all")
     if end.guy_from_base is None:
         yield say("row.end_guy_at_head")
-    if known.at_end.uphill_guy_kN and len(end.stiffnesses) > 1:
+    if forces.at_end.uphill_guy_kN and len(end.stiffnesses) > 1:
         yield say("row.end_stiffness")
 
 
 def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
     """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
-    for one in pulls:
-        is_twice = one.position == "edge" and one.anchor in tuple(Member)
+    for pull in pulls:
+        is_twice = pull.position == "edge" and pull.anchor in tuple(Member)
         if is_twice:
             continue
-        anchor, dip = name_member(one.anchor), one.dip_deg
+        anchor, dip = name_member(pull.anchor), pull.dip_deg
         least = degree_from_radian(USUAL_DIP)
-        if not one.is_axis_given:
+        if not pull.is_axis_given:
             yield say("row.drilled_along_pull", member=anchor, dip=dip, least=least)
         elif dip < least:
             yield say("row.borehole_flat", member=anchor, dip=dip, least=least)
@@ -214,42 +216,42 @@ def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
 
 def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
     """Least lengths of the tubes that bend at the heads of anchors."""
-    derived = ((one, one.resistance_derivation) for one in checks)
-    told = (
+    derived = ((check, check.resistance_derivation) for check in checks)
+    notes = (
         say(
             "row.tube_length",
-            member=name_member(one.member),
-            type=one.resistance_type,
+            member=name_member(check.member),
+            type=check.resistance_type,
             length=how.arguments["length"],
         )
-        for one, how in derived
+        for check, how in derived
         if isinstance(how, Message) and how.key == "bending.of_tube"
     )
-    return list(dict.fromkeys(told))
+    return list(dict.fromkeys(notes))
 
 
 def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
     """Anchor types whose tendon bears less than the ground holds: (R34) of theory."""
     by_type: dict[str, dict[str, float]] = {}
-    for one in checks:
-        design = one.read("R_d")
-        if one.mode in ("tendon", "pull_out") and design is not None:
-            by_type.setdefault(one.resistance_type, {})[one.mode] = design
-    for kind, found in by_type.items():
-        tendon, ground = found.get("tendon", math.inf), found.get("pull_out", 0.0)
+    for check in checks:
+        design = check.read("R_d")
+        if check.mode in ("tendon", "pull_out") and design is not None:
+            by_type.setdefault(check.resistance_type, {})[check.mode] = design
+    for kind, designs in by_type.items():
+        tendon, ground = designs.get("tendon", math.inf), designs.get("pull_out", 0.0)
         if tendon < ground:
             yield say("row.weak_tendon", type=kind, tendon=tendon, ground=ground)
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
     """How the pulls of two guys on one anchor are added, where some are."""
-    told = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
-    return [told] if may_share(row.guys) else []
+    sharing = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
+    return [sharing] if may_share(row.guys) else []
 
 
 def _list_base_notes(tilt: float, checks: Sequence[Check]) -> list[Message]:
     """What the utilisation of a base rests on that friction holds; (R12)."""
-    is_rubbed = any(one.read("μ_b") is not None for one in checks)
+    is_rubbed = any(check.read("μ_b") is not None for check in checks)
     return [say("row.base_friction", tilt=tilt)] if is_rubbed else []
 
 
@@ -257,14 +259,14 @@ def describe_model_code(row: NetRow, density: Interval) -> Message:
     """Mean density of the row's snow by a model code, beside the range; (Y13)."""
     height = row.snow_thickness / math.cos(row.slope_angle)
     by_code = find_model_code_density(height)
-    told = say(
+    text = say(
         "row.model_code",
         height=height,
         density=by_code,
         low=density.low,
         high=density.high,
     )
-    return say("row.model_code_above", told=told) if by_code > density.high else told
+    return say("row.model_code_above", told=text) if by_code > density.high else text
 
 
 def list_test_notes(checks: Sequence[Check], standard: Standard) -> list[Message]:
@@ -376,12 +378,14 @@ def bear_snow(force: float, resistance: float, cosine: float) -> float:
 
 def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
     """Largest cosine of a guy's angle to the line of fall [-]."""
-    span, found = ranges["inclination"], []
-    for points in (place_row(row, one) for one in (span.low, span.high)):
+    span, cosines = ranges["inclination"], []
+    for points in (
+        place_row(row, inclination) for inclination in (span.low, span.high)
+    ):
         anchor = points.find_anchor(guy)
         along = abs(points.head[0] - anchor[0])
-        found.append(along / math.dist(points.head, anchor))
-    return max(found) * math.cos(row.guys.splay or 0.0)
+        cosines.append(along / math.dist(points.head, anchor))
+    return max(cosines) * math.cos(row.guys.splay or 0.0)
 
 
 def _list_sag_notes(row: NetRow, drawn: CaseResult | None) -> Iterator[Message]:

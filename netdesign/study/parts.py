@@ -55,17 +55,19 @@ def list_parts(row: NetRow, inclination: Interval) -> list[PartRecord]:
     inclination : Interval
         Of the net, from the slope normal [rad]: the longest guys and the largest net.
     """
-    heads = [place_row(row, one) for one in (inclination.low, inclination.high)]
-    found: dict[tuple[str, str, float | None], int | None] = {}
+    heads = [
+        place_row(row, inclined) for inclined in (inclination.low, inclination.high)
+    ]
+    counts: dict[tuple[str, str, float | None], int | None] = {}
     for position, supports in _count_supports(row):
-        for one in _list_of_support(row, heads, position, supports):
-            key = (one.part, one.type_id, one.size)
-            before = found.get(key, 0)
-            is_known = one.count is not None and before is not None
-            found[key] = (before or 0) + (one.count or 0) if is_known else None
+        for counted in _list_of_support(row, heads, position, supports):
+            key = (counted.part, counted.type_id, counted.size)
+            before = counts.get(key, 0)
+            is_known = counted.count is not None and before is not None
+            counts[key] = (before or 0) + (counted.count or 0) if is_known else None
     of_supports = (
         PartRecord(part=part, type_id=kind, count=count, size=size)
-        for (part, kind, size), count in found.items()
+        for (part, kind, size), count in counts.items()
     )
     return [*of_supports, *_list_along(row, inclination), *_list_ends(row)]
 
@@ -118,10 +120,10 @@ def _count(
 def _measure(row: NetRow, member: str, heads: list[SupportPoints]) -> float | None:
     """Longest length of a guy or post between its points [m]; None of anchors."""
     if member == Member.POST:
-        return max(one.post_length for one in heads)
+        return max(head.post_length for head in heads)
     if member not in (Member.UPHILL_GUY, Member.DOWNHILL_GUY):
         return None
-    flat = max(math.dist(one.head, one.find_anchor(member)) for one in heads)
+    flat = max(math.dist(head.head, head.find_anchor(member)) for head in heads)
     return flat / math.cos(row.guys.splay or 0.0)
 
 
@@ -144,7 +146,7 @@ def _list_along(row: NetRow, inclination: Interval) -> Iterator[PartRecord]:
             count=None if length is None else 1,
             size=length,
         )
-    if all(one.has_mid_anchors for one in row.panels):
+    if all(panel.has_mid_anchors for panel in row.panels):
         foot = _index(row.resistances)[Member.FOOT_ANCHOR]
         yield PartRecord(
             part="mid_anchor",
@@ -158,15 +160,17 @@ def _list_ends(row: NetRow) -> Iterator[PartRecord]:
     """Members that hold the row along itself; a row that goes on has none."""
     if row.row_end is None:
         return
-    for member, one in _index(row.row_end.resistances).items():
-        if one.type_id:
-            size = one.drilled_length
-            yield PartRecord(part=member, type_id=one.type_id, count=_ENDS, size=size)
+    for member, resistance in _index(row.row_end.resistances).items():
+        if resistance.type_id:
+            size = resistance.drilled_length
+            yield PartRecord(
+                part=member, type_id=resistance.type_id, count=_ENDS, size=size
+            )
 
 
 def _index(resistances: Iterable[Resistance]) -> dict[str, Resistance]:
     """First resistance of each member."""
-    found: dict[str, Resistance] = {}
-    for one in resistances:
-        found.setdefault(one.member, one)
-    return found
+    first: dict[str, Resistance] = {}
+    for resistance in resistances:
+        first.setdefault(resistance.member, resistance)
+    return first

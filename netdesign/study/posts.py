@@ -50,29 +50,31 @@ from netdesign.words.message import Message, say
 _ROUNDED = 0.01
 
 
-def find_short_post(given: Resistance, basis: Basis) -> Message | None:
+def find_short_post(resistance: Resistance, basis: Basis) -> Message | None:
     """Lack of a post's resistance that was computed for a shorter post than the row's.
 
     Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
     inclinations.
     """
-    if given.buckling_length is None:
+    if resistance.buckling_length is None:
         return None
     span = basis.site.ranges["inclination"]
-    places = (place_row(basis.row, one) for one in (span.low, span.high))
+    places = (
+        place_row(basis.row, inclination) for inclination in (span.low, span.high)
+    )
     longest = max(place.post_length for place in places)
-    if given.buckling_length >= (1.0 - _ROUNDED) * longest:
+    if resistance.buckling_length >= (1.0 - _ROUNDED) * longest:
         return None
     return say(
         "check.short_buckling",
-        type=given.type_id,
-        length=given.buckling_length,
+        type=resistance.type_id,
+        length=resistance.buckling_length,
         post=longest,
     )
 
 
 def find_plate_resistance(
-    given: Resistance, plate: BasePlate, basis: Basis
+    resistance: Resistance, plate: BasePlate, basis: Basis
 ) -> Resistance:
     """Bearing resistance of the ground to a post's force, which leans; (R6a).
 
@@ -81,25 +83,25 @@ def find_plate_resistance(
     more than level ground does under a load across the plate.
     """
     span = basis.site.ranges["inclination"]
-    heads = [place_row(basis.row, one) for one in (span.low, span.high)]
-    tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in heads]
+    heads = [place_row(basis.row, inclination) for inclination in (span.low, span.high)]
+    tilts = [(head.head[0] - head.post_base[0]) / head.head[1] for head in heads]
     if min(tilts) < 0.0:
-        return replace(given, doubt=say("bearing.downhill"))
+        return replace(resistance, doubt=say("bearing.downhill"))
     factor = find_inclination_factor(plate, max(tilts))
-    told = say(
+    derivation = say(
         "bearing.inclined",
-        of=given.derivation or "",
+        of=resistance.derivation or "",
         factor=factor,
         tilt=degree_from_radian(math.atan(max(tilts))),
     )
     if not factor:
-        return replace(given, value=None, lack=say("bearing.too_far"))
+        return replace(resistance, value=None, lack=say("bearing.too_far"))
     value = compute_bearing_resistance(plate, max(tilts))
-    return replace(given, value=value, derivation=told)
+    return replace(resistance, value=value, derivation=derivation)
 
 
 def find_post_resistance(
-    given: Resistance, section: PostSection, basis: Basis, width: LoadedWidth
+    resistance: Resistance, section: PostSection, basis: Basis, width: LoadedWidth
 ) -> Resistance:
     """Compression that a post bears beside the snow on it; (R10) to (R11b).
 
@@ -107,13 +109,13 @@ def find_post_resistance(
     """
     standard, row = basis.standard, basis.row
     on_action = standard.find(ACTION_FACTOR)
-    on_post = standard.find_resistance_factor(given.mode, given.basis)
+    on_post = standard.find_resistance_factor(resistance.mode, resistance.basis)
     spacing = row.layout.post_spacing
     efficiencies = _list_efficiencies(section, standard, width, spacing)
     if isinstance(efficiencies, Message):
-        return replace(given, lack=efficiencies)
+        return replace(resistance, lack=efficiencies)
     if on_action is None or on_post is None:
-        return given
+        return resistance
     factors = (on_action.value, on_post.value)
     try:
         least, most = (
@@ -121,22 +123,29 @@ def find_post_resistance(
             for eta in efficiencies
         )
     except ModelError as error:  # outside the guideline's closed forms
-        return replace(given, lack=error.message)
+        return replace(resistance, lack=error.message)
     if least.value is None:
-        return replace(given, lack=say("post_bending.too_much", **most.told))
-    told = say("post_bending.beside", **most.told)
-    if most.told["efficiency"] == least.told["efficiency"]:
-        return replace(given, value=most.value, derivation=told)
+        return replace(resistance, lack=say("post_bending.too_much", **most.numbers))
+    derivation = say("post_bending.beside", **most.numbers)
+    if most.numbers["efficiency"] == least.numbers["efficiency"]:
+        return replace(resistance, value=most.value, derivation=derivation)
     span = {
-        key: one.told["efficiency"] for key, one in (("low", least), ("high", most))
+        key: post.numbers["efficiency"]
+        for key, post in (("low", least), ("high", most))
     }
     if most.value is None:  # no load is left to it at the worse end
-        told = say("post_bending.beside", **least.told)
+        derivation = say("post_bending.beside", **least.numbers)
         doubt = say("post_bending.too_much_at_most", **span)
-        return replace(given, value=least.value, derivation=told, doubt=doubt)
+        return replace(
+            resistance, value=least.value, derivation=derivation, doubt=doubt
+        )
     doubt = say("post_bending.assumed", **span)
     return replace(
-        given, value=most.value, best=least.value, derivation=told, doubt=doubt
+        resistance,
+        value=most.value,
+        best=least.value,
+        derivation=derivation,
+        doubt=doubt,
     )
 
 
@@ -159,28 +168,28 @@ class _Efficiency:
 
 
 def ask_efficiency(
-    given: Resistance, basis: Basis, width: LoadedWidth
+    resistance: Resistance, basis: Basis, width: LoadedWidth
 ) -> Message | None:
     """Question about an eta with which snow presses more than where nobody gives one.
 
     Left empty it would help: somebody confirms it, or changes it.
     """
-    section = given.dimensions
+    section = resistance.dimensions
     if not isinstance(section, PostSection) or section.efficiency is None:
         return None
     if section.efficiency_place in basis.site.confirmed:
         return None
     spacing, ranges = basis.row.layout.post_spacing, basis.site.ranges
     loads = []
-    for one in (section, replace(section, efficiency=None)):
-        found = _list_efficiencies(one, basis.standard, width, spacing)
-        if isinstance(found, Message):
+    for post in (section, replace(section, efficiency=None)):
+        efficiencies = _list_efficiencies(post, basis.standard, width, spacing)
+        if isinstance(efficiencies, Message):
             return None
         try:
-            pressure, _, snow = find_snow_pressure(basis.row, ranges, found[1])
+            pressure, _, snow = find_snow_pressure(basis.row, ranges, efficiencies[1])
         except ModelError:  # outside the guideline's closed forms: told elsewhere
             return None
-        eta = found[1].at(snow.glide_factor)
+        eta = efficiencies[1].at(snow.glide_factor)
         loads.append((eta * pressure, eta, snow.glide_factor))
     (typed, _, _), (assumed, high, glide) = loads
     if typed <= assumed * (1.0 + 1e-9):
@@ -220,7 +229,7 @@ class _LoadedPost:
     """
 
     value: float | None
-    told: Mapping[str, float | Message | str]
+    numbers: Mapping[str, float | Message | str]
 
 
 def _load_post(
@@ -239,7 +248,7 @@ def _load_post(
     )
     return _LoadedPost(
         value=value,
-        told={
+        numbers={
             "efficiency": eta,
             "pressure": pressure / 1e3,
             "density": case.density,
@@ -295,16 +304,19 @@ def find_snow_pressure(
         Factor with which the pressure is largest; 1 unless told otherwise.
     """
     pressures = (
-        _press(one, case)
-        for one in list_corners(row, ranges)
+        _press(corner, case)
+        for corner in list_corners(row, ranges)
         for case in list_cases(
             read_load_model(load_guideline()),
-            build_geometry(one, 0.0),
+            build_geometry(corner, 0.0),
             density=ranges["density"].high,
-            altitude=one.altitude,
+            altitude=corner.altitude,
         )
     )
-    return max(pressures, key=lambda one: efficiency.at(one[2].glide_factor) * one[0])
+    return max(
+        pressures,
+        key=lambda pressure: efficiency.at(pressure[2].glide_factor) * pressure[0],
+    )
 
 
 def _press(row: NetRow, case: LoadCase[float]) -> SnowPressure:

@@ -70,9 +70,9 @@ def measure_feet(states: Sequence[SupportState]) -> FootPulls:
         for x, y in state.feet
     ]
     shares = (
-        one.panel.solution.lower.along / one.anchors.foot_anchor.size
-        for one in states
-        if one.panel is not None and one.anchors.foot_anchor.size > 0.0
+        state.panel.solution.lower.along / state.anchors.foot_anchor.size
+        for state in states
+        if state.panel is not None and state.anchors.foot_anchor.size > 0.0
     )
     return FootPulls(
         turns=(min(turns), max(turns)) if turns else (), along=max(shares, default=0.0)
@@ -93,8 +93,11 @@ def list_pulls(
     rope's pull along the row; last the anchors of the row's end: those of types of
     their own, then those that hold the row along it.
     """
-    row, solved = task.row, [one for one in task.solved.results if one.is_converged]
-    points = [place_row(row, one.case.inclination) for one in solved]
+    row, solved = (
+        task.row,
+        [result for result in task.solved.results if result.is_converged],
+    )
+    points = [place_row(row, result.case.inclination) for result in solved]
     directions = {
         anchor: [_measure_guy(place, anchor, row.guys) for place in points]
         for anchor in ANCHORS
@@ -105,7 +108,7 @@ def list_pulls(
     if row.layout.is_foot_shared:  # one anchor, pulled both ways
         both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
         directions[Member.FOOT_ANCHOR] = directions[Member.UPHILL_ANCHOR] = both
-    ranges = {anchor: find_pull_range(found) for anchor, found in directions.items()}
+    ranges = {anchor: find_pull_range(angles) for anchor, angles in directions.items()}
     of_supports = [
         build_pull(row, anchor, pulls, share, position)
         for position in list_positions(row)
@@ -136,7 +139,7 @@ def _list_end_pulls(
         return
     guys = [end.guy.find_way(place) for place in points]
     x, y, z = way = find_mean_way(guys, slope, USUAL_DIP)
-    rises = [math.asin(-one[1]) for one in guys]
+    rises = [math.asin(-guy[1]) for guy in guys]
     kind = row.find_anchor_type(EndMember.END_GUY_ANCHOR, "edge")
     yield PullRecord(
         anchor=EndMember.END_GUY_ANCHOR,
@@ -147,7 +150,7 @@ def _list_end_pulls(
         axis_deg=degree_from_radian(math.asin(-y)),
         aside_deg=degree_from_radian(math.atan2(-x, -z)),
         is_axis_given=False,
-        angle_deg=degree_from_radian(max(measure_angle(way, one) for one in guys)),
+        angle_deg=degree_from_radian(max(measure_angle(way, guy) for guy in guys)),
         dip_deg=degree_from_radian(math.asin(measure_fall(way, slope))),
     )
 
@@ -163,9 +166,9 @@ def find_pull(
     pulls: Sequence[PullRecord], anchor: str, position: Position
 ) -> PullRecord | None:
     """Pull on an anchor of a support; that inside the row where it has no other."""
-    found = [one for one in pulls if one.anchor == anchor]
-    own = [one for one in found if one.position == position]
-    return next(iter(own or found), None)
+    of_anchor = [pull for pull in pulls if pull.anchor == anchor]
+    own = [pull for pull in of_anchor if pull.position == position]
+    return next(iter(own or of_anchor), None)
 
 
 def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
@@ -203,9 +206,9 @@ def build_pull(
     position : str
         Of the support.
     """
-    given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
+    typed_axis, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
     flattest = find_axis_at_dip(USUAL_DIP, row.slope_angle, anchor)
-    axis = max(pulls.mean, flattest) if given is None else given
+    axis = max(pulls.mean, flattest) if typed_axis is None else typed_axis
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
     if may_share(row.guys) and anchor in GUY_ANCHORS:
         along_row = math.tan(row.guys.splay or 0.0)
@@ -217,26 +220,26 @@ def build_pull(
         least_deg=degree_from_radian(pulls.least),
         largest_deg=degree_from_radian(pulls.largest),
         axis_deg=degree_from_radian(axis),
-        is_axis_given=given is not None,
+        is_axis_given=typed_axis is not None,
         angle_deg=degree_from_radian(turned),
         dip_deg=degree_from_radian(find_dip(axis, row.slope_angle, anchor)),
     )
 
 
 def doubt_mortar(
-    given: Resistance, pull: PullRecord | None, standard: Standard
+    resistance: Resistance, pull: PullRecord | None, standard: Standard
 ) -> Message | None:
     """Doubt that mortar fills a borehole, of a bond that tests show in steeper ones.
 
     From a borehole that is flat or rises mortar runs out; structure/THEORY.md, (S14b).
     """
-    if given.mode != "pull_out" or pull is None:
+    if resistance.mode != "pull_out" or pull is None:
         return None
     limit = standard.find(LEAST_DIP)
     if limit is None:
         return say("check.no_limit", limit=LEAST_DIP)
-    flattest = given.flattest_test
-    is_tested = given.basis == "tested" and flattest is not None
+    flattest = resistance.flattest_test
+    is_tested = resistance.basis == "tested" and flattest is not None
     least = limit.value
     if is_tested and flattest is not None:
         least = min(least, degree_from_radian(flattest))
@@ -264,5 +267,5 @@ def check_direction(
         return None
     angle = round(pull.angle_deg, 9)  # less is rounding
     finding = say("direction.rope_within", angle=angle, most=limit.value)
-    found = compare("direction", Verdict.PASS, finding, member=pull.anchor)
-    return found if gap is None else found.with_open(OpenKind.UNSOLVED, gap)
+    check = compare("direction", Verdict.PASS, finding, member=pull.anchor)
+    return check if gap is None else check.with_open(OpenKind.UNSOLVED, gap)

@@ -31,12 +31,12 @@ def record_point(case: Case) -> CasePoint:
 
 def read_point(point: CasePoint) -> Case:
     """Case of a record, in SI units."""
-    found = point.values
+    values = point.values
     return Case.of(
         {
-            name: one.read(found[one.key])
-            for name, one in PARAMETERS.items()
-            if one.key in found
+            name: parameter.read(values[parameter.key])
+            for name, parameter in PARAMETERS.items()
+            if parameter.key in values
         }
     )
 
@@ -95,16 +95,14 @@ def show_coincident(extreme: Extreme, members: Sequence[str]) -> dict[str, float
 def _record_confirmation(
     envelope: RowEnvelope, member: str
 ) -> ConfirmationRecord | None:
-    one = next((c for c in envelope.confirmations if c.member == member), None)
-    if one is None:
+    confirmation = next((c for c in envelope.confirmations if c.member == member), None)
+    if confirmation is None:
         return None
-    screened, confirmed = one.screened.solution, one.confirmed.solution
-    difference, forces = one.difference, one.confirmed.member_forces
+    confirmed = confirmation.confirmed.solution
+    difference, forces = confirmation.difference, confirmation.confirmed.member_forces
     return ConfirmationRecord(
-        screened_kN=kilonewton_from_newton(one.screened.member_forces[member].value),
         confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
         difference_percent=None if difference is None else 100.0 * difference,
         elements=confirmed.elements if confirmed else None,
-        screened_elements=screened.elements if screened else 0,
-        reason=one.confirmed.reason,
+        reason=confirmation.confirmed.reason,
     )

@@ -74,14 +74,14 @@ def _list_floor_values(standard: Standard) -> list[StandardValue]:
     if standard.floor == "none":
         return []
     guideline, limits = load_guideline(), load_glide_limits()
-    tables = [one for one in guideline.tables if one.id in GLIDE_FACTORS]
+    tables = [table for table in guideline.tables if table.id in GLIDE_FACTORS]
     used = [
-        *(one for one in guideline.values if one.id.startswith("snow.")),
-        *(one for table in tables for one in table.values if one.value in limits),
+        *(value for value in guideline.values if value.id.startswith("snow.")),
+        *(value for table in tables for value in table.values if value.value in limits),
     ]
-    if all(one in standard.listed for one in used):
+    if all(value in standard.listed for value in used):
         return []
-    return [replace(one, id=f"floor.{one.id}") for one in used]
+    return [replace(value, id=f"floor.{value.id}") for value in used]
 
 
 def record_provenance(site: Site, run: CheckRun) -> Provenance:
@@ -131,8 +131,10 @@ def name_law(law: CreepLaw) -> str:
 
 def read_text_format(made: Provenance) -> TextFormat:
     """Form of the site file's text that was declared when the study was made."""
-    sign, given = (made.settings.get(key, "") for key in ("delimiter", "decimal_mark"))
-    mark = cast(DecimalMark, given if given in get_args(DecimalMark) else "")
+    sign, mark_text = (
+        made.settings.get(key, "") for key in ("delimiter", "decimal_mark")
+    )
+    mark = cast(DecimalMark, mark_text if mark_text in get_args(DecimalMark) else "")
     is_sign = len(sign) == 1 and not sign.isalnum() and sign not in '"\r\n'
     return TextFormat(delimiter=sign if is_sign else "", decimal_mark=mark)
 
@@ -152,22 +154,22 @@ def build_run(study: Study, jobs: int) -> CheckRun:
     StudyError
         If the settings cannot be had again: another creep law, other tolerances.
     """
-    given, made = study.provenance.settings, study.provenance
+    settings, made = study.provenance.settings, study.provenance
     try:
         run = CheckRun(
-            settings=SolverSettings(accuracy=float(given["accuracy"])),
+            settings=SolverSettings(accuracy=float(settings["accuracy"])),
             jobs=jobs,
             started=made.started,
             has_reliability=any(row.reliability for row in study.rows),
         )
     except (KeyError, ValueError):
-        told = f"accuracy = {given.get('accuracy')!r:.60}"
-        raise StudyError(say("study.settings", given=(told,))) from None
-    if given.get("creep_law") != name_law(run.creep_law):
+        accuracy = f"accuracy = {settings.get('accuracy')!r:.60}"
+        raise StudyError(say("study.settings", given=(accuracy,))) from None
+    if settings.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
             say(
                 "study.other_law",
-                given=f"{given.get('creep_law')!r:.120}",
+                given=f"{settings.get('creep_law')!r:.120}",
                 own=repr(name_law(run.creep_law)),
             )
         )

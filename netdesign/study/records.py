@@ -75,7 +75,9 @@ class ModelFormRecord:
     @property
     def ratios(self) -> tuple[float, float]:
         """Least and largest force of all laws over that of the study's model [-]."""
-        ratios = [one.ratio for one in self.variants if one.ratio is not None]
+        ratios = [
+            variant.ratio for variant in self.variants if variant.ratio is not None
+        ]
         return min([1.0, *ratios]), max([1.0, *ratios])
 
 
@@ -203,33 +205,33 @@ class RowStudy:
     @cached_property
     def open(self) -> list[OpenPoint]:
         """What is open of its checks that are not proven, each reason once."""
-        found: dict[tuple[OpenKind, str], OpenPoint] = {}
+        points: dict[tuple[OpenKind, str], OpenPoint] = {}
         for check in self.checks:
             if check.verdict is not Verdict.NOT_PROVEN:
                 continue
-            for one in check.open:
-                key = (one.kind, str(one.message))
-                point = found.setdefault(
-                    key, OpenPoint(kind=one.kind, text=one.message)
+            for reason in check.open:
+                key = (reason.kind, str(reason.message))
+                point = points.setdefault(
+                    key, OpenPoint(kind=reason.kind, text=reason.message)
                 )
-                if one.kind is OpenKind.RESISTANCE_MISSING:
+                if reason.kind is OpenKind.RESISTANCE_MISSING:
                     needs = max(point.needs_kN or 0.0, check.needed_kN or 0.0) or None
-                    found[key] = replace(point, needs_kN=needs)
-        return list(found.values())
+                    points[key] = replace(point, needs_kN=needs)
+        return list(points.values())
 
     @property
     def unmet(self) -> list[Message]:
         """Laws that its drawn case does not obey."""
         return [
-            say("row.law_not_met", law=name("law", one.name))
-            for one in self.independent
-            if not one.is_met
+            say("row.law_not_met", law=name("law", law.name))
+            for law in self.independent
+            if not law.is_met
         ]
 
     @property
     def member_forces(self) -> list[LargestForce]:
         """Largest forces of post, guys and foot anchor by the section."""
-        return [one for one in self.forces if one.quantity in REPORTED_MEMBERS]
+        return [force for force in self.forces if force.quantity in REPORTED_MEMBERS]
 
     @cached_property
     def reasons(self) -> list[Message]:
@@ -238,18 +240,18 @@ class RowStudy:
         Checks with the same reason stand before it together.
         """
         titles: dict[str, list[Message]] = {}
-        told: dict[str, Message] = {}
+        messages: dict[str, Message] = {}
         for check in self.checks:
             if check.verdict is not Verdict.PASS:
                 text = str(check.reason)  # numbers that are not shown may differ
                 title = name_check(check.member, check.mode, check.position)
                 titles.setdefault(text, []).append(title)
-                told.setdefault(text, check.reason)
+                messages.setdefault(text, check.reason)
         unproven = [
             say(
                 "row.check_reason",
                 check=tuple(named) if len(named) > 1 else named[0],
-                reason=told[text],
+                reason=messages[text],
             )
             for text, named in titles.items()
         ]
@@ -338,7 +340,9 @@ class Study:
     @cached_property
     def conditions(self) -> list[Condition]:
         """What has to hold beside the numbers, each once for all net rows."""
-        return merge_conditions(one for row in self.rows for one in row.conditions)
+        return merge_conditions(
+            condition for row in self.rows for condition in row.conditions
+        )
 
     @cached_property
     def written(self) -> JsonPart:
@@ -395,19 +399,19 @@ class Study:
             [
                 {
                     "row": row.id,
-                    "member": one.member,
-                    "mode": one.mode,
-                    "position": one.position,
-                    "type": one.resistance_type,
-                    "verdict": one.verdict.value,
-                    "utilisation": one.utilisation,
-                    "utilisation_low": one.utilisation_band[0],
-                    "utilisation_high": one.utilisation_band[1],
-                    "demand_kN": one.demand_kN,
-                    "resistance_kN": one.resistance_kN,
+                    "member": check.member,
+                    "mode": check.mode,
+                    "position": check.position,
+                    "type": check.resistance_type,
+                    "verdict": check.verdict.value,
+                    "utilisation": check.utilisation,
+                    "utilisation_low": check.utilisation_band[0],
+                    "utilisation_high": check.utilisation_band[1],
+                    "demand_kN": check.demand_kN,
+                    "resistance_kN": check.resistance_kN,
                 }
                 for row in self.rows
-                for one in row.checks
+                for check in row.checks
             ]
         )
 
@@ -417,22 +421,12 @@ class Study:
         return join_items([row.written for row in self.rows])
 
 
-def find_input(row: RowStudy, column: str) -> float | None:
-    """Number of a column of sheet Nets, as understood; None where it is empty."""
-    value = _find(row, column)
-    return None if isinstance(value, str) else value
-
-
-def find_word(row: RowStudy, column: str) -> str:
-    """Word of a column of sheet Nets, by its key; "" where it is empty."""
-    value = _find(row, column)
-    return value if isinstance(value, str) else ""
-
-
 _SHEETS = ("Nets", "rows", "net_types", "project")  # with columns of a net row
 
 
-def _find(row: RowStudy, column: str) -> float | str | None:
+def find_input(row: RowStudy, column: str) -> float | None:
+    """Number of a column of a net row, as understood; None where it is empty."""
     labels = [say(f"column.{sheet}.{column}") for sheet in _SHEETS]
-    found = (one.value for one in row.inputs if one.label in labels)
-    return next((one for one in found if one != ""), None)
+    texts = (echo.value for echo in row.inputs if echo.label in labels)
+    value = next((text for text in texts if text != ""), None)
+    return None if isinstance(value, str) else value

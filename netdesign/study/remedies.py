@@ -39,53 +39,59 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 
-def list_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
+def list_remedies(member_check: MemberCheck) -> list[Change]:
     """Changes that flip a failing, unproven or close check."""
-    is_of_ground = one.given.mode in ("sliding", "wedge") and one.given.dimensions
-    is_of_head = one.given.mode == "direction"  # of which E_d sin δ is told
-    if is_of_ground or is_of_head or not _is_worth_telling(basis, one):
+    basis = member_check.forces
+    is_of_ground = (
+        member_check.resistance.mode in ("sliding", "wedge")
+        and member_check.resistance.dimensions
+    )
+    is_of_head = (
+        member_check.resistance.mode == "direction"
+    )  # of which E_d sin δ is told
+    if is_of_ground or is_of_head or not _is_worth_telling(basis, member_check):
         return []  # sliding goes with what presses the base; a ground is as it is
-    changes = _list_resistance_remedies(basis, one)
-    _, used = one.check.utilisation_band
+    changes = _list_resistance_remedies(basis, member_check)
+    _, used = member_check.check.utilisation_band
     if used is None:
-        return _annotate(one, changes)
+        return _annotate(member_check, changes)
     # ropes' forces are in no proportion to the spacing, and the maker's is as it is
-    if not basis.row.panels and one.check.governs != "maker":
+    if not basis.row.panels and member_check.check.governs != "maker":
         spacing = basis.row.layout.post_spacing
-        changes.append(find_spacing_remedy(spacing, one.width, used))
-    return _annotate(one, changes)
+        changes.append(find_spacing_remedy(spacing, member_check.width, used))
+    return _annotate(member_check, changes)
 
 
-def _annotate(one: MemberCheck, changes: list[Change]) -> list[Change]:
+def _annotate(member_check: MemberCheck, changes: list[Change]) -> list[Change]:
     """Changes with a note where they alone do not do.
 
     Another type has the condition of its own resistance.
     """
-    if one.check.has_open(OpenKind.UNSOLVED):
+    if member_check.check.has_open(OpenKind.UNSOLVED):
         note = say("change.as_far_as_solved")
         return [replace(change, note=note) for change in changes]
-    if one.check.has_open(OpenKind.RESISTANCE_IN_DOUBT):
+    if member_check.check.has_open(OpenKind.RESISTANCE_IN_DOUBT):
         note = say("change.if_rest_proven")
         return [x if x.sense == "has" else replace(x, note=note) for x in changes]
     return changes
 
 
-def _is_worth_telling(basis: Basis, one: MemberCheck) -> bool:
+def _is_worth_telling(basis: Basis, member_check: MemberCheck) -> bool:
     """It has a force, and does not pass with much to spare."""
-    demand, used = (one.check.read_band(symbol)[1] for symbol in ("E_d", "μ"))
+    demand, used = (member_check.check.read_band(symbol)[1] for symbol in ("E_d", "μ"))
     if not demand or basis.row.is_overtopped:
         return False
     return used is None or used >= CLOSE
 
 
-def _list_resistance_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
+def _list_resistance_remedies(basis: Basis, member_check: MemberCheck) -> list[Change]:
     """Characteristic resistance that is needed, and the type that has it."""
-    standard, check = basis.standard, one.check
+    standard, check = basis.standard, member_check.check
     demand, factor = check.read_band("E_d")[1], check.read("γ_R")
     note: Message | None = None
     if factor is None:  # nothing is given, and so no basis: suppose a test
-        found = standard.find_resistance_factor(one.given.mode, "tested")
-        factor = found.value_si if found else None
+        tested = standard.find_resistance_factor(member_check.resistance.mode, "tested")
+        factor = tested.value_si if tested else None
         note = say("change.on_basis_of_tests")
     if factor is None or demand is None:
         return []
@@ -97,9 +103,9 @@ def _list_resistance_remedies(basis: Basis, one: MemberCheck) -> list[Change]:
         sense="at least",
         note=note,
     )
-    if one.force is not None and one.force.on.shared is not None:
+    if member_check.force is not None and member_check.force.on.shared is not None:
         return [change]  # another rope has another stiffness, and so another force
-    kind = find_type_change(basis, one.given, demand, one.pull)
+    kind = find_type_change(basis, member_check.resistance, demand, member_check.pull)
     return [change, kind] if kind else [change]
 
 
@@ -135,8 +141,8 @@ _ANCHORS = (
 
 def find_ground(site: Site, type_id: str) -> str:
     """Ground of an anchor type of the workbook; "" where nobody gives it."""
-    found = (one.ground for one in site.catalogue if one.type_id == type_id)
-    return next((ground for ground in found if ground), "")
+    grounds = (kind.ground for kind in site.catalogue if kind.type_id == type_id)
+    return next((ground for ground in grounds if ground), "")
 
 
 def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
@@ -157,7 +163,7 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
 
 
 def find_type_change(
-    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
+    basis: Basis, resistance: Resistance, demand: float, pull: PullRecord | None
 ) -> Change | None:
     """Type whose design resistance reaches the design ``demand`` [kN].
 
@@ -169,41 +175,45 @@ def find_type_change(
     An anchor type of another ground, or of one that is not known, is none of them.
     ``pull`` is that on the anchor.
     """
-    if given.member in NAMED_BY:
+    if resistance.member in NAMED_BY:
         return None
-    enough = list(_list_enough(basis, given, demand, pull))
-    sure = [one for one in enough if one.note is None]
-    if any(one.type_id == given.type_id for one in sure or enough):
+    enough = list(_list_enough(basis, resistance, demand, pull))
+    sure = [candidate for candidate in enough if candidate.note is None]
+    if any(candidate.type_id == resistance.type_id for candidate in sure or enough):
         return None
     if enough:
-        weakest = min(sure or enough, key=lambda one: (one.design, one.type_id))
-        told = say("change.type_of_workbook", type=weakest.type_id)
-        return _record(told, weakest.value, given, weakest.note)
-    size = _find_enough_size(basis, given, demand)
-    _, unsure = find_lasting(basis, given, pull)
-    return _record(*size, given, _find_note(given, unsure)) if size else None
+        weakest = min(
+            sure or enough, key=lambda candidate: (candidate.design, candidate.type_id)
+        )
+        quantity = say("change.type_of_workbook", type=weakest.type_id)
+        return _record(quantity, weakest.value, resistance, weakest.note)
+    size = _find_enough_size(basis, resistance, demand)
+    _, unsure = find_lasting(basis, resistance, pull)
+    return _record(*size, resistance, _find_note(resistance, unsure)) if size else None
 
 
-def _find_enough_size(basis: Basis, given: Resistance, demand: float) -> Size | None:
+def _find_enough_size(
+    basis: Basis, resistance: Resistance, demand: float
+) -> Size | None:
     """Smallest part of the catalogue that bears a design force [kN]."""
-    declared = "computed" if given.mode == "pull_out" else "declared"
-    factor = basis.standard.find_resistance_factor(given.mode, declared)
-    needed = demand / _find_share(given)
-    return find_size(given, needed * factor.value_si) if factor else None
+    declared = "computed" if resistance.mode == "pull_out" else "declared"
+    factor = basis.standard.find_resistance_factor(resistance.mode, declared)
+    needed = demand / _find_share(resistance)
+    return find_size(resistance, needed * factor.value_si) if factor else None
 
 
-def _find_note(given: Resistance, unsure: Message | None) -> Message | None:
+def _find_note(resistance: Resistance, unsure: Message | None) -> Message | None:
     """Condition of another type; a border rope's stiffness changes its force."""
     if unsure:
         return say("change.if_rest_proven")
-    is_of_net = given.member in tuple(NetPart)
+    is_of_net = resistance.member in tuple(NetPart)
     return say("change.solve_again") if is_of_net else None
 
 
-def _find_share(given: Resistance) -> float:
+def _find_share(resistance: Resistance) -> float:
     """Share of a resistance that corrosion leaves [-]; a larger bar loses less."""
-    how = given.derivation
-    share = how.arguments.get("share") if how and given.wear else None
+    how = resistance.derivation
+    share = how.arguments.get("share") if how and resistance.wear else None
     return float(str(share)) if share else 1.0
 
 
@@ -218,16 +228,16 @@ class _Enough:
 
 
 def _list_enough(
-    basis: Basis, given: Resistance, demand: float, pull: PullRecord | None
+    basis: Basis, resistance: Resistance, demand: float, pull: PullRecord | None
 ) -> Iterator[_Enough]:
     """Types of the workbook that reach a demand; none of another ground, or worn."""
     row, standard = basis.row, basis.standard
-    ground = row.ground_type or given.ground
+    ground = row.ground_type or resistance.ground
     for other in basis.site.catalogue:
-        is_here = holds_in_ground(given.member, ground, other)
-        if other.mode != given.mode or not is_here:
+        is_here = holds_in_ground(resistance.member, ground, other)
+        if other.mode != resistance.mode or not is_here:
             continue
-        other = replace(other, member=given.member)
+        other = replace(other, member=resistance.member)
         lasting, worn = corrode(shorten_bond(other, standard), basis)
         if worn or find_short_post(other, basis):
             continue
@@ -242,12 +252,12 @@ def _list_enough(
 
 
 def _record(
-    quantity: Message, value: float, given: Resistance, note: Message | None
+    quantity: Message, value: float, resistance: Resistance, note: Message | None
 ) -> Change:
     return Change(
         quantity=quantity,
         unit="kN",
-        now=kilonewton_if_known(given.value),
+        now=kilonewton_if_known(resistance.value),
         bound=math.floor(value * 10.0) / 10.0,
         sense="has",
         note=note,
@@ -264,15 +274,15 @@ _LONGEST_BOND = 10.0  # that counts [m]
 Size = tuple[Message, float]
 
 
-def find_size(given: Resistance, needed: float) -> Size | None:
+def find_size(resistance: Resistance, needed: float) -> Size | None:
     """Smallest part in the place of a type that bears a characteristic force [kN].
 
     None where the catalogue has none that bears it, or where the workbook does not say
     what the part is made of: the ground of a bond, the section of a post.
     """
-    sizes = _BY_MODE.get(given.mode)
-    found = sizes(given) if sizes else iter(())
-    return next((one for one in found if one[1] >= needed), None)
+    sizes = _BY_MODE.get(resistance.mode)
+    parts = sizes(resistance) if sizes else iter(())
+    return next((part for part in parts if part[1] >= needed), None)
 
 
 def _list_ropes(_: Resistance) -> Iterator[Size]:
@@ -285,7 +295,7 @@ def _list_ropes(_: Resistance) -> Iterator[Size]:
             breaking_factor=factor.value,
             termination=loss.value,
         )
-        told = say(
+        part = say(
             "change.rope",
             diameter=diameter,
             construction=_CONSTRUCTION,
@@ -293,51 +303,51 @@ def _list_ropes(_: Resistance) -> Iterator[Size]:
             termination=name("termination", _TERMINATION),
             status=name("status", loss.status),
         )
-        yield told, kilonewton_from_newton(value)
+        yield part, kilonewton_from_newton(value)
 
 
-def _list_bars(given: Resistance) -> Iterator[Size]:
+def _list_bars(resistance: Resistance) -> Iterator[Size]:
     """Solid bars of the catalogue, of the steel of the type's own bar."""
-    how = _find_derivation(given, "derivation.bar")
+    how = _find_derivation(resistance, "derivation.bar")
     strength = _take(how, "strength") if how else _BAR_STRENGTH
-    every = (one["diameters"] for one in load_products()["bar"])
+    every = (product["diameters"] for product in load_products()["bar"])
     for diameter in sorted({size for sizes in every for size in sizes}):
         value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
-        told = say("change.bar", diameter=float(diameter), strength=strength)
-        yield told, kilonewton_from_newton(value)
+        part = say("change.bar", diameter=float(diameter), strength=strength)
+        yield part, kilonewton_from_newton(value)
 
 
-def _list_bonds(given: Resistance) -> Iterator[Size]:
+def _list_bonds(resistance: Resistance) -> Iterator[Size]:
     """Bond lengths by half metres, in the hole and ground of the type."""
-    how = _find_derivation(given, "derivation.bond")
-    if how is None or given.bond is None:
+    how = _find_derivation(resistance, "derivation.bond")
+    if how is None or resistance.bond is None:
         return
     diameter = _take(how, "diameter")
     per_metre = math.pi * diameter / 1e3 * _take(how, "stress")  # [kN/m]
     for half in range(2, int(2 * _LONGEST_BOND) + 3):
-        bond = Bond(length=0.5 * half, free=given.bond.free, steel=None)
-        told = say(
+        bond = Bond(length=0.5 * half, free=resistance.bond.free, steel=None)
+        part = say(
             "change.bond",
             length=0.5 * half,
             diameter=diameter,
             ground=how.arguments["ground"],
         )
-        yield told, bond.find_counted(_LONGEST_BOND) * per_metre
+        yield part, bond.find_counted(_LONGEST_BOND) * per_metre
 
 
-def _list_sections(given: Resistance) -> Iterator[Size]:
+def _list_sections(resistance: Resistance) -> Iterator[Size]:
     """Sections of the series of a post, by size, of its steel and buckling length."""
-    how = _find_derivation(given, "derivation.buckling")
+    how = _find_derivation(resistance, "derivation.buckling")
     if how is None:
         return
-    series, sizes = _find_series(given.type_id)
+    series, sizes = _find_series(resistance.type_id)
     strength = _take(how, "strength")
     imperfection = find_imperfection(str(how.arguments["curve"])).value
     for size in sorted(sizes, key=int):
         product = find_product(f"{series} {size}")
         if product is None:
             continue
-        found = compute_buckling_resistance(
+        buckling = compute_buckling_resistance(
             area=product.values["area"][0],
             second_moment=product.values["second_moment_weak"][0],
             length=_take(how, "length"),
@@ -345,23 +355,23 @@ def _list_sections(given: Resistance) -> Iterator[Size]:
             modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
             imperfection=imperfection,
         )
-        told = say("change.section", name=f"{series}{size}", grade=strength)
-        yield told, kilonewton_from_newton(found.value)
+        part = say("change.section", name=f"{series}{size}", grade=strength)
+        yield part, kilonewton_from_newton(buckling.value)
 
 
 def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:
     """Series of the section that a type is named after, with its sizes."""
     product = find_product(type_id)
     table = load_products()["section"]["series"]
-    for series, one in table.items():
+    for series, sizes in table.items():
         if product and product.id.startswith(series):
-            return series, one["sizes"]
+            return series, sizes["sizes"]
     return "", {}
 
 
-def _find_derivation(given: Resistance, key: str) -> Message | None:
+def _find_derivation(resistance: Resistance, key: str) -> Message | None:
     """Way in which a resistance was worked out as built, where it is this one."""
-    how = given.derivation
+    how = resistance.derivation
     as_built = how.arguments.get("of") if how else None  # before it corrodes
     how = as_built if isinstance(as_built, Message) else how
     return how if how is not None and how.key == key else None

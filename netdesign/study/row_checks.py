@@ -60,16 +60,16 @@ def check_row(task: RowToCheck, variants: Sequence[RowForces]) -> RowChecks:
     """
     judged = settle(task, variants, judge_members(variants))
     checks = []
-    for one in judged:
-        changes = list_remedies(one.known, one) if one.force else []
-        checks.append(replace(one.check, changes=changes))
-        task.on_check()
-    known = variants[0]
-    checks += [*_check_without_force(variants, judged), *check_limits(known)]
-    checks = [_apply_declaration(task, one) for one in checks]
+    for member_check in judged:
+        has_force = member_check.force is not None
+        changes = list_remedies(member_check) if has_force else []
+        checks.append(replace(member_check.check, changes=changes))
+    forces = variants[0]
+    checks += [*_check_without_force(variants, judged), *check_limits(forces)]
+    checks = [_apply_declaration(task, check) for check in checks]
     return RowChecks(
-        checks=settle_structure(known, checks),
-        judged={one.check.id: one for one in judged},
+        checks=settle_structure(forces, checks),
+        judged={member_check.check.id: member_check for member_check in judged},
     )
 
 
@@ -97,7 +97,7 @@ def _find_actual(row: NetRow, ranges: Ranges) -> dict[str, tuple[float, float]]:
 
     Where nobody gives the altitude, it may be whatever the guideline knows.
     """
-    factors = [find_row_glide_factor(one) for one in list_corners(row, ranges)]
+    factors = [find_row_glide_factor(corner) for corner in list_corners(row, ranges)]
     altitude = find_altitude_factor(row)
     least = 1.0 if row.altitude is None else altitude
     spacing = row.layout.post_spacing
@@ -115,7 +115,7 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
     Inside its limits an approval proves it, and what was calculated of it is
     information. Outside, and where nothing is given of it, it is not proven.
     """
-    limits = next((one for one in checks if one.mode == MODE), None)
+    limits = next((check for check in checks if check.mode == MODE), None)
     if limits is None:
         mine = list(filter(is_of_structure, checks))
         if any(map(_is_given, mine)) or all(map(_has_result, mine)):
@@ -129,8 +129,8 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
     point = Open(kind=OpenKind.PROVEN_ELSEWHERE, message=proof.describe(), proof=proof)
     line = replace(_leave_structure_open(MODE, None), open=[point])
     return [
-        _make_information(one, point) if is_of_structure(one) else one
-        for one in _replace_structure(checks, line)
+        _make_information(check, point) if is_of_structure(check) else check
+        for check in _replace_structure(checks, line)
     ]
 
 
@@ -165,7 +165,9 @@ def _has_result(check: Check) -> bool:
 
 def _replace_structure(checks: Sequence[Check], line: Check) -> list[Check]:
     """Checks of which a line stands for those of the structure without a result."""
-    kept = [one for one in checks if _has_result(one) or not is_of_structure(one)]
+    kept = [
+        check for check in checks if _has_result(check) or not is_of_structure(check)
+    ]
     return [*kept, line]
 
 
@@ -176,7 +178,7 @@ def _make_information(check: Check, proof: Open) -> Check:
     used = check.used_band[1]
     is_beyond = used is None or used > 1.0
     finding = say("approval.beyond_by_model" if is_beyond else "approval.information")
-    points = [one for one in check.open if one.kind is not OpenKind.FAILS]
+    points = [point for point in check.open if point.kind is not OpenKind.FAILS]
     return replace(
         check, met=Verdict.NOT_PROVEN, finding=finding, open=[*points, proof]
     )
@@ -191,7 +193,7 @@ def check_row_geometry(basis: Basis) -> list[Check]:
     geometry = check_geometry(read_geometry(row, ranges), standard)
     ends = check_ends(find_effects(row, standard, ranges))
     return [
-        *(_leave_assumed_open(row, one) for one in geometry),
+        *(_leave_assumed_open(row, check) for check in geometry),
         *([ends] if ends else []),
         *_list_asked(row, standard),
     ]

@@ -58,7 +58,7 @@ class RowForces(Basis):
     gap: Message | None = None
     panel_gap: Message | None = None
     # forces of which the size alone was asked for, by member and support
-    sizes: dict[tuple[str, bool, str], MemberForce | None] = field(
+    sizes: dict[tuple[str, str, str], MemberForce | None] = field(
         default_factory=dict, compare=False, repr=False
     )
 
@@ -80,7 +80,7 @@ class RowForces(Basis):
     def find_least(self, member: str) -> FloorForceRecord | None:
         """Force of a member by the guideline's load; None where there is none."""
         forces = self.floor.forces if self.floor else ()
-        return next((one for one in forces if one.member == member), None)
+        return next((force for force in forces if force.member == member), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

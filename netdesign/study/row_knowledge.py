@@ -42,12 +42,12 @@ class Variant:
     """A corner of what is assumed of a row's statics, and what its cases tell there."""
 
     task: RowToCheck
-    known: RowForces
+    forces: RowForces
 
 
 def know_variants(task: RowToCheck) -> list[Variant]:
     """All variants of a row; those of one layout share what its cases tell there."""
-    found: list[Variant] = []
+    variants: list[Variant] = []
     rows = groupby(list_variants(task.row), key=attrgetter("layout"))
     feet: FootPulls | None = None
     for place, (_, of_layout) in enumerate(rows):
@@ -56,9 +56,9 @@ def know_variants(task: RowToCheck) -> list[Variant]:
         feet, base = cases.feet, know_cases(cases)
         for row in (first, *others):
             of_row = replace(cases.task, row=row)
-            known = know_row(replace(cases, task=of_row), base)
-            found.append(Variant(task=of_row, known=known))
-    return found
+            forces = know_row(replace(cases, task=of_row), base)
+            variants.append(Variant(task=of_row, forces=forces))
+    return variants
 
 
 def know_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
@@ -76,22 +76,22 @@ def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     cases = gather_cases(task, row, solved)
     if not row.panel_assumed:
         return know_row(cases, know_cases(cases))
-    heads = [one for one in cases.heads if one.panel is None]
+    heads = [state for state in cases.heads if state.panel is None]
     cases = replace(cases, heads=heads, feet=measure_feet(heads))
     base = know_cases(cases)
     largest = _take_least(base.largest, solved.results)
     floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
-    known = know_row(cases, replace(base, largest=largest, floor=floor))
-    return take_off_truss(known)
+    forces = know_row(cases, replace(base, largest=largest, floor=floor))
+    return take_off_truss(forces)
 
 
-def take_off_truss(known: RowForces) -> RowForces:
+def take_off_truss(forces: RowForces) -> RowForces:
     """The row whose guys hold no part of the ridge rope's pull beside its end guy."""
-    end = known.at_end
+    end = forces.at_end
     if end is None:
-        return known
+        return forces
     alone = replace(end, uphill_guy_kN=None, downhill_guy_kN=None)
-    return replace(known, end_guy=alone)
+    return replace(forces, end_guy=alone)
 
 
 def _take_least(
@@ -99,16 +99,18 @@ def _take_least(
 ) -> dict[str, LargestForce]:
     """Largest forces by the section, and of each rope in the panel with the least."""
     panels = [
-        one.panel.variants for one in results if isinstance(one.panel, PanelForces)
+        result.panel.variants
+        for result in results
+        if isinstance(result.panel, PanelForces)
     ]
-    found = {key: one for key, one in largest.items() if key not in PANEL_QUANTITIES}
+    kept = {key: force for key, force in largest.items() if key not in PANEL_QUANTITIES}
     for rope in RopeForce if panels else ():
         most = (max(x.bands[rope].low for x in of) for of in zip(*panels, strict=True))
         least = kilonewton_from_newton(min(most))
-        found[rope] = replace(
+        kept[rope] = replace(
             largest[rope], low_kN=least, value_kN=least, high_kN=least, bound_kN=least
         )
-    return found
+    return kept
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,7 +140,7 @@ def gather_cases(
 ) -> RowCases:
     """Solved cases of a variant of a row; ``feet`` where they are known already."""
     at = replace(task, row=row, solved=solved, extremes=solved.extremes)
-    heads = [head for one in solved.results for head in list_states(row, one)]
+    heads = [head for result in solved.results for head in list_states(row, result)]
     return RowCases(
         task=at,
         heads=heads,
@@ -159,11 +161,13 @@ def know_cases(cases: RowCases) -> RowForces:
         standard=standard,
         law=task.law,
         effects=find_effects(row, standard, site.ranges),
-        largest={k: record_largest(one, task.solved) for k, one in extremes.items()},
+        largest={
+            k: record_largest(extreme, task.solved) for k, extreme in extremes.items()
+        },
         floor=record_floor(floor, row, factors),
         held=say("check.no_case_solved"),
         tilt=find_tilt(
-            row, (one.case.inclination for one in results if one.is_converged)
+            row, (result.case.inclination for result in results if result.is_converged)
         ),
         gap=task.solved.gap,
         panel_gap=_find_failed_panel(row, results),
@@ -175,21 +179,21 @@ def know_row(cases: RowCases, base: RowForces) -> RowForces:
     task, floor = cases.task, cases.floor
     head = floor.head if floor else None
     held = find_held_sideways(task, cases.heads, head)
-    known = replace(base, row=task.row, held=held, sizes={})
-    share, one_way = known.effects.lateral_share, find_one_way_pull(known)
+    forces = replace(base, row=task.row, held=held, sizes={})
+    share, one_way = forces.effects.lateral_share, find_one_way_pull(forces)
     pulls = list_pulls(task, cases.feet, share, head, one_way)
-    known = replace(known, pulls=tuple(pulls))
-    along = find_end_pull(known)
+    forces = replace(forces, pulls=tuple(pulls))
+    along = find_end_pull(forces)
     if along is None:
-        return known
-    factor = known.floor.ridge_rope if known.floor else 1.0
-    load = EndShare(end=known.effects.supports[-1], along=along, factor=factor)
-    return replace(known, end_guy=find_end_guy(task, load, cases.heads))
+        return forces
+    factor = forces.floor.ridge_rope if forces.floor else 1.0
+    load = EndShare(end=forces.effects.supports[-1], along=along, factor=factor)
+    return replace(forces, end_guy=find_end_guy(task, load, cases.heads))
 
 
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
     """Reason why an assumed panel fails, so that a force may be larger."""
-    failed = [one for one in results if isinstance(one.panel, FailedPanel)]
+    failed = [result for result in results if isinstance(result.panel, FailedPanel)]
     if not failed or not row.panel_assumed:
         return None
     return say("panel.assumed_fails", reason=failed[0].lack or "")

@@ -8,7 +8,7 @@ gives a number".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -38,7 +38,7 @@ _OF_STATICS = (*_OF_LAYOUT, _COUNT, _SPLAY, _END)
 def list_layouts(row: NetRow) -> tuple[SupportLayout, ...]:
     """Layouts of a row's support at all corners of what is assumed of them."""
     ends = {key: _list_ends(row, key) for key in _OF_LAYOUT}
-    assumed = {key: found for key, found in ends.items() if found}
+    assumed = {key: values for key, values in ends.items() if values}
     return tuple(
         replace(row.layout, **dict(zip(assumed, corner, strict=True)))
         for corner in product(*assumed.values())
@@ -52,16 +52,16 @@ def list_variants(row: NetRow) -> tuple[NetRow, ...]:
     stand together, the layouts in the order of ``list_layouts``.
     """
     ends = {key: _list_ends(row, key) for key in _OF_STATICS}
-    assumed = {key: found for key, found in ends.items() if found}
-    found: dict[tuple[tuple[str, float], ...], NetRow] = {}
+    assumed = {key: values for key, values in ends.items() if values}
+    variants: dict[tuple[tuple[str, float], ...], NetRow] = {}
     for corner in product(*assumed.values()):
         values = dict(zip(assumed, corner, strict=True))
         if values.get(_COUNT, row.guys.count) < 2:
             values.pop(_SPLAY, None)  # a single guy has none
         key = tuple(values.items())
-        if key not in found:
-            found[key] = place_variant(row, values)
-    return tuple(found.values())
+        if key not in variants:
+            variants[key] = place_variant(row, values)
+    return tuple(variants.values())
 
 
 def place_variant(row: NetRow, values: Mapping[str, float]) -> NetRow:
@@ -80,11 +80,11 @@ def place_variant(row: NetRow, values: Mapping[str, float]) -> NetRow:
         guys=guys,
         row_end=end,
         assumed=tuple(
-            replace(one, low=values[one.key], high=values[one.key])
-            if one.key in values
-            else one
-            for one in row.assumed
-            if one.key != _SPLAY or guys.count > 1
+            replace(assumed, low=values[assumed.key], high=values[assumed.key])
+            if assumed.key in values
+            else assumed
+            for assumed in row.assumed
+            if assumed.key != _SPLAY or guys.count > 1
         ),
     )
 
@@ -92,20 +92,24 @@ def place_variant(row: NetRow, values: Mapping[str, float]) -> NetRow:
 def read_values(row: NetRow) -> dict[str, float]:
     """Values of what is assumed of a variant's statics, by their keys, in SI units."""
     return {
-        one.key: one.low
-        for one in row.assumed
-        if one.key in _OF_STATICS and not one.is_range
+        assumed.key: assumed.low
+        for assumed in row.assumed
+        if assumed.key in _OF_STATICS and not assumed.is_range
     }
 
 
 def describe_variant(row: NetRow) -> AssumedPoint | None:
     """What is assumed of a variant, at which it is; None of a row that is given."""
     shown = {
-        f"{one.key}{_UNITS.get(one.unit, '_m')}" if one.key != _COUNT else _COUNT: (
-            given_degree_from_radian(one.low) if one.unit == "deg" else one.low
+        f"{assumed.key}{_UNITS.get(assumed.unit, '_m')}"
+        if assumed.key != _COUNT
+        else _COUNT: (
+            given_degree_from_radian(assumed.low)
+            if assumed.unit == "deg"
+            else assumed.low
         )
-        for one in row.assumed
-        if one.key in _OF_STATICS and not one.is_range
+        for assumed in row.assumed
+        if assumed.key in _OF_STATICS and not assumed.is_range
     }
     return AssumedPoint(**shown) if shown else None
 
@@ -117,10 +121,10 @@ def is_layout_assumed(row: NetRow) -> bool:
 
 def _list_ends(row: NetRow, key: str) -> tuple[float, ...]:
     """Ends of what is assumed of a column; none where it is given."""
-    found = row.find_assumed(key)
-    if found is None or (key == _END and row.row_end is None):
+    assumed = row.find_assumed(key)
+    if assumed is None or (key == _END and row.row_end is None):
         return ()
-    return tuple(dict.fromkeys((found.low, found.high)))
+    return tuple(dict.fromkeys((assumed.low, assumed.high)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,14 +142,12 @@ class RowToCheck(Basis):
     """One net row under one profile.
 
     ``extremes`` are the largest forces of its solved cases; ``solver`` is None where
-    nothing beyond the solved cases is to be solved; ``on_check`` is called after each
-    check of a force.
+    nothing beyond the solved cases is to be solved.
     """
 
     solved: RowEnvelope
     extremes: Mapping[str, Extreme]
     solver: CaseSolver | None
-    on_check: Callable[[], None] = lambda: None
 
     def count_faults(self) -> int:
         """Faults of the program in the solves so far."""
@@ -193,7 +195,7 @@ def build_row_task(
     layout, *others = list_layouts(row)
     return build_task(
         case,
-        lambda one: build_scene(row, one, law),
+        lambda case_solved: build_scene(row, case_solved, law),
         layout,
         settings,
         row.panels,
@@ -228,18 +230,18 @@ class CaseSolver:
         """
         keys = [(row, case, law.name) for row, case, law in wanted]
         unknown = {
-            key: build_row_task(*one, self._settings)
-            for key, one in zip(keys, wanted, strict=True)
+            key: build_row_task(*asked, self._settings)
+            for key, asked in zip(keys, wanted, strict=True)
             if key not in self._known
         }
         self.count += len(unknown)
         results = run_cases(list(unknown.values()), self._runner)
         self._known |= zip(unknown, results, strict=True)
-        found = [self._known[key] for key in keys]
-        for (row, *_), result in zip(keys, found, strict=True):
+        results_asked = [self._known[key] for key in keys]
+        for (row, *_), result in zip(keys, results_asked, strict=True):
             self._runner.keep_fault(result.fault, row.id)
             self.faults += result.fault is not None
-        return found
+        return results_asked
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

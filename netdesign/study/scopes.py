@@ -16,8 +16,6 @@ from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.assumed import Assumed
 from netdesign.structure.members import (
-    BROUGHT_BY,
-    REPORTED_MEMBERS,
     EndMember,
     Member,
     NetPart,
@@ -37,16 +35,16 @@ class AssumedRecord:
     source: Text
 
 
-def record_assumed(one: Assumed) -> AssumedRecord:
+def record_assumed(assumed: Assumed) -> AssumedRecord:
     """Assumed range of a row as a study has it."""
-    low, high = (None, None) if one.word else one.shown
+    low, high = (None, None) if assumed.word else assumed.shown
     return AssumedRecord(
-        input=one.name,
-        text=one.text,
+        input=assumed.name,
+        text=assumed.text,
         low=low,
         high=high,
-        unit=one.unit,
-        source=one.why,
+        unit=assumed.unit,
+        source=assumed.why,
     )
 
 
@@ -60,7 +58,7 @@ class Scope(StrEnum):
 
 Scopes = frozenset[Scope]
 SCOPES = tuple(Scope)
-_ANCHORS, _STRUCTURE, _SITING = (frozenset((one,)) for one in SCOPES)
+_ANCHORS, _STRUCTURE, _SITING = (frozenset((scope,)) for scope in SCOPES)
 _FORCES, _ALL = _ANCHORS | _STRUCTURE, frozenset(SCOPES)
 
 # In the place of a member: all that a net is built of above the ground.
@@ -107,8 +105,8 @@ def find_scopes(check: Check) -> Scopes:
     if check.id == _PLAUSIBLE:
         asked = (_find_asked(point.message) for point in check.open)
         return frozenset().union(*asked)
-    found = _BY_ID.get(check.id) or _BY_MODE.get(check.mode)
-    return found or _BY_MEMBER.get(check.member, _ALL)
+    scopes = _BY_ID.get(check.id) or _BY_MODE.get(check.mode)
+    return scopes or _BY_MEMBER.get(check.member, _ALL)
 
 
 def is_of_structure(check: Check) -> bool:
@@ -120,13 +118,13 @@ def _find_asked(question: Message) -> Scopes:
     """Scopes that the number of a question bears on; all that is not listed."""
     field = question.arguments.get("field")
     key = field.key if isinstance(field, Message) else ""
-    found = (of for begin, of in _ASKED_OF.items() if key.startswith(begin))
-    return next(found, _ALL)
+    scopes = (of for begin, of in _ASKED_OF.items() if key.startswith(begin))
+    return next(scopes, _ALL)
 
 
 def list_of_scope(checks: Iterable[Check], scope: Scope) -> list[Check]:
     """Checks of one scope, in their order."""
-    return [one for one in checks if scope in find_scopes(one)]
+    return [check for check in checks if scope in find_scopes(check)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,21 +166,23 @@ def sum_up_study(
 
     Of a part of a site nothing is proven, and no row decides that.
     """
-    found = {}
+    summed = {}
     for scope in SCOPES:
         of_rows = {row: scopes[scope] for row, scopes in rows.items()}
         more = [Verdict.NOT_PROVEN] if is_part else []
         worst = min(of_rows, key=lambda row: (of_rows[row].rank, row), default="")
-        verdict = merge_verdicts([*(one.verdict for one in of_rows.values()), *more])
+        verdict = merge_verdicts(
+            [*(record.verdict for record in of_rows.values()), *more]
+        )
         decides = not worst or of_rows[worst].verdict is verdict
-        found[scope] = ScopeRecord(
+        summed[scope] = ScopeRecord(
             verdict=verdict,
             utilisation=of_rows[worst].utilisation if worst else None,
             governing=of_rows[worst].governing if worst else "",
-            assumed=max((one.assumed for one in of_rows.values()), default=0),
+            assumed=max((record.assumed for record in of_rows.values()), default=0),
             row=worst if decides else None,
         )
-    return found
+    return summed
 
 
 def merge_scopes(
@@ -190,7 +190,9 @@ def merge_scopes(
 ) -> Verdict:
     """Worst verdict of the scopes that are asked for; of all where none is named."""
     return merge_verdicts(
-        one.verdict for scope, one in records.items() if not asked or scope in asked
+        record.verdict
+        for scope, record in records.items()
+        if not asked or scope in asked
     )
 
 
@@ -215,10 +217,10 @@ def sum_up_row(
 def _sum_up(
     checks: Sequence[Check], others: Sequence[Verdict], assumed: int
 ) -> ScopeRecord:
-    governing = min(checks, key=lambda one: one.rank, default=None)
+    governing = min(checks, key=lambda each: each.rank, default=None)
     is_by_approval = governing is not None and governing.id == BY_APPROVAL
     return ScopeRecord(
-        verdict=merge_verdicts([*(one.verdict for one in checks), *others]),
+        verdict=merge_verdicts([*(check.verdict for check in checks), *others]),
         utilisation=governing.utilisation if governing else None,
         governing=governing.id if governing else "",
         assumed=0 if is_by_approval else assumed,
@@ -236,8 +238,8 @@ def _ratio(check: Check) -> float:
 
 def find_highest(checks: Sequence[Check]) -> Check | None:
     """Check with the largest utilisation, of those that have one."""
-    known = [check for check in checks if check.used is not None]
-    return max(known, key=_ratio, default=None)
+    rated = [check for check in checks if check.used is not None]
+    return max(rated, key=_ratio, default=None)
 
 
 def find_worst(checks: Sequence[Check]) -> Check | None:
@@ -252,14 +254,6 @@ def find_shown(checks: Sequence[Check]) -> Check | None:
     if governing and governing.used is not None:
         return governing
     return find_highest(checks)
-
-
-def find_shown_member(checks: Sequence[Check]) -> str:
-    """Member whose envelope is shown; "" without any."""
-    shown = find_shown(checks)
-    if shown is None or shown.member in REPORTED_MEMBERS:
-        return shown.member if shown else ""
-    return BROUGHT_BY.get(shown.member, "")
 
 
 def is_far_from_limit(check: Check) -> bool:

@@ -42,7 +42,7 @@ def cut_site(site: Site, row: NetRow) -> Site:
     What is not listed here decides nothing of a row. The notes of a site, its file and
     its project stand beside the rows.
     """
-    monitoring = tuple(one for one in site.monitoring if one.row_id == row.id)
+    monitoring = tuple(series for series in site.monitoring if series.row_id == row.id)
     return Site(
         project=Project(),
         ranges=site.at_row(row).ranges,
@@ -50,13 +50,19 @@ def cut_site(site: Site, row: NetRow) -> Site:
         file_name="",
         sha256="",
         monitoring=monitoring,
-        declared=tuple(one for one in site.declared if one.row_id in ("", row.id)),
+        declared=tuple(
+            declaration
+            for declaration in site.declared
+            if declaration.row_id in ("", row.id)
+        ),
         confirmed=site.confirmed,
         documents=site.documents,
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,
-        uncertain=tuple(one for one in site.uncertain if one.row_id in ("", row.id)),
+        uncertain=tuple(
+            quantity for quantity in site.uncertain if quantity.row_id in ("", row.id)
+        ),
     )
 
 
@@ -101,18 +107,18 @@ def find_rows(
 
     A damaged record is told and left out.
     """
-    found = {}
+    by_row = {}
     for row_id, name in names.items():
         texts = runner.find_row(name.own) or runner.find_row(name.whole)
         if texts is None:
             continue
         try:
             pairs = zip(texts[::2], texts[1::2], range(count), strict=True)
-            found[row_id] = [_restore(text, values) for text, values, _ in pairs]
+            by_row[row_id] = [_restore(text, values) for text, values, _ in pairs]
         except ValueError:
             path = str(runner.store.path if runner.store else "")
             runner.tell(say("store.row_damaged", path=path, name=name.whole[:12]))
-    return found
+    return by_row
 
 
 def keep_rows(
@@ -130,9 +136,9 @@ def keep_rows(
     for row, studies in zip(rows, judged, strict=True):
         name = names.get(row.id)
         if name is not None:
-            parts = [one.written for one in studies]
+            parts = [study.written for study in studies]
             texts = [text for part in parts for text in (part.text, part.values)]
-            proposes = any(check.changes for one in studies for check in one.checks)
+            proposes = any(check.changes for study in studies for check in study.checks)
             runner.keep_row(name.whole if proposes else name.own, texts)
 
 
@@ -147,10 +153,6 @@ def _restore(text: str, values: str) -> RowStudy:
     row = restore_row(text)
     vars(row)["written"] = JsonPart(text, values)
     return row
-
-
-# Of a row, by its ground: the looser the snow, the more a limit takes (20 rows).
-_WORK = {"no-slip": 1, "sliding": 2, "free": 3}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -182,21 +184,19 @@ class RowsJob:
 class JudgedRows:
     """Studies of the rows of a job, and what a worker did for them.
 
-    ``counts`` and ``faults`` are those of the worker's runner, ``checks`` the number of
-    checks of forces that it made, ``told`` what the user should know.
+    ``counts`` and ``faults`` are those of the worker's runner; the user reads the
+    ``messages``.
     """
 
     studies: list[Studies]
     counts: Counts
     faults: dict[Fault, set[str]]
-    checks: int
-    told: list[Message]
+    messages: list[Message]
 
 
 def judge_rows(
     jobs: Sequence[RowsJob],
     runner: Runner,
-    on_check: Callable[[], None],
     on_job: Callable[[RowsJob, list[Studies]], None] = lambda *_: None,
 ) -> dict[str, Studies]:
     """Studies of the rows of all jobs, by their ids.
@@ -207,46 +207,35 @@ def judge_rows(
         Each is done in one process.
     runner : Runner
         Its pool takes the jobs, if it has one; else this process does.
-    on_check : callable
-        Called for each check of a force.
     on_job : callable, optional
         Called with each job once it is done, and with what it found.
     """
-    found: dict[int, list[Studies]] = {}
+    judged_at: dict[int, list[Studies]] = {}
     pool = runner.workers.pool
     if pool is not None and len(jobs) > 1:
-        told: dict[Message, None] = {}  # once, however many workers say it
-        waiting = sorted(enumerate(jobs), key=lambda one: _expect_work(one[1]))
+        shown: dict[Message, None] = {}  # once, however many workers say it
+        waiting = list(enumerate(jobs))[::-1]  # taken from its end
         for place, judged in pool.spread(judge_away, waiting):
             if judged is None:
                 continue
-            found[place] = judged.studies
-            for message in judged.told:
-                if message not in told:
+            judged_at[place] = judged.studies
+            for message in judged.messages:
+                if message not in shown:
                     runner.tell(message)
-            told |= dict.fromkeys(judged.told)
+            shown |= dict.fromkeys(judged.messages)
             runner.take(judged.counts, judged.faults)
-            for _ in range(judged.checks):
-                on_check()
             on_job(jobs[place], judged.studies)
     # Where a worker died, each case is now given to a worker; where it failed, it fails
     # here, by name and place.
     for place, job in enumerate(jobs):
-        if place not in found:
-            found[place] = _judge(job, runner, on_check)
-            on_job(job, found[place])
+        if place not in judged_at:
+            judged_at[place] = _judge(job, runner)
+            on_job(job, judged_at[place])
     return {
         row.id: studies
         for place, job in enumerate(jobs)
-        for row, studies in zip(job.site.rows, found[place], strict=True)
+        for row, studies in zip(job.site.rows, judged_at[place], strict=True)
     }
-
-
-def _expect_work(job: RowsJob) -> int:
-    """Measure of the work in a job; the most is begun first, so that none waits."""
-    return sum(
-        _WORK[row.ground.kind] * max(1, len(row.layers)) for row in job.site.rows
-    )
 
 
 def judge_away(job: RowsJob) -> JudgedRows | None:
@@ -259,41 +248,34 @@ def judge_away(job: RowsJob) -> JudgedRows | None:
 
 
 def _judge_away(job: RowsJob) -> JudgedRows:
-    told: list[Message] = []
-    checks = 0
-
-    def count() -> None:
-        nonlocal checks
-        checks += 1
-
+    messages: list[Message] = []
     with ExitStack() as stack:
         store: CaseStore | None = None
         if job.store is not None:
             try:
-                opened = CaseStore(job.store, told.append, is_open=True)
+                opened = CaseStore(job.store, messages.append, is_open=True)
                 store = stack.enter_context(opened)
             except StoreError as error:
-                told.append(say("store.going_on", reason=error.message))
-        runner = Runner(store=store, tell=told.append)
-        studies = _judge(job, runner, count)
-    for one in chain.from_iterable(studies):
-        _ = one.written  # here, while others judge
+                messages.append(say("store.going_on", reason=error.message))
+        runner = Runner(store=store, tell=messages.append)
+        studies = _judge(job, runner)
+    for row in chain.from_iterable(studies):
+        _ = row.written  # here, while others judge
     return JudgedRows(
         studies=studies,
         counts=runner.counts,
         faults=runner.faults,
-        checks=checks,
-        told=told,
+        messages=messages,
     )
 
 
-def _judge(job: RowsJob, runner: Runner, on_check: Callable[[], None]) -> list[Studies]:
+def _judge(job: RowsJob, runner: Runner) -> list[Studies]:
     solved: Sequence[RowEnvelope] | None = job.solved
     if solved is None:
         solved = search_site(job.site, job.run, runner)
     keep_faults(job.site.rows, solved, runner)
     return [
-        _judge_row(job, row, of_row, runner, on_check)
+        _judge_row(job, row, of_row, runner)
         for row, of_row in zip(job.site.rows, solved, strict=True)
     ]
 
@@ -303,13 +285,12 @@ def _judge_row(
     row: NetRow,
     solved: RowEnvelope,
     runner: Runner,
-    on_check: Callable[[], None],
 ) -> Studies:
     """Studies of a row; profiles share its cases: forces do not depend on them."""
     solver = CaseSolver(job.run.settings, job.run.creep_law, runner)
     site = cut_site(job.site, row)
     return [
-        judge_row(site, row, solved, standard, job.run, solver, on_check)
+        judge_row(site, row, solved, standard, job.run, solver)
         for standard in job.standards
     ]
 
@@ -319,6 +300,6 @@ def keep_faults(
 ) -> None:
     """Tell the runner which net rows the faults in their cases befell."""
     for row, of_row in zip(rows, solved, strict=True):
-        again = (one.confirmed for one in of_row.confirmations)
+        again = (confirmation.confirmed for confirmation in of_row.confirmations)
         for result in (*of_row.results, *again):
             runner.keep_fault(result.fault, row.id)

@@ -62,18 +62,19 @@ def find_held_sideways(
         What the guideline's load brings at the head; None without a floor.
     """
     row, results = task.row, task.solved.results
-    value, splay = task.standard.find(LATERAL_SHARE), row.guys.splay
+    value, splay = task.standard.find(LATERAL_SHARE), find_splay(row)
     if value is None:
         return say("ends.no_lateral_load", value=LATERAL_SHARE)
-    lack = find_lack(row)
-    if lack is not None or splay is None:
-        return lack or say("sideways.no_splay")
+    if isinstance(splay, Message):
+        return splay
     if not heads:
         return describe_gap(results) or say("check.no_case_solved")
-    pulls, places = zip(*((one.head_pull, one.points) for one in heads), strict=True)
+    pulls, places = zip(
+        *((state.head_pull, state.points) for state in heads), strict=True
+    )
     if not is_held_sideways(pulls, places, share=value.value, splay=splay):
         failed = (_fail(head, value.value, splay) for head in heads)
-        reason = next((one for one in failed if one is not None), None)
+        reason = next((message for message in failed if message is not None), None)
         return reason or say("support.not_held_sideways")
     return _record(task, heads, floor, (value.value, splay))
 
@@ -98,8 +99,7 @@ def _record(
     # give way to that of the other: then none is counted on.
     is_assumed = row.panel_assumed or is_layout_assumed(row)
     least = 0.0 if is_assumed else max(0.0, solved - in_guys)
-    places = {id(one.points): one.points for one in heads}
-    uphill, downhill, post = weigh_places(places.values())
+    places = {id(state.points): state.points for state in heads}
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -107,31 +107,32 @@ def _record(
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
         least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
-        uphill_part=uphill,
-        downhill_part=downhill,
-        post_part=post,
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
+        **weigh_places(places.values()),
     )
 
 
-def weigh_places(places: Iterable[SupportPoints]) -> tuple[float, float, float]:
-    """Largest weights of the load along the row in uphill, downhill guy, post [-]."""
-    found = [one for one in map(weigh_splay, places) if one is not None]
-    uphill, downhill, post = (
-        max(float(getattr(one, name)) for one in found)
-        for name in ("largest_uphill", "largest_downhill", "post")
-    )
-    return uphill, downhill, post
+def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
+    """Largest weights of the load along the row in both guys and the post [-].
+
+    By the fields of the record.
+    """
+    weights = [weight for weight in map(weigh_splay, places) if weight is not None]
+    return {
+        "uphill_part": max(float(weight.largest_uphill) for weight in weights),
+        "downhill_part": max(float(weight.largest_downhill) for weight in weights),
+        "post_part": max(float(weight.post) for weight in weights),
+    }
 
 
 def _fail(head: SupportState, share: float, splay: float) -> Message | None:
     """Reason why the load along the row is not held in a state."""
-    found = compute_splayed_head(
+    held = compute_splayed_head(
         head.head_pull, head.points, sideways=share * head.pull, splay=splay
     )
-    if isinstance(found, FailedSupport):
-        return found.reason
+    if isinstance(held, FailedSupport):
+        return held.reason
     return None if weigh_splay(head.points) else say("support.not_held_sideways")
 
 
@@ -189,11 +190,13 @@ def find_end_guy(
         return None
     places = place_over(row, span)
     held = [hold_end_guy(place, guy) for place in places]
-    failed = next((one for one in held if isinstance(one, FailedSupport)), None)
+    failed = next(
+        (support for support in held if isinstance(support, FailedSupport)), None
+    )
     if failed is not None:
         return failed.reason
-    heads = [one for one in held if isinstance(one, HeadForces)]
-    posts = [one.post_compression for one in heads]
+    heads = [support for support in held if isinstance(support, HeadForces)]
+    posts = [head.post_compression for head in heads]
     upright = [place.head[1] / place.post_length for place in places]
     tensions = _share_end(task, guy, load, states)
     if isinstance(tensions, Message):
@@ -201,8 +204,8 @@ def find_end_guy(
     return EndGuyRecord(
         post_part=max(posts),
         base_part=max(a * b for a, b in zip(posts, upright, strict=True)),
-        uphill_part=max(one.uphill_guy_tension for one in heads),
-        downhill_part=max(one.downhill_guy_tension for one in heads),
+        uphill_part=max(head.uphill_guy_tension for head in heads),
+        downhill_part=max(head.downhill_guy_tension for head in heads),
         uphill_guy_kN=tensions and kilonewton_from_newton(tensions[0]),
         downhill_guy_kN=tensions and kilonewton_from_newton(tensions[1]),
     )
@@ -211,8 +214,8 @@ def find_end_guy(
 def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
     """Supports of the row at inclinations of its net from end to end [m]."""
     step = (span.high - span.low) / _INCLINATIONS
-    tried = {span.low + one * step for one in range(_INCLINATIONS)} | {span.high}
-    return [place_row(row, one) for one in sorted(tried)]
+    tried = {span.low + part * step for part in range(_INCLINATIONS)} | {span.high}
+    return [place_row(row, inclination) for inclination in sorted(tried)]
 
 
 def _share_end(
@@ -226,12 +229,16 @@ def _share_end(
     row, splay = task.row, task.row.guys.splay
     if row.row_end is None or row.guys.count < 2 or splay is None:
         return None
-    if all(one.panel is None for one in states):
+    if all(state.panel is None for state in states):
         return None
     keys = (*GUYS, *GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
     extremes = [task.extremes[key] for key in keys if key in task.extremes]
     hidden = 1.0 + max(
-        (one.hidden / one.force.high for one in extremes if one.force.high > 0.0),
+        (
+            extreme.hidden / extreme.force.high
+            for extreme in extremes
+            if extreme.force.high > 0.0
+        ),
         default=0.0,
     )
     scale = load.end.width / row.layout.post_spacing * load.factor * hidden
@@ -254,15 +261,15 @@ def _list_outermost(
     row: NetRow, states: Sequence[SupportState]
 ) -> list[tuple[SupportPoints, Point]]:
     """Pulls on the head that lie outermost among those at one inclination [N]."""
-    turns = [2.0 * math.pi * one / _DIRECTIONS for one in range(_DIRECTIONS)]
+    turns = [2.0 * math.pi * part / _DIRECTIONS for part in range(_DIRECTIONS)]
     pulls: dict[float, list[Point]] = {}
-    for one in states:
-        if one.result is not None:
-            pulls.setdefault(one.result.case.inclination, []).append(one.head_pull)
+    for state in states:
+        if state.result is not None:
+            pulls.setdefault(state.result.case.inclination, []).append(state.head_pull)
     return [
         (place_row(row, inclination), pull)
-        for inclination, found in pulls.items()
-        for pull in {_find_outermost(found, turn) for turn in turns}
+        for inclination, heads in pulls.items()
+        for pull in {_find_outermost(heads, turn) for turn in turns}
     ]
 
 
@@ -281,17 +288,21 @@ def find_rope_factors(
     panels that may be built the one that is pulled least counts. Theory:
     panel/THEORY.md, (P12).
     """
-    solved = [one.panel for one in results if isinstance(one.panel, PanelForces)]
+    solved = [
+        result.panel for result in results if isinstance(result.panel, PanelForces)
+    ]
     foot = floor.find(Member.FOOT_ANCHOR)
     if not solved or floor.head is None or foot is None:
         return 1.0, 1.0
     least = []
-    for variant in zip(*(one.variants for one in solved), strict=True):
-        found = [one.solution for one in variant]
-        feet = [(a.foot[0] + a.mid_foot[0], a.foot[1] + a.mid_foot[1]) for a in found]
-        pulls = (feet, [one.head for one in found])
-        least.append(tuple(max(math.hypot(*one) for one in of) for of in pulls))
-    lower, ridge = (min(one) for one in zip(*least, strict=True))
+    for variant in zip(*(panel.variants for panel in solved), strict=True):
+        solutions = [panel.solution for panel in variant]
+        feet = [
+            (a.foot[0] + a.mid_foot[0], a.foot[1] + a.mid_foot[1]) for a in solutions
+        ]
+        pulls = (feet, [solution.head for solution in solutions])
+        least.append(tuple(max(math.hypot(*pull) for pull in of) for of in pulls))
+    lower, ridge = (min(ratios) for ratios in zip(*least, strict=True))
     return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
 
 
@@ -361,14 +372,14 @@ def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
         *(
             replace(
                 of_section,
-                panel=one,
-                anchors=one.anchors,
-                head_pull=one.anchors.head_pull,
-                foot=one.foot,
-                head=one.head,
-                tension=_add_guys(one.bands, GUYS_BY_PANEL),
+                panel=panel,
+                anchors=panel.anchors,
+                head_pull=panel.anchors.head_pull,
+                foot=panel.foot,
+                head=panel.head,
+                tension=_add_guys(panel.bands, GUYS_BY_PANEL),
             )
-            for one in panels
+            for panel in panels
         ),
     ]
 
@@ -388,8 +399,8 @@ def ask_end_guy(task: Basis) -> Message | None:
     place = row.row_end.guy_from_base if row.row_end else None
     if place is None:
         return None
-    points = [place_row(row, one) for one in (span.low, span.high)]
-    least = min(one.head[0] - one.post_base[0] for one in points)
+    points = [place_row(row, inclination) for inclination in (span.low, span.high)]
+    least = min(point.head[0] - point.post_base[0] for point in points)
     if place <= least + 1e-9:
         return None
     return say("row_end.beyond_head", place=place, most=least)
@@ -397,8 +408,8 @@ def ask_end_guy(task: Basis) -> Message | None:
 
 def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:
     """Largest tangent of the post's tilt at some inclinations of the net [-]."""
-    places = [place_row(row, one) for one in inclinations]
-    tilts = [(one.head[0] - one.post_base[0]) / one.head[1] for one in places]
+    places = [place_row(row, inclination) for inclination in inclinations]
+    tilts = [(place.head[0] - place.post_base[0]) / place.head[1] for place in places]
     return max(map(math.fabs, tilts), default=0.0)
 
 
@@ -416,7 +427,9 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
 def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
     """Largest pull on a head with its error and with what may hide [N]."""
     width = row.layout.post_spacing
-    pulls = [(one.pull, one.head.error * width if one.head else 0.0) for one in heads]
+    pulls = [
+        (state.pull, state.head.error * width if state.head else 0.0) for state in heads
+    ]
     return Band(
         low=max(0.0, *(pull - error for pull, error in pulls)),
         value=max(pull for pull, _ in pulls),
@@ -424,12 +437,10 @@ def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
     )
 
 
-def find_lack(row: NetRow) -> Message | None:
-    """Lack of the workbook, of guys that hold a load along the row."""
+def find_splay(row: NetRow) -> float | Message:
+    """Splay of the guys that hold a load along the row [rad], or why none is held."""
     if row.guys.count < 2:
         return say("sideways.one_guy")
-    if row.guys.splay is None:
-        return say("sideways.no_splay")
-    if row.layout.is_foot_shared:
+    if row.layout.is_foot_shared and row.guys.splay is not None:
         return say("sideways.at_foot")
-    return None
+    return say("sideways.no_splay") if row.guys.splay is None else row.guys.splay

@@ -118,32 +118,34 @@ def size_site(
     """
     slots = [slot for slot in _join_slots(study, solved.site) if slot.open_rows]
     placed = [slot for slot in slots if slot.cell]
-    found: dict[SizedCell, dict[str, float]] = {slot: {} for slot in slots}
+    used_by_type: dict[SizedCell, dict[str, float]] = {slot: {} for slot in slots}
     for number in range(max((len(slot.types) for slot in placed), default=0)):
-        trial = {one: one.types[number] for one in placed if number < len(one.types)}
+        trial = {
+            slot: slot.types[number] for slot in placed if number < len(slot.types)
+        }
         for slot, used in _try_types(trial, solved, study, standard, run, read):
-            found[slot][trial[slot]] = used
-    return [_choose(slot, found[slot]) for slot in slots]
+            used_by_type[slot][trial[slot]] = used
+    return [_choose(slot, used_by_type[slot]) for slot in slots]
 
 
 def _join_slots(study: Study, site: Site) -> list[SizedCell]:
     """Every cell once, though it may hold for several rows."""
     joined: dict[tuple[str, str, str], SizedCell] = {}
-    for row, given in zip(study.rows, site.rows, strict=True):
-        for slot in _list_slots(row, given, site):
+    for row, net_row in zip(study.rows, site.rows, strict=True):
+        for slot in _list_slots(row, net_row, site):
             key = (slot.cell, "" if slot.cell else row.id, slot.column)
             joined[key] = _join(joined[key], slot) if key in joined else slot
     return list(joined.values())
 
 
-def _join(one: SizedCell, other: SizedCell) -> SizedCell:
+def _join(sized: SizedCell, other: SizedCell) -> SizedCell:
     """A cell of two rows: a type has to hold in the ground of both."""
     return replace(
-        one,
-        checks={**one.checks, **other.checks},
-        open_rows=one.open_rows + other.open_rows,
-        types=tuple(kind for kind in one.types if kind in other.types),
-        left_out=max(one.left_out, other.left_out),
+        sized,
+        checks={**sized.checks, **other.checks},
+        open_rows=sized.open_rows + other.open_rows,
+        types=tuple(kind for kind in sized.types if kind in other.types),
+        left_out=max(sized.left_out, other.left_out),
     )
 
 
@@ -152,7 +154,7 @@ def _choose(slot: SizedCell, passing: Mapping[str, float]) -> SizedCell:
     return replace(slot, now=best, used=passing.get(best))
 
 
-def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[SizedCell]:
+def _list_slots(row: RowStudy, net_row: NetRow, site: Site) -> Iterator[SizedCell]:
     """Cells of a row that name a type, with the checks of the type.
 
     A row is open where a check with a force does not pass: where nothing is known of
@@ -162,15 +164,15 @@ def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[SizedCell]
     for check in row.checks:
         column = _find_column(check.member)
         if column is not None:
-            place = _find_cell(given, column, check.position)
+            place = _find_cell(net_row, column, check.position)
             checks.setdefault((column, *place), []).append(check)
-    for (column, cell, was), members in checks.items():
+    for (column, cell, was), of_cell in checks.items():
         is_open = any(
-            one.verdict in _OPEN and one.demand_kN is not None for one in members
+            check.verdict in _OPEN and check.demand_kN is not None for check in of_cell
         )
-        holding = _compare_grounds(site, given, column, was)
+        holding = _compare_grounds(site, net_row, column, was)
         yield SizedCell(
-            checks={row.id: tuple(one.id for one in members)},
+            checks={row.id: tuple(check.id for check in of_cell)},
             open_rows=(row.id,) if is_open else (),
             column=column,
             cell=cell,
@@ -186,15 +188,15 @@ def _compare_grounds(
     """Other types of a column's sheet: whether each holds in the ground of the row."""
     ground = row.ground_type or find_ground(site, was)
     return {
-        one.type_id: holds_in_ground(column, ground, one)
-        for one in site.catalogue
-        if one.mode == _MODES[column] and one.type_id != was
+        kind.type_id: holds_in_ground(column, ground, kind)
+        for kind in site.catalogue
+        if kind.mode == _MODES[column] and kind.type_id != was
     }
 
 
 def _find_column(member: str) -> Column | None:
     """Column that names the type of a member; None of the net."""
-    column = next((one for one in _MODES if one == member), None)
+    column = next((column for column in _MODES if column == member), None)
     return NAMED_BY.get(column, column) if isinstance(column, Member) else column
 
 
@@ -249,7 +251,7 @@ def _try_types(
             if row_id in tried  # its forces are known with this type
         ]
         if len(used) == len(slot.checks) and None not in used:
-            yield slot, max(one for one in used if one is not None)
+            yield slot, max(value for value in used if value is not None)
 
 
 def _judge_again(
@@ -271,8 +273,8 @@ def _judge_again(
             row, site.ranges, by_id[row.id][0], solved.site.ranges, run
         )
     ]
-    known = [by_id[row.id][1] for row in rows]
-    return rows, judge_site(replace(site, rows=tuple(rows)), known, standard, run)
+    envelopes = [by_id[row.id][1] for row in rows]
+    return rows, judge_site(replace(site, rows=tuple(rows)), envelopes, standard, run)
 
 
 def _rate(
@@ -287,19 +289,19 @@ def _rate(
     may bring checks of its own: a bar bends where a rope anchor turns. One of whose
     ground nobody says the strength is none in the place of one where somebody does.
     """
-    lost = set(ids) - {one.id for one in tried}
+    lost = set(ids) - {check.id for check in tried}
     if any("wedge" in name for name in lost):
         return None
-    declared = {one.id for one in built if one.verdict is Verdict.DECLARED}
-    places = {one.position for one in tried if one.id in ids}
+    declared = {check.id for check in built if check.verdict is Verdict.DECLARED}
+    places = {check.position for check in tried if check.id in ids}
     used = 0.0
-    for one in tried:
-        is_of_slot = _find_column(one.member) == column and one.position in places
-        if one.id not in ids and not is_of_slot:
+    for check in tried:
+        is_of_slot = _find_column(check.member) == column and check.position in places
+        if check.id not in ids and not is_of_slot:
             continue
-        if one.verdict is Verdict.DECLARED and one.id in declared:
+        if check.verdict is Verdict.DECLARED and check.id in declared:
             continue
-        if one.verdict is not Verdict.PASS:
+        if check.verdict is not Verdict.PASS:
             return None
-        used = max(used, one.utilisation_band[1] or 0.0)
+        used = max(used, check.utilisation_band[1] or 0.0)
     return used

@@ -72,10 +72,10 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
     most : int or None
         Largest number of lines, of which the last then counts the others; None: all.
     """
-    points = [one for row in study.rows for one in _list_points(row)]
+    points = [point for row in study.rows for point in _list_points(row)]
     lines: dict[tuple[str, ...], list[_Point]] = {}
-    for one in points:
-        lines.setdefault((one.who, *one.key), []).append(one)
+    for point in points:
+        lines.setdefault((point.who, *point.key), []).append(point)
     ranked = sorted(lines.values(), key=_rank)
     every = [_sum_up(group) for group in ranked]
     every += [
@@ -92,15 +92,15 @@ def _shorten(
 ) -> tuple[ToDo, ...]:
     """Lines of which the last one counts those that have no room."""
     kept, rest = lines[: most - 1], lines[most - 1 :]
-    ids = tuple(row for row in order if any(row in one.rows for one in rest))
+    ids = tuple(row for row in order if any(row in line.rows for line in rest))
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*kept, more)
 
 
 def _rank(group: Sequence[_Point]) -> tuple[int, float]:
     """Order of lines: by the worst verdict, then by the largest utilisation."""
-    worst = min(SEVERITY.index(one.check.verdict) for one in group)
-    return worst, -max(one.check.used or 0.0 for one in group)
+    worst = min(SEVERITY.index(point.check.verdict) for point in group)
+    return worst, -max(point.check.used or 0.0 for point in group)
 
 
 def _list_points(row: RowStudy) -> Iterator[_Point]:
@@ -109,7 +109,7 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
     One of each that fails, or whose interval spans the limit. Of a structure of which
     nothing is given, that is the point.
     """
-    is_bare = any(one.member == STRUCTURE and one.open for one in row.checks)
+    is_bare = any(check.member == STRUCTURE and check.open for check in row.checks)
     for check in row.checks:
         is_part = check.member != STRUCTURE and is_of_structure(check)
         if is_bare and is_part and check.verdict is Verdict.NOT_PROVEN:
@@ -126,7 +126,7 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
 
 def _list_open(row: str, check: Check) -> Iterator[_Point]:
     who = _OF_MODE.get(check.mode, "office")
-    proofs = [one for one in check.open if one.proof is not None]
+    proofs = [point for point in check.open if point.proof is not None]
     for point in proofs or check.open:
         key: tuple[str, ...]
         if point.kind is OpenKind.ASSUMED_DECIDES:
@@ -161,44 +161,48 @@ def _name_deciding(message: Message) -> str:
 
 def _sum_up(group: Sequence[_Point]) -> ToDo:
     """Line of some points of one key: its number is that of the worst check."""
-    worst = max(group, key=lambda one: (one.check.used or 0.0, _find_demand(one)))
+    worst = max(group, key=lambda each: (each.check.used or 0.0, _find_demand(each)))
     return ToDo(
         who=worst.who,
         text=_describe(worst, group),
-        rows=tuple(dict.fromkeys(one.row for one in group)),
+        rows=tuple(dict.fromkeys(point.row for point in group)),
     )
 
 
-def _find_demand(one: _Point) -> float:
-    return one.check.read_band("E_d")[1] or 0.0
+def _find_demand(point: _Point) -> float:
+    return point.check.read_band("E_d")[1] or 0.0
 
 
 def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     check, kind = worst.check, worst.key[0]
-    checks = _name_checks(one.check for one in group)
+    checks = _name_checks(point.check for point in group)
     if kind == "fails" and check.verdict is Verdict.FAIL:
         return _describe_failed(check, checks)
     if kind == "needs":
-        return _describe_needed([one.check for one in group])
+        return _describe_needed([point.check for point in group])
     if kind == "links":
-        types = dict.fromkeys(one.check.resistance_type for one in group)
-        named = tuple(as_given(one) for one in types if one)
+        types = dict.fromkeys(point.check.resistance_type for point in group)
+        named = tuple(as_given(type_id) for type_id in types if type_id)
         return say("to_do.links", types=named or (name_member(check.member),))
     if kind == "proof":
         return say("to_do.proof", checks=checks, proof=worst.key[1])
     if worst.point is None:
         if check.is_of_force:
             return say("to_do.spans", checks=checks)
-        return say(
-            "to_do.open", checks=checks, reason=shorten_reason(check.plain_reason)
-        )
+        return _describe_open(checks, shorten_reason(check.plain_reason))
     if kind == "lowers":
-        told = (x.point.message.arguments["name"] for x in group if x.point)
-        names = (name for name in told if isinstance(name, Message))
+        lowered = (x.point.message.arguments["name"] for x in group if x.point)
+        names = (name for name in lowered if isinstance(name, Message))
         named = tuple(dict.fromkeys(names))
         if len(named) > 1:
-            return say("to_do.lowers", names=named, reason=worst.point.message)
-    return say("to_do.open", checks=checks, reason=worst.point.message)
+            return say("to_do.lowers", names=named)
+    return _describe_open(checks, worst.point.message)
+
+
+def _describe_open(checks: tuple[Message, ...], reason: Message) -> Message:
+    """Reason, behind the names of its checks where they are few."""
+    is_few = len(checks) <= _FEW
+    return say("to_do.open", checks=checks, reason=reason) if is_few else reason
 
 
 def shorten_reason(reason: Message) -> Message:
@@ -211,28 +215,30 @@ def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
     """Force beside resistance, and the type that does, where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
-        reason = shorten_reason(check.plain_reason)
-        return say("to_do.open", checks=checks, reason=reason)
-    told = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
-    other = next((one for one in check.changes if one.sense == "has"), None)
-    return say("to_do.with_type", what=told, type=other.quantity) if other else told
+        return _describe_open(checks, shorten_reason(check.plain_reason))
+    failed = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
+    other = next((each for each in check.changes if each.sense == "has"), None)
+    if other is None:
+        return failed
+    mode = name_mode(check.mode)
+    return say("to_do.with_type", what=failed, mode=mode, type=other.quantity)
 
 
 def _describe_needed(checks: Sequence[Check]) -> Message:
     """What types, or members without one, do not say; the least that each needs."""
     needed: dict[str, float] = {}
-    for one in checks:
-        name = one.resistance_type or one.member
-        needed[name] = max(needed.get(name, 0.0), one.needed_kN or 0.0)
-    members = {one.member for one in checks if not one.resistance_type}
+    for check in checks:
+        name = check.resistance_type or check.member
+        needed[name] = max(needed.get(name, 0.0), check.needed_kN or 0.0)
+    members = {check.member for check in checks if not check.resistance_type}
     named = {
-        one: name_member(one) if one in members else as_given(one) for one in needed
+        key: name_member(key) if key in members else as_given(key) for key in needed
     }
     of = (
-        say("to_do.least", of=named[one], least=least) if least else named[one]
-        for one, least in needed.items()
+        say("to_do.least", of=named[key], least=least) if least else named[key]
+        for key, least in needed.items()
     )
-    modes = dict.fromkeys(name_mode(one.mode) for one in checks)
+    modes = dict.fromkeys(name_mode(check.mode) for check in checks)
     return say("to_do.needs", what=tuple(modes), of=tuple(of))
 
 
@@ -242,7 +248,9 @@ _FEW = 2  # checks or members that a line names
 def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
     """Titles of one or two checks of a line; of more their members, each once."""
     every = list(checks)
-    titles = list(dict.fromkeys(name_check(one.member, one.mode) for one in every))
+    titles = list(
+        dict.fromkeys(name_check(check.member, check.mode) for check in every)
+    )
     if len(titles) <= _FEW:
         return tuple(titles)
     members = list(dict.fromkeys(name_member(check.member) for check in every))
@@ -253,8 +261,8 @@ def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
 
 def _list_unmet(study: Study) -> dict[Message, list[str]]:
     """Laws that the drawn cases do not obey, with their rows."""
-    found: dict[Message, list[str]] = {}
+    unmet: dict[Message, list[str]] = {}
     for row in study.rows:
         for reason in row.unmet:
-            found.setdefault(reason, []).append(row.id)
-    return found
+            unmet.setdefault(reason, []).append(row.id)
+    return unmet

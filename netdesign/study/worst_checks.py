@@ -36,9 +36,9 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
 
     Each is that of the variant of the row on which it is worst.
     """
-    known = variants[0]
-    effects, row = known.effects, known.row
-    at_end, not_checked = effects.find_support("edge"), known.standard.not_checked
+    forces = variants[0]
+    effects, row = forces.effects, forces.row
+    at_end, not_checked = effects.find_support("edge"), forces.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
     parts = () if "mesh" in not_checked else row.net_parts
     of_supports: dict[str, list[MemberCheck]] = {
@@ -48,7 +48,7 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
         for width in effects.supports
     }
     judged = [
-        *_place_second(known, of_supports),
+        *_place_second(forces, of_supports),
         *_judge_at(variants, at_end, (*parts, *held)),
     ]
     gap = find_open(row, judged)
@@ -59,7 +59,7 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
         for width in effects.supports
     }
     of_end = _judge_directions(variants, held, at_end, gap)
-    return [*judged, *_place_second(known, turned), *of_end]
+    return [*judged, *_place_second(forces, turned), *of_end]
 
 
 def _judge_at(
@@ -71,13 +71,15 @@ def _judge_at(
 
     Those of the directions come once these are known.
     """
-    for given in resistances:
-        if given.mode == "direction" or not _concerns(variants, given):
+    for resistance in resistances:
+        if resistance.mode == "direction" or not _concerns(variants, resistance):
             continue
-        yield _judge_worst(variants, width, given)
-        is_rope = given.mode in ("tendon", "rope") and given.member in CONNECTED
+        yield _judge_worst(variants, width, resistance)
+        is_rope = (
+            resistance.mode in ("tendon", "rope") and resistance.member in CONNECTED
+        )
         if is_rope and "connections" not in variants[0].standard.not_checked:
-            yield _judge_worst(variants, width, given, _find_chain)
+            yield _judge_worst(variants, width, resistance, _find_chain)
 
 
 # Members whose forces and resistances are the same on every variant.
@@ -96,7 +98,9 @@ def list_apart(
         return variants[:1]
     if member in _OF_END_GUY or (member in PUSHED and width.position == "edge"):
         return variants
-    apart = {(one.row.layout, one.row.guys): one for one in reversed(variants)}
+    apart = {
+        (forces.row.layout, forces.row.guys): forces for forces in reversed(variants)
+    }
     return [*apart.values()]
 
 
@@ -104,31 +108,33 @@ _Judge = Callable[[RowForces], MemberCheck]
 _Find = Callable[[RowForces, Resistance, LoadedWidth], Resistance]
 
 
-def _keep(_: RowForces, given: Resistance, __: LoadedWidth) -> Resistance:
-    return given
+def _keep(_: RowForces, resistance: Resistance, __: LoadedWidth) -> Resistance:
+    return resistance
 
 
 def _judge_worst(
     variants: Sequence[RowForces],
     width: LoadedWidth,
-    given: Resistance,
+    resistance: Resistance,
     find: _Find = _keep,
 ) -> MemberCheck:
     """Check of a member where it is worst; ``find`` its resistance on a variant."""
 
-    def judge(known: RowForces) -> MemberCheck:
-        return judge_member(known, find(known, given, width), width)
+    def judge(forces: RowForces) -> MemberCheck:
+        return judge_member(forces, find(forces, resistance, width), width)
 
-    apart = list_apart(variants, given.member, width)
+    apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
         return replace(judge(apart[0]), again=judge)
     groups: dict[object, _Group] = {}
-    for known in apart:
-        rating = rate_member(known, find(known, given, width), width)
-        key = rating.group if rating else id(known)
-        one = _Group(known=known, best=known, rating=rating)
-        groups[key] = groups[key].add(one) if key in groups else one
-    judged = [(one.ease(judge(one.known)), one.best) for one in groups.values()]
+    for forces in apart:
+        rating = rate_member(forces, find(forces, resistance, width), width)
+        key = rating.group if rating else id(forces)
+        alone = _Group(forces=forces, best=forces, rating=rating)
+        groups[key] = groups[key].add(alone) if key in groups else alone
+    judged = [
+        (group.ease(judge(group.forces)), group.best) for group in groups.values()
+    ]
     return _compare(judged, judge)
 
 
@@ -136,12 +142,12 @@ def _compare(
     judged: Sequence[tuple[MemberCheck, RowForces]], judge: _Judge
 ) -> MemberCheck:
     """Worst of some checks, each with its best variant; eased to the best of all."""
-    worst = take_worst(one for one, _ in judged)
+    worst = take_worst(member_check for member_check, _ in judged)
     least, best = min(
-        ((_find_least(one.check), known) for one, known in judged),
-        key=lambda one: one[0],
+        ((_find_least(member_check.check), forces) for member_check, forces in judged),
+        key=lambda each: each[0],
     )
-    check = replace(worst.check.ease(least), assumed=describe_variant(worst.known.row))
+    check = replace(worst.check.ease(least), assumed=describe_variant(worst.forces.row))
     return replace(worst, check=check, best=best, again=judge)
 
 
@@ -159,7 +165,7 @@ class _Group:
     ``low`` is the least force over resistance of any of them.
     """
 
-    known: RowForces
+    forces: RowForces
     best: RowForces
     rating: Rating | None
     low: float = math.inf
@@ -168,9 +174,11 @@ class _Group:
         """The group with another variant."""
         if self.rating is None or other.rating is None:
             return self
-        most = max(self, other, key=lambda one: one.rating.high if one.rating else 0.0)
+        most = max(
+            self, other, key=lambda each: each.rating.high if each.rating else 0.0
+        )
         low = min(self.low, self.rating.low)
-        best = other.known if other.rating.low < low else self.best
+        best = other.forces if other.rating.low < low else self.best
         return replace(most, best=best, low=min(low, other.rating.low))
 
     def ease(self, judged: MemberCheck) -> MemberCheck:
@@ -187,9 +195,9 @@ def take_worst(judged: Iterable[MemberCheck]) -> MemberCheck:
     return max(judged, key=_weigh)
 
 
-def _weigh(one: MemberCheck) -> tuple[int, float, float]:
-    check = one.check
-    used = math.inf if check.is_unbounded else one.ratio
+def _weigh(member_check: MemberCheck) -> tuple[int, float, float]:
+    check = member_check.check
+    used = math.inf if check.is_unbounded else member_check.ratio
     return WORSE.index(check.verdict), used, check.read_band("E_d")[1] or 0.0
 
 
@@ -200,41 +208,45 @@ def _judge_directions(
     gap: Message | None,
 ) -> list[MemberCheck]:
     """Checks of the angles of rope anchors of one support, and of blocks that hold."""
-    found = []
-    for given in resistances:
-        if given.mode == "direction":
+    members = []
+    for resistance in resistances:
+        if resistance.mode == "direction":
 
-            def judge(known: RowForces, given: Resistance = given) -> MemberCheck:
-                return _judge_direction(known, given, width, gap)
+            def judge(
+                forces: RowForces, resistance: Resistance = resistance
+            ) -> MemberCheck:
+                return _judge_direction(forces, resistance, width, gap)
 
-            apart = list_apart(variants, given.member, width)
-            judged = [(judge(one), one) for one in apart]
-            if may_bend(given):  # where its block does not hold, it bends
+            apart = list_apart(variants, resistance.member, width)
+            judged = [(judge(forces), forces) for forces in apart]
+            if may_bend(resistance):  # where its block does not hold, it bends
                 judged = [x for x in judged if x[0].check.verdict is Verdict.PASS]
             if judged:
-                found.append(_compare(judged, judge))
-    return found
+                members.append(_compare(judged, judge))
+    return members
 
 
 def _judge_direction(
-    known: RowForces, given: Resistance, width: LoadedWidth, gap: Message | None
+    forces: RowForces, resistance: Resistance, width: LoadedWidth, gap: Message | None
 ) -> MemberCheck:
     """Check of a rope anchor's angle; beyond what it turns by, of its head."""
-    pull = find_pull(known.pulls, given.member, width.position)
-    check = check_direction(pull, known.standard, gap) if pull else None
+    pull = find_pull(forces.pulls, resistance.member, width.position)
+    check = check_direction(pull, forces.standard, gap) if pull else None
     if check is None:
-        return judge_member(known, given, width)
+        return judge_member(forces, resistance, width)
     check = replace(
         check, id=check.id + AT_SUPPORT[width.position], position=width.position
     )
-    return MemberCheck(known=known, given=given, width=width, check=check, pull=pull)
+    return MemberCheck(
+        forces=forces, resistance=resistance, width=width, check=check, pull=pull
+    )
 
 
 _AS_INSIDE = 1.01  # times the utilisation inside the row: the second support is alike
 
 
 def _place_second(
-    known: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
+    forces: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
 ) -> list[MemberCheck]:
     """Checks of all supports, those of the second one where they can govern.
 
@@ -242,54 +254,74 @@ def _place_second(
     inside; where the end has the same type with more load, that check says all.
     """
     inside, at_end = of_supports["intermediate"], of_supports.get("edge", ())
-    kept, ends = ({one.name: one for one in each} for each in (inside, at_end))
+    kept, ends = (
+        {member_check.name: member_check for member_check in each}
+        for each in (inside, at_end)
+    )
     beside = []
-    for one in of_supports.get("second", ()):
-        within = kept.get(one.name, one)  # none of a block that does not hold inside
-        if _is_no_worse(one, within) or _is_covered(known, one, ends.get(one.name)):
+    for member_check in of_supports.get("second", ()):
+        # no check inside of a block that does not hold there
+        within = kept.get(member_check.name, member_check)
+        if _is_no_worse(member_check, within) or _is_covered(
+            forces, member_check, ends.get(member_check.name)
+        ):
             continue
-        if 0.0 < _rate_load(one) <= _AS_INSIDE * _rate_load(within):
-            as_inside = replace(one.check, id=within.check.id, position="intermediate")
-            kept[one.name] = replace(one, check=as_inside)
+        if 0.0 < _rate_load(member_check) <= _AS_INSIDE * _rate_load(within):
+            as_inside = replace(
+                member_check.check, id=within.check.id, position="intermediate"
+            )
+            kept[member_check.name] = replace(member_check, check=as_inside)
         else:
-            beside.append(one)
+            beside.append(member_check)
     return [*kept.values(), *beside, *at_end]
 
 
-def _rate_load(one: MemberCheck) -> float:
+def _rate_load(member_check: MemberCheck) -> float:
     """Upper end of the utilisation, or of the force where no resistance is known."""
-    return one.ratio if one.ratio >= 0.0 else one.check.read_band("E_d")[1] or 0.0
+    return (
+        member_check.ratio
+        if member_check.ratio >= 0.0
+        else member_check.check.read_band("E_d")[1] or 0.0
+    )
 
 
-def _is_no_worse(one: MemberCheck, other: MemberCheck) -> bool:
+def _is_no_worse(member_check: MemberCheck, other: MemberCheck) -> bool:
     """Neither more used nor loaded nor of a worse verdict."""
-    verdicts = [WORSE.index(each.check.verdict) for each in (one, other)]
-    loads = [each.check.read_band("E_d")[1] or 0.0 for each in (one, other)]
-    is_less = one.ratio <= other.ratio and loads[0] <= loads[1]
+    verdicts = [WORSE.index(each.check.verdict) for each in (member_check, other)]
+    loads = [each.check.read_band("E_d")[1] or 0.0 for each in (member_check, other)]
+    is_less = member_check.ratio <= other.ratio and loads[0] <= loads[1]
     return is_less and verdicts[0] <= verdicts[1]
 
 
-def _is_covered(known: RowForces, one: MemberCheck, end: MemberCheck | None) -> bool:
+def _is_covered(
+    forces: RowForces, member_check: MemberCheck, end: MemberCheck | None
+) -> bool:
     """The end's check of the same type is worse; no document for it alone."""
-    if end is None or not end.given.type_id or end.given.type_id != one.given.type_id:
+    if (
+        end is None
+        or not end.resistance.type_id
+        or end.resistance.type_id != member_check.resistance.type_id
+    ):
         return False
     at_end, here = (
-        known.site.find_declaration(known.row, *one.name, place)
+        forces.site.find_declaration(forces.row, *member_check.name, place)
         for place in ("edge", "second")
     )
-    return at_end == here and _is_no_worse(one, end)
+    return at_end == here and _is_no_worse(member_check, end)
 
 
-def _concerns(variants: Sequence[RowForces], given: Resistance) -> bool:
+def _concerns(variants: Sequence[RowForces], resistance: Resistance) -> bool:
     """The check is one of this row and profile: some case lifts a foot that is held."""
-    if given.member == Member.POST_FOOT:
-        return any(lifts(one.largest.values(), one.floor) for one in variants)
+    if resistance.member == Member.POST_FOOT:
+        return any(lifts(forces.largest.values(), forces.floor) for forces in variants)
     not_checked = variants[0].standard.not_checked
-    return given.mode != "wedge" or "anchor_ground" not in not_checked
+    return resistance.mode != "wedge" or "anchor_ground" not in not_checked
 
 
-def _find_chain(known: RowForces, given: Resistance, width: LoadedWidth) -> Resistance:
+def _find_chain(
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
+) -> Resistance:
     """Resistance of the links between a rope and its anchor."""
-    anchor = CONNECTED[given.member]
-    pull = find_pull(known.pulls, anchor, width.position) if anchor else None
-    return connect(given, known.site.links, pull, known.standard)
+    anchor = CONNECTED[resistance.member]
+    pull = find_pull(forces.pulls, anchor, width.position) if anchor else None
+    return connect(resistance, forces.site.links, pull, forces.standard)

@@ -33,8 +33,8 @@ LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 _NO_BREAK = "\u00a0"
 _MARKS = {
-    one: str.maketrans({".": ",", ",": _NO_BREAK, "%": f"{_NO_BREAK}%"})
-    for one in ("fr", "de")
+    language: str.maketrans({".": ",", ",": _NO_BREAK, "%": f"{_NO_BREAK}%"})
+    for language in ("fr", "de")
 }
 _DAY = re.compile(r"(\d{4})-(0[1-9]|1[0-2])-(\d\d)")
 _MONTHS = (
@@ -86,10 +86,10 @@ def write_day(day: str, language: Language) -> str:
     >>> write_day("2018-02-01", "de"), write_day("2018-02-17", "fr").split()
     ('01.02.2018', ['17', 'février', '2018'])
     """
-    found = _DAY.fullmatch(day)
-    if found is None or language == "en":
+    parts = _DAY.fullmatch(day)
+    if parts is None or language == "en":
         return day
-    year, month, number = found.groups()
+    year, month, number = parts.groups()
     if language == "de":
         return f"{number}.{month}.{year}"
     first = f"{int(number)}er" if number == "01" else f"{int(number)}"
@@ -107,7 +107,7 @@ _BEFORE_SIGN = re.compile(r" (?=[:;?!%»])|(?<=«) ")  # French sets these apart
 
 
 def render(message: Message | str, language: Language) -> str:
-    """Text of a message in a language; somebody else's words stay.
+    """Text of a message in a language; a plain text stays as it is.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def _convert(value: Any, conversion: str, language: Language) -> Any:
 
 
 def _fill(value: Any, form: str, language: Language) -> str:
-    """An argument as text: words of ours in the language of the whole."""
+    """Argument as text; a message among them in the language of the whole."""
     if form == _CLAUSE:
         return _fill(value, "", language).rstrip(".")
     if isinstance(value, str):
@@ -178,14 +178,15 @@ def _join(values: tuple[Any, ...], form: str, language: Language) -> str:
     """List as text; French sets a semicolon between its parts apart."""
     inner = _DATE if form.startswith(_DATE) else ""
     joint = form.removeprefix(inner) or ", "
-    parts = (_fill(one, inner, language) for one in values)
+    parts = (_fill(value, inner, language) for value in values)
     return (_set_apart(joint) if language == "fr" else joint).join(parts)
 
 
-def _count(count: float, one: str, many: str, *, language: Language) -> str:
+def _count(count: float, singular: str, plural: str, *, language: Language) -> str:
     """Noun with its number: French has the singular for none, too."""
-    is_one = count == 1 or (count == 0 and language == "fr")
-    return (one if is_one else many).replace("#", _fill(count, "", language))
+    is_singular = count == 1 or (count == 0 and language == "fr")
+    noun = singular if is_singular else plural
+    return noun.replace("#", _fill(count, "", language))
 
 
 def load_texts(language: Language) -> Mapping[str, str]:
@@ -223,12 +224,12 @@ class _Texts(Mapping[str, str]):
 def _find_tables(language: Language) -> Mapping[str, tuple[str, ...]]:
     """Contents of the files in which a table stands, by its first name."""
     folder = files(__package__) / language
-    found: dict[str, tuple[str, ...]] = {}
-    for file in sorted(folder.iterdir(), key=lambda one: one.name):
+    tables: dict[str, tuple[str, ...]] = {}
+    for file in sorted(folder.iterdir(), key=lambda file: file.name):
         content = file.read_text(encoding="utf-8")
         for table in dict.fromkeys(_TABLE.findall(content)):
-            found[table] = (*found.get(table, ()), content)
-    return MappingProxyType(found)
+            tables[table] = (*tables.get(table, ()), content)
+    return MappingProxyType(tables)
 
 
 @cache

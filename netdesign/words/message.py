@@ -1,4 +1,4 @@
-"""A text as data: its key and its arguments, until somebody reads it."""
+"""A text as data: key and arguments, rendered in a language where it is shown."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Text to be told, in no language yet.
+    """Text for the user, in no language yet.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Message:
     )
 
     def __str__(self) -> str:
-        """The text in English, for logs and for whoever uses the package in Python."""
+        """Text in English, for logs and for use from Python."""
         from netdesign.words.catalogue import render
 
         return render(self, "en")
@@ -71,8 +71,8 @@ def group_reasons(reasons: Iterable[Message]) -> tuple[Message, ...]:
         ``12 times: no steady state was found ...``; one that stands alone as it is.
     """
     kinds: dict[_Kind, list[Message]] = {}
-    for one in sorted(reasons, key=lambda one: (str(one), repr(one))):
-        kinds.setdefault(_find_kind(one), []).append(one)
+    for reason in sorted(reasons, key=lambda reason: (str(reason), repr(reason))):
+        kinds.setdefault(_find_kind(reason), []).append(reason)
     grouped = sorted(kinds.values(), key=lambda alike: -len(alike))
     return tuple(
         say("text.times", count=len(alike), reason=alike[0])
@@ -86,12 +86,12 @@ _Kind = tuple[Any, ...]
 
 
 def _find_kind(message: Message) -> _Kind:
-    """Keys of a message and of those in its gaps; of somebody's own words, these."""
+    """Keys of a message and of those in its gaps; of a plain text, the text."""
     if message.key == "text.as_given":
         return (message.arguments["text"],)
-    given = [message.arguments[name] for name in sorted(message.arguments)]
-    parts = [one if isinstance(one, tuple) else (one,) for one in given]
-    inner = (one for part in parts for one in part if isinstance(one, Message))
+    arguments = [message.arguments[name] for name in sorted(message.arguments)]
+    parts = [x if isinstance(x, tuple) else (x,) for x in arguments]
+    inner = (x for part in parts for x in part if isinstance(x, Message))
     return (message.key, *map(_find_kind, inner))
 
 
@@ -104,7 +104,7 @@ def dump(message: Message) -> dict[str, Any]:
 def _dump(value: Argument) -> Any:
     if isinstance(value, Message):
         return dump(value)
-    return [_dump(one) for one in value] if isinstance(value, tuple) else value
+    return [_dump(part) for part in value] if isinstance(value, tuple) else value
 
 
 def restore(plain: Mapping[str, Any]) -> Message:
@@ -115,15 +115,15 @@ def restore(plain: Mapping[str, Any]) -> Message:
     KeyError, TypeError, AttributeError
         If they are none.
     """
-    given = plain["arguments"].items()
-    return say(str(plain["key"]), **{name: _read(value) for name, value in given})
+    arguments = plain["arguments"].items()
+    return say(str(plain["key"]), **{name: _read(value) for name, value in arguments})
 
 
 def _read(value: Any) -> Argument:
     if isinstance(value, Mapping):
         return restore(value)
     if isinstance(value, list):
-        return tuple(_read(one) for one in value)  # type: ignore[misc]
+        return tuple(_read(part) for part in value)  # type: ignore[misc]
     return value  # type: ignore[no-any-return]
 
 

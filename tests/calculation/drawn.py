@@ -8,8 +8,8 @@ from netdesign.calculation.quantity import (
     apply,
     at_value,
     find_dimension,
-    given,
     largest,
+    leaf,
     smallest,
 )
 from netdesign.calculation.steps import list_named
@@ -51,7 +51,7 @@ def draw_leaf(random, place, has_bands):
     if not has_bands or random.random() < 0.4:
         ends = [ends[1]] * 3
     band = (ends[0], ends[2])
-    return given(f"a_{place}", ends[1], unit, f"Nets!{'ABCDEFG'[place]}2", band=band)
+    return leaf(f"a_{place}", ends[1], unit, f"Nets!{'ABCDEFG'[place]}2", band=band)
 
 
 def operate(random, known, *, has_values):

@@ -2,7 +2,7 @@
 
 import ast
 
-from netdesign.calculation.quantity import apply, constant, given
+from netdesign.calculation.quantity import apply, constant, leaf
 
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
@@ -21,7 +21,7 @@ def evaluate(steps):
 
 def read_leaf(step):
     low, value, high = step.ends
-    return given(
+    return leaf(
         *(step.symbol, value, step.unit, step.source),
         kind=step.kind,
         band=None if low is None or high is None else (low, high),

@@ -9,13 +9,13 @@ from netdesign.calculation.quantity import (
     at_value,
     cos,
     largest,
+    leaf,
     sin,
     smallest,
     sqrt,
     strip,
     tan,
 )
-from netdesign.calculation.quantity import given as leaf
 from netdesign.outcome import ModelError
 
 BANDS = st.tuples(*[st.floats(0.5, 60.0)] * 3).map(sorted)

@@ -9,7 +9,7 @@ from hypothesis import given as draws
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from netdesign.calculation.quantity import at_value, cos, given, largest
+from netdesign.calculation.quantity import at_value, cos, largest, leaf
 from netdesign.calculation.steps import (
     PRINTED,
     SPREADSHEET,
@@ -25,7 +25,7 @@ from tests.each import each
 from tests.report.reading import recalculate
 
 SEEDS = st.integers(0, 2**40)
-KNOWN = {"a": given("a", 2.0, "kN", ""), "b": given("b", 3.0, "-", "")}
+KNOWN = {"a": leaf("a", 2.0, "kN", ""), "b": leaf("b", 3.0, "-", "")}
 
 
 @draws(SEEDS)
@@ -88,7 +88,7 @@ def test_one_alone_is_the_largest_of_itself(call):
 
 def test_a_formula_as_it_is_printed():
     a, b = KNOWN["a"], KNOWN["b"]
-    angle = given("β", 30.0, "deg", "")
+    angle = leaf("β", 30.0, "deg", "")
     made = largest(a * (b + 0.5) / 2 - a, at_value(a + a) * b, a * cos(angle))
     text = translate(write_formula(made), PRINTED)
     assert text == "max(a · (b + 0.5) / 2 − a; (a + a) · b; a · cos(β))"

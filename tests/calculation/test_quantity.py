@@ -16,8 +16,8 @@ from netdesign.calculation.quantity import (
     apply,
     at_value,
     cos,
-    given,
     largest,
+    leaf,
     smallest,
     sqrt,
 )
@@ -45,7 +45,7 @@ def bands(draw, sizes=SIZES):
 
 def make(symbol, ends, unit="kN"):
     low, value, high = ends
-    return given(symbol, value, unit, "Nets!A2", band=(low, high))
+    return leaf(symbol, value, unit, "Nets!A2", band=(low, high))
 
 
 @draws(SEEDS, SEEDS)
@@ -99,7 +99,7 @@ def test_ends_of_an_angle_s_function_are_its_own(name, ends):
 @draws(bands(), SIZES)
 @settings(max_examples=100)
 def test_what_is_divided_and_multiplied_again_keeps_its_band(ends, width):
-    force, b = make("E", ends), given("b", width, "m", "Nets!L5")
+    force, b = make("E", ends), leaf("b", width, "m", "Nets!L5")
     again = force / b * b
     assert (again.low, again.value, again.high) == pytest.approx(ends, rel=1e-14)
     assert again.dimension == force.dimension
@@ -134,9 +134,7 @@ def take_away(quantity, symbol, lack, done=None):
         return done[id(quantity)]
     if not quantity.operation:
         is_gone = quantity.symbol == symbol
-        made = (
-            given(symbol, None, quantity.unit, "", lack=lack) if is_gone else quantity
-        )
+        made = leaf(symbol, None, quantity.unit, "", lack=lack) if is_gone else quantity
     else:
         of = [take_away(one, symbol, lack, done) for one in quantity.of]
         made = apply(quantity.operation, *of)
@@ -149,7 +147,7 @@ def take_away(quantity, symbol, lack, done=None):
 
 
 def test_all_that_is_missing_is_told_once():
-    one, other = (given(symbol, None, "kN", "") for symbol in "ab")
+    one, other = (leaf(symbol, None, "kN", "") for symbol in "ab")
     made = one + (other + one)
     assert made.lacks == (*one.lacks, *other.lacks)
     assert [str(lack) for lack in made.lacks] == ["a is missing", "b is missing"]
@@ -208,9 +206,9 @@ UNFIT = [
 @each("is_missing", [False, True])
 def test_units_that_do_not_fit_are_refused(fault, is_missing):
     """Also of what has no number yet."""
-    force = given("E", None if is_missing else 3.0, "kN", "")
+    force = leaf("E", None if is_missing else 3.0, "kN", "")
     with pytest.raises(ModelError):
-        fault(force, given("b", 2.0, "m", ""))
+        fault(force, leaf("b", 2.0, "m", ""))
 
 
 def test_nothing_has_any_unit():
@@ -228,17 +226,17 @@ def test_nothing_has_any_unit():
 )
 def test_disorder_and_what_is_no_number_are_refused(low, value, high):
     with pytest.raises(ModelError, match="in the order low, value, high"):
-        given("E", value, "kN", "", band=(low, high))
+        leaf("E", value, "kN", "", band=(low, high))
 
 
 def test_a_number_with_a_reason_for_its_lack_is_refused():
     with pytest.raises(ModelError):
-        given("E", 1.0, "kN", "", lack=say("text.as_given", text="odd"))
+        leaf("E", 1.0, "kN", "", lack=say("text.as_given", text="odd"))
 
 
 @each("operation", sorted(OPERATIONS))
 def test_a_result_beyond_all_numbers_is_refused(operation):
-    huge = given("E", 1e308, "-", "")
+    huge = leaf("E", 1e308, "-", "")
     if operation in ("+", "*"):
         with pytest.raises(ModelError):
             apply(operation, huge, huge)
@@ -248,14 +246,14 @@ def test_a_result_beyond_all_numbers_is_refused(operation):
 
 
 def test_a_second_name_keeps_the_first_one():
-    force = given("T_r", 2.0, "kN", "rope", kind=Kind.SOLVED)
+    force = leaf("T_r", 2.0, "kN", "rope", kind=Kind.SOLVED)
     pull = force.named("H", "kN", "(P8)")
     assert [one.symbol for one in list_named(pull)] == ["T_r", "H"]
     assert (pull.value, pull.kind, pull.source) == (2.0, Kind.WORKED, "(P8)")
 
 
 def test_units_that_do_not_fit_are_refused_by_their_names():
-    force, length = given("F", 3.7, "kN", ""), given("l", 2.3, "m", "")
+    force, length = leaf("F", 3.7, "kN", ""), leaf("l", 2.3, "m", "")
     with pytest.raises(ModelError) as refused:
         _ = force + length
     told = refused.value.message

@@ -9,7 +9,7 @@ from hypothesis import given as draws
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.calculation.steps import (
     Step,
     list_named,
@@ -62,7 +62,7 @@ def test_steps_of_a_file_give_the_same_numbers_and_units(seed):
 
 
 def test_two_quantities_of_one_name_are_refused():
-    one, other = given("E", 3.0, "kN", ""), given("E", 4.0, "kN", "")
+    one, other = leaf("E", 3.0, "kN", ""), leaf("E", 4.0, "kN", "")
     with pytest.raises(ValueError, match="two quantities are called E"):
         list_steps((one + other).named("F", "kN"))
     assert len(list_steps((one + one).named("F", "kN"))) == 2
@@ -79,7 +79,7 @@ FAULTS = [
 
 @each("fault", FAULTS)
 def test_steps_that_are_no_calculation_are_refused(fault):
-    force, width = given("E", 3.0, "kN", ""), given("b", 2.0, "m", "Nets!L5")
+    force, width = leaf("E", 3.0, "kN", ""), leaf("b", 2.0, "m", "Nets!L5")
     steps = list_steps((force / width).named("q", "kN/m"))
     require_calculation(steps)
     with pytest.raises(ContentError):
@@ -87,8 +87,8 @@ def test_steps_that_are_no_calculation_are_refused(fault):
 
 
 def test_an_end_that_is_the_value_is_not_stored_twice():
-    above = given("E", 3.0, "kN", "", band=(3.0, 4.5))
-    below = given("F", 3.0, "kN", "", band=(1.5, 3.0))
+    above = leaf("E", 3.0, "kN", "", band=(3.0, 4.5))
+    below = leaf("F", 3.0, "kN", "", band=(1.5, 3.0))
     stored = [
         (one.low, one.high) for one in list_steps((above + below).named("G", "kN"))
     ]

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.checks import Open, OpenKind, StandardValue
 from netdesign.checks.comparison import find_missing_force
 from netdesign.site.model import Resistance
@@ -38,7 +38,7 @@ def a_force(value: float, low: float | None = None, high: float | None = None):
     """Characteristic force E_k with its band [N]."""
     ends = [value if end is None else end for end in (low, value, high)]
     low_kN, value_kN, high_kN = map(kilonewton_from_newton, ends)
-    return given(
+    return leaf(
         *("E_k", value_kN, "kN", "foot_anchor"),
         kind=Kind.SOLVED,
         band=(low_kN, high_kN),

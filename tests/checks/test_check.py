@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks import (
     Band,
     Standard,
@@ -69,7 +69,7 @@ def verdict_of(action, resistance=None, standard=None, gap=None) -> Verdict:
 def test_verdict_at_a_utilisation_of_one(low, high, verdict):
     assert judge(low, high, least=0.0, most=1.0) is verdict
     # in kN, so that no unit's factor rounds what is next to the limit
-    force = given("E_k", high, "kN", "foot_anchor", band=(low, high))
+    force = leaf("E_k", high, "kN", "foot_anchor", band=(low, high))
     assert verdict_of(force, a_resistance(KN)) is verdict
 
 
@@ -176,7 +176,7 @@ def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
 
 
 def test_member_that_may_be_tight_needs_its_resistance():
-    action = given("E_k", 0.0, "kN", "foot_anchor", band=(0.0, 5e-324))
+    action = leaf("E_k", 0.0, "kN", "foot_anchor", band=(0.0, 5e-324))
     assert verdict_of(action, a_resistance(None)) is Verdict.NOT_PROVEN
 
 

@@ -1,6 +1,5 @@
 """Progress of a run: nothing is silent, nothing is promised too early."""
 
-import math
 import re
 from functools import lru_cache
 
@@ -16,13 +15,6 @@ from tests.short_example import write_short_example
 solve_once = lru_cache(maxsize=None)(solve_scene)
 
 
-class Clock:
-    now = 0.0
-
-    def __call__(self):
-        return self.now
-
-
 COUNT = st.integers(0, 7)
 WAVES = st.lists(st.tuples(st.integers(1, 9), st.integers(0, 3)), max_size=4)
 PHASES = st.lists(
@@ -30,20 +22,19 @@ PHASES = st.lists(
 )
 
 
-def run_made_up(drawn, clock, show):
+def run_made_up(drawn, show):
     """Solve waves of cases in each phase, of which some stick and are not solved."""
     phases = [
         Phase(key=f"p{k}", words=f"phase {k}", cases=cases, cost=cost, pieces=pieces)
         for k, (cases, cost, pieces, _) in enumerate(drawn)
     ]
     last = Phase(key="reports", words="reports", cases=0, seconds=2.0)
-    progress = RunProgress([*phases, last], show, clock)
-    for phase, (_, cost, pieces, waves) in zip(phases, drawn, strict=True):
+    progress = RunProgress([*phases, last], show)
+    for phase, (_, _, pieces, waves) in zip(phases, drawn, strict=True):
         progress.enter(phase.key)
         for asked, lost in waves:
             progress.ask(asked)
             for _ in range(max(1, asked - lost)):
-                clock.now += 0.37 * cost
                 progress.count_case()
             if not pieces:
                 progress.report_wave(Wave(rows_open=1, cases_waiting=0, gap=0.5))
@@ -55,40 +46,15 @@ def run_made_up(drawn, clock, show):
 @given(drawn=PHASES)
 def test_no_count_is_zero_before_the_last_solve_ends(drawn):
     """However wrong the expectations were, and whatever phase it is in."""
-    shown, clock = [], Clock()
-    run_made_up(drawn, clock, shown.append)
+    shown = []
+    run_made_up(drawn, shown.append)
     number = sum(max(1, a - lost) for *_, waves in drawn for a, lost in waves)
     before = [one for one in shown if one.stage != "reports"]
     assert all(one.open >= 1 for one in before)
     assert (shown[-1].done, shown[-1].open) == (number, 0)
     assert [one.done for one in shown] == sorted(one.done for one in shown)
     for one in before:
-        assert one.seconds is None or (math.isfinite(one.seconds) and one.seconds > 0)
         assert "0 to go" not in re.findall(r"\b\d+ to go", str(one.line))
-
-
-@given(cases=st.integers(3, 60), later=st.integers(1, 60), cost=st.floats(0.5, 150.0))
-def test_the_time_left_counts_the_phases_to_come(cases, later, cost):
-    """With cases as expected, it is what then passes."""
-    shown, clock = [], Clock()
-    phases = [
-        Phase(key="a", words="first", cases=cases, cost=0.5),
-        Phase(key="b", words="second", cases=later, cost=cost),
-        Phase(key="c", words="reports", cases=0, seconds=4.0),
-    ]
-    progress = RunProgress(phases, shown.append, clock)
-    left = []
-    for phase, number in (("a", cases), ("b", later)):
-        progress.enter(phase)
-        progress.ask(number)
-        for _ in range(number):
-            clock.now += 0.8 * (0.5 if phase == "a" else cost)
-            progress.count_case()
-            left.append((shown[-1].seconds, clock.now))
-    end = clock.now + 4.0
-    known = [(seconds, now) for seconds, now in left if seconds is not None]
-    assert len(known) >= len(left) - 2
-    assert all(now + seconds == pytest.approx(end) for seconds, now in known)
 
 
 # --- the program ---------------------------------------------------------------------

@@ -7,7 +7,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.files.scene import SceneFile, build_given, read_scene
+from netdesign.files.scene import SceneFile, build_scene_of_file, read_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import ModelError, Outcome, SceneFileError
 from netdesign.snow.creep_law import compute_fluidity
@@ -43,7 +43,7 @@ def read(tmp_path):
 
 
 def build(tables):
-    return build_given(SceneFile.model_validate(tables)).scene
+    return build_scene_of_file(SceneFile.model_validate(tables)).scene
 
 
 def test_units_of_the_edge_become_si(read):
@@ -194,7 +194,9 @@ def test_a_contradiction_is_told_with_its_file(read):
 
 @pytest.fixture(scope="module")
 def solved():
-    scene = build_given(SceneFile.model_validate(tomllib.loads(FULL_SCENE))).scene
+    scene = build_scene_of_file(
+        SceneFile.model_validate(tomllib.loads(FULL_SCENE))
+    ).scene
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
     solution = solve_steady(scene, settings)
     return solution, write_solution_document(solution, settings, wall_s=1.5)
@@ -340,16 +342,6 @@ def test_layer_where_the_set_is_inadmissible(tables):
         build(tables)
 
 
-OWN = {
-    "name": "mine",
-    "source": "my tests",
-    "shear_fit": [16.03, 19.25],
-    "bulk_fit": [16.75, 22.51],
-    "branch": 0.81,
-    "calibrated": [0.4, 1.0],
-}
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -361,7 +353,7 @@ OWN = {
     ids=str,
 )
 def test_set_of_ones_own_that_is_no_law(tables, changes, message):
-    tables["snow"]["creep_law"] = {**OWN, **changes}
+    tables["snow"]["creep_law"] = {**OWN_SET, **changes}
     with pytest.raises(ModelError, match=message):
         build(tables)
 

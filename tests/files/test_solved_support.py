@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.files.cases import resolve_support, write_support
-from netdesign.files.scene import GivenSupport
+from netdesign.files.scene import SceneSupport
 from netdesign.files.solution import write_solution_document
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solve import compute_end_forces, solve_panel
@@ -33,7 +33,7 @@ def section(solved):
 
 
 def write(section, language="en", **given):
-    support = GivenSupport(layout=LAYOUT, **given)
+    support = SceneSupport(layout=LAYOUT, **given)
     solved = resolve_support(section, SETTINGS, support)
     document = write_solution_document(
         section, SETTINGS, 0.1, support=write_support(solved, support, language)

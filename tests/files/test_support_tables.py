@@ -5,7 +5,12 @@ import tomllib
 
 import pytest
 
-from netdesign.files.scene import SceneFile, build_given, read_scene, read_scene_file
+from netdesign.files.scene import (
+    SceneFile,
+    build_scene_of_file,
+    read_scene,
+    read_scene_file,
+)
 from netdesign.outcome import SceneFileError
 from netdesign.panel.inputs import Rope
 
@@ -36,7 +41,7 @@ cut = "upper"
 
 
 def build(text):
-    return build_given(SceneFile.model_validate(tomllib.loads(text))).support
+    return build_scene_of_file(SceneFile.model_validate(tomllib.loads(text))).support
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import math
 from dataclasses import replace
 from itertools import product
 
-from netdesign.calculation.quantity import Kind, Quantity, given
+from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
 from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind
@@ -452,19 +452,19 @@ def build_check(
 
 def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     """Utilisation of a force on the first support of a row, step by step."""
-    spacing = given("b", 4.0, "m", "Nets!L5")
+    spacing = leaf("b", 4.0, "m", "Nets!L5")
     support = place_end_support(
         spacing,
-        given("f_R", 1.6, "-", "end.constant", kind=Kind.PROFILE),
-        given("Δl", 1.5, "m", "end.constant", kind=Kind.PROFILE),
+        leaf("f_R", 1.6, "-", "end.constant", kind=Kind.PROFILE),
+        leaf("Δl", 1.5, "m", "end.constant", kind=Kind.PROFILE),
     )
     largest, low, high = (
         force / 1.1 for force in (extreme.value_kN, extreme.low_kN, extreme.high_kN)
     )
-    solved = given(
+    solved = leaf(
         *("E_s", largest, "kN", extreme.quantity), kind=Kind.SOLVED, band=(low, high)
     )
-    floor = given("E_g0", 0.4 * largest, "kN", "floor", kind=Kind.SOLVED)
+    floor = leaf("E_g0", 0.4 * largest, "kN", "floor", kind=Kind.SOLVED)
     plain = MemberLoad()
     force = take_largest(
         "E_k",
@@ -473,9 +473,9 @@ def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     )
     return rate(
         force,
-        given("γ_E", ACTION_FACTOR, "-", "factor.action", kind=Kind.PROFILE),
-        given("R_k", characteristic, "kN", "Anchors!E7"),
-        given("γ_R", RESISTANCE_FACTOR, "-", "factor.tendon", kind=Kind.PROFILE),
+        leaf("γ_E", ACTION_FACTOR, "-", "factor.action", kind=Kind.PROFILE),
+        leaf("R_k", characteristic, "kN", "Anchors!E7"),
+        leaf("γ_R", RESISTANCE_FACTOR, "-", "factor.tendon", kind=Kind.PROFILE),
     )
 
 

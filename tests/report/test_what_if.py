@@ -9,9 +9,8 @@ from rich.console import Console
 
 from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.whole import title_pages
 from netdesign.report.terminal import print_summary
-from netdesign.report.what_if import mark_verdict
+from netdesign.report.what_if import mark_verdict, title_pages
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.model import ReplacedCell

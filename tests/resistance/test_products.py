@@ -18,7 +18,7 @@ from netdesign.resistance.catalogue import (
     load_catalogue,
     load_products,
 )
-from netdesign.resistance.products import find_product
+from netdesign.resistance.products import find_bar, find_product
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
 
@@ -487,3 +487,17 @@ def test_a_bar_named_by_its_steel(name, product, diameter, strengths):
 @pytest.mark.parametrize("name", ["Stab 500/550", "Anker 500/550 kN", "B 500/550"])
 def test_a_steel_without_a_diameter_is_no_product(name):
     assert find_product(name) is None
+
+
+NAMES_OF_BARS = ("GEWI", "SWISS GEWI", "GEWI Plus", "SAS 500", "SAS 670")
+
+
+@each("name", NAMES_OF_BARS)
+def test_a_bar_in_a_size_that_nobody_makes_is_no_bar(name):
+    made = {d for bar, d in BARS if find_bar(f"{name} {d:g}")}
+    assert made
+    rng = random.Random(name)
+    written = {whole for d in made for whole in (math.floor(d), math.ceil(d))}
+    drawn = {rng.randint(11, 99) for _ in range(40)} - written
+    assert all(find_bar(f"{name} {size}") is None for size in drawn)
+    assert find_bar(name) is None

@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import (
     compute_bar_resistance,
@@ -52,14 +51,3 @@ def test_bar_of_28_mm_and_500_mpa():
     assert compute_bar_resistance(0.028, 500e6) == pytest.approx(
         math.pi * 14.0**2 * 500.0, rel=1e-15
     )
-
-
-@pytest.mark.parametrize("diameter", [28.0, 0.0, math.nan])
-def test_diameter_in_millimetres_is_refused(diameter):
-    with pytest.raises(ModelError, match="bar diameter"):
-        compute_bar_resistance(diameter, 500e6)
-
-
-def test_rope_factor_that_a_construction_lacks_is_refused():
-    with pytest.raises(ModelError, match=r"6x19-WSC.*nearest: 6x19"):
-        find_rope_factor("6x19-WSC", "K")

@@ -1,6 +1,5 @@
 """The guideline's forces without a solve are those of a check, and the worst of all."""
 
-import json
 import math
 import random
 from dataclasses import replace
@@ -9,13 +8,12 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.outcome import StudyError
 from netdesign.site.assumed import assume
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS
 from netdesign.structure.splay import Guys
-from netdesign.study.document import load_checks, write_document
+from netdesign.study.document import load_study, write_document
 from netdesign.study.guideline_anchors import (
     add_coupled,
     find_coupled,
@@ -155,17 +153,13 @@ def test_coupled_forces_are_those_of_the_stored_study(solved, tmp_path):
     study = judge_site(SITE, solved, PROFILES[0], RUN)
     path = tmp_path / "study.json"
     path.write_text(write_document(study), encoding="utf-8")
-    stored = load_checks(path, ANCHORS)
-    assert stored.site_sha256 == SITE.sha256
-    for row in study.rows:
-        own = [one for one in row.checks if one.member in ANCHORS]
-        assert stored.rows[row.id] == own
+    stored = {row.id: row.checks for row in load_study(path).rows}
     rows = list_guideline_forces(SITE, PROFILES[0])
-    for found in add_coupled(rows, stored.rows):
+    for found in add_coupled(rows, stored):
         for one in found.anchors:
             if one.coupled_kN is None:
                 continue
-            checks = [x for x in stored.rows[found.id] if x.position == one.position]
+            checks = [x for x in stored[found.id] if x.position == one.position]
             symbols = ("E_c", "E_p", "E_t") if one.guideline_kN else ("E_k",)
             forces = [
                 x.read(s) for x in checks if x.member == one.anchor for s in symbols
@@ -180,22 +174,3 @@ def test_a_row_that_no_study_has_stays_without_coupled_forces():
     assert find_coupled([], "foot_anchor", "intermediate") is None
     rows = list_guideline_forces(SITE, PROFILES[0])
     assert add_coupled(rows, {}) == rows
-
-
-@pytest.mark.parametrize(
-    "spoil",
-    [
-        lambda text: text.replace('"digest": "', '"digest": "0', 1),
-        lambda text: text[: len(text) // 2],
-        lambda _: "[]",
-        lambda _: json.dumps({"schema": "netdesign.study/4", "rows": 3}),
-        lambda _: "[" * 100_000,
-    ],
-)
-def test_another_file_is_refused(solved, tmp_path, spoil):
-    one = replace(SITE, rows=SITE.rows[:1])
-    text = write_document(judge_site(one, solved[:1], PROFILES[0], RUN))
-    path = tmp_path / "study.json"
-    path.write_text(spoil(text), encoding="utf-8")
-    with pytest.raises(StudyError):
-        load_checks(path, ANCHORS)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks import load_standard
 from netdesign.checks.forces import place_end_support, pull_at_end
 from netdesign.outcome import Outcome, Verdict
@@ -41,11 +41,11 @@ from tests.study.test_panel_study import (
 def compute_end_factor(width, spacing):
     """Pull of a rope under the end effect over that without, (P8)."""
     support = place_end_support(
-        given("b", spacing, "m", ""),
-        given("f_R", width.end_factor, "-", ""),
-        given("Δl", width.end_length, "m", ""),
+        leaf("b", spacing, "m", ""),
+        leaf("f_R", width.end_factor, "-", ""),
+        leaf("Δl", width.end_length, "m", ""),
     )
-    return pull_at_end(given("T_r", 1.0, "kN", ""), support).value
+    return pull_at_end(leaf("T_r", 1.0, "kN", ""), support).value
 
 
 @pytest.fixture(scope="module")

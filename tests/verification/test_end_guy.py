@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import calculate_force
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.splay import (
@@ -128,7 +128,7 @@ def test_the_last_head_is_in_equilibrium_under_the_section_s_pull_and_the_rope(s
         values = {"E_s": inside[number], "T_r": rope, "e": part, "b": 4.0, "f_R": 1.5}
         values |= {"Δl": 2.0 / 3.0, "γ": math.degrees(guy.angle)}
         leaves = {
-            name: given(name, value, UNITS.get(name, "-"), "here")
+            name: leaf(name, value, UNITS.get(name, "-"), "here")
             for name, value in values.items()
         }
         force = calculate_force(leaves).coupled.value
@@ -172,7 +172,7 @@ UNITS |= dict.fromkeys(("E_s", "E_p0", "E_t", "P", "T_r", "T_min"), "kN")
 
 def leaves_of(**values):
     return {
-        name: given(name, value, UNITS.get(name, "-"), "here")
+        name: leaf(name, value, UNITS.get(name, "-"), "here")
         for name, value in values.items()
     }
 

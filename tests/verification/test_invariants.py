@@ -189,20 +189,6 @@ def test_density_enters_by_weight_and_by_a_over_b(a_scene):
     np.testing.assert_allclose(found[1], found[0], rtol=1e-9)
 
 
-def test_density_does_matter_otherwise(a_scene):
-    """The test above is not met by a law that is left out."""
-    found = []
-    for density in (0.3, 0.5):
-        scene = a_scene(
-            inclination_deg=30.0,
-            relative_density=density,
-            stiffness_kN_per_m=2e4 * density / 0.4,
-        )
-        solution = solve_steady(scene, COARSE, on_failure="raise")
-        found.append(pulls(solution) / density)
-    assert np.abs(found[1] / found[0] - 1.0).max() > 1e-3
-
-
 # --- limits of friction ------------------------------------------------------
 
 

@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import resist_by_friction
 from netdesign.resistance.post import (
     BasePlate,
@@ -374,8 +374,8 @@ def test_a_long_plate_has_the_larger_power_either_way():
 def test_sliding_of_a_base_plate():
     """106 kN on ground with a friction of 0.55: 58.3 kN."""
     found = resist_by_friction(
-        given("μ_b", 0.55, "-", "test"),
-        given("γ_E", 1.0, "-", "test"),
-        given("V_k", 106.0, "kN", "test"),
+        leaf("μ_b", 0.55, "-", "test"),
+        leaf("γ_E", 1.0, "-", "test"),
+        leaf("V_k", 106.0, "kN", "test"),
     )
     assert found.value == pytest.approx(58.3, **CLOSE)

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import calculate_force
 from netdesign.structure.row_position import (
     EndEffectRule,
@@ -129,7 +129,7 @@ UNITS |= dict.fromkeys(("E_s", "E_p0", "P", "T_r", "T_min"), "kN")
 
 def leaves_of(**values):
     return {
-        name: given(name, value, UNITS.get(name, "-"), "here")
+        name: leaf(name, value, UNITS.get(name, "-"), "here")
         for name, value in values.items()
     }
 

@@ -6,7 +6,7 @@ import random
 import numpy as np
 import pytest
 
-from netdesign.calculation.quantity import given
+from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import calculate_force
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
@@ -66,7 +66,7 @@ def test_no_two_guys_pull_more_than_the_formula_gives():
 def leaves_of(**values):
     units = {"E_s": "kN", "P": "kN", "β": "deg", "b": "m", "Δl": "m"}
     return {
-        name: given(name, value, units.get(name, "-"), "here")
+        name: leaf(name, value, units.get(name, "-"), "here")
         for name, value in values.items()
     }
 

@@ -92,16 +92,6 @@ def test_glide_factor_is_the_ratio_of_forces():
         assert ratio == pytest.approx(factor, rel=1e-12)
 
 
-def test_leaning_face_carries_its_wedge():
-    lean = math.radians(27.0)
-    force = compute_slab_force(SLAB, slip_length=0.4, inclination=lean)
-    upright = compute_slab_force(SLAB, slip_length=0.4)
-    area = 2.3**2 * math.tan(lean) / 2.0
-    assert force.total - upright.total == pytest.approx(WEIGHT / 2.3 * area)
-    tilt = force.wedge_normal / force.wedge
-    assert tilt == pytest.approx(-1.0 / math.tan(SLAB.slope_angle))
-
-
 def test_what_is_out_of_range_is_refused():
     with pytest.raises(ModelError, match="presses with more than"):
         scale_slip_length(SLAB, 0.3, 0.5)
@@ -111,8 +101,6 @@ def test_what_is_out_of_range_is_refused():
         compute_slab_force(SLAB, slip_length=1.0, upslope_length=0.0)
     with pytest.raises(ModelError, match="slip length"):
         compute_slab_force(SLAB, slip_length=-0.1)
-    with pytest.raises(ModelError, match="inclination"):
-        compute_slab_force(SLAB, slip_length=0.1, inclination=1.6)
 
 
 def solve_in_two_dimensions(slip_ratio, aspect, friction_angle):

@@ -20,7 +20,7 @@ FAMILIES: tuple[str, ...] = (
     *("finding.error", "finding.question", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
-    *("creep_law.", "of_scope.", "heading.scope_"),
+    *("creep_law.", "of_scope."),
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *("product_source.", "plausible.source_", "opinion.", "schedule."),

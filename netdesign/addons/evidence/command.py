@@ -104,7 +104,7 @@ def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
 
 
 def _show_hash(what: Message, stored: str, now: str) -> None:
-    """Tell two hashes, and whether they are equal."""
+    """Print a stored hash beside the present one."""
     key = "verify.hash_equal" if stored == now else "verify.hash_differs"
     tell(say(key, what=what))
     tell(say("verify.hashes", stored=stored, now=now))
@@ -113,7 +113,7 @@ def _show_hash(what: Message, stored: str, now: str) -> None:
 def _show_comparison(
     study: Study, again: Study, count: int, differences: list[Difference]
 ) -> None:
-    """Tell which values do not come out; the hash may differ in last digits."""
+    """Print the values that differ; the hash may differ by last digits alone."""
     from netdesign.study.document import SAME, hash_results, write_document
 
     stored, now = hash_results(study), hash_results(again)
@@ -132,7 +132,7 @@ def _show_comparison(
 
 
 def _show_unverified(study: Study, again: Study) -> bool:
-    """Tell what a new solve cannot show; True if some of it is avoidable."""
+    """Print what a new solve cannot verify; True if versions or missing rows do it."""
     from netdesign.study.record_provenance import list_versions
 
     old, new = list_versions(study), list_versions(again)
@@ -198,10 +198,6 @@ def paper(**asked: Any) -> None:
     require_places(asked["out"], [PAGE_FILE], asked)
     with follow(len(list_cases()), "runs", asked) as on_done:
         study = run_study(settings, jobs=jobs, on_done=on_done)
-    files = render_paper(study)
-    write_outputs(asked["out"], files, {**asked, "quiet": True})
-    if not asked["quiet"]:
-        page = str(asked["out"] / PAGE_FILE)
-        tell(say("paper.wrote", path=page, count=len(files) - 1), err=True)
+    write_outputs(asked["out"], render_paper(study), asked)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)

@@ -6,7 +6,6 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from multiprocessing import get_context
 from statistics import quantiles
 from typing import TypeVar
@@ -18,10 +17,6 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 _CHUNK = 4  # items that a process takes at once, where they are short
-# Of a process's environment: one BLAS thread.
-SINGLE_THREADED = dict.fromkeys(
-    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
-)
 
 
 class Clock:
@@ -107,30 +102,13 @@ def _work_through(
     if jobs == 1:
         yield from map(work, items)
         return
-    with (
-        _hold_threads(),
-        ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool,
-    ):
+    # each with one thread of the BLAS: the package has set that in the environment
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         try:
             yield from pool.map(work, items, chunksize=chunk)
         except BaseException:
             pool.shutdown(wait=True, cancel_futures=True)
             raise
-
-
-@contextmanager
-def _hold_threads() -> Iterator[None]:
-    """Worker processes inherit one BLAS thread each: there is one worker a core."""
-    before = {name: os.environ.get(name) for name in SINGLE_THREADED}
-    os.environ.update(SINGLE_THREADED)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value
 
 
 def summarise_times(times: Sequence[float]) -> dict[str, float | None]:

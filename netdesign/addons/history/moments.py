@@ -37,11 +37,13 @@ LEAST_STRAIN = 0.004
 # snow still is the scene's.
 START_STRAIN, COUNTED_STRAIN = 1e-3, 0.01
 _EFOLDS = 1.0  # for so long
-CRITERION = (
-    f"after a mean creep strain of {LEAST_STRAIN:.1%}, for one e-fold of time, end "
-    f"pulls change by less than {PULL_DRIFT:.0%} and node forces by less than "
-    f"{NODE_DRIFT:.0%} of the largest per e-fold, and the net moves by less than "
-    f"{REST_SHARE:.0%} of its way, or {REST_WAY:.1%} of the snow thickness, per e-fold"
+CRITERION = say(
+    "solved.criterion",
+    strain=LEAST_STRAIN,
+    pull=PULL_DRIFT,
+    node=NODE_DRIFT,
+    rest=REST_SHARE,
+    way=REST_WAY,
 )
 
 
@@ -279,7 +281,7 @@ class History:
                 "time_d": None
                 if plateau.time is None
                 else day_from_second(plateau.time),
-                "criterion": CRITERION,
+                "criterion": render(CRITERION, language),
                 "drift_per_efold": plateau.drift,
                 "foot_kN_per_m": None if moment is None else _size(moment.foot),
                 "head_kN_per_m": None if moment is None else _size(moment.head),

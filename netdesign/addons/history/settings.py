@@ -38,6 +38,10 @@ TRANSIENT_LEVELS = (
         net_spacing=0.2, corner=0.003, sectors=8, head_sectors=5, upslope_spacing=0.6
     ),
 )
+# Relative change of the stress in the last Newton iteration of a step [-], and
+# iterations of a step at most: of a history, and of the exchange.
+STRESS_TOLERANCE, MOST_ITERATIONS = 1e-4, 20
+EXCHANGE_TOLERANCE, MOST_EXCHANGE_ITERATIONS = 1e-6, 40
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
 
@@ -58,10 +62,10 @@ class TransientSettings:
         The creep law follows the density.
     stops_at_plateau : bool
         End once the plateau is proven instead of at the horizon.
-    stress_tolerance, balance_tolerance : float
+    balance_tolerance : float
         Of every step, as in ``SolverSettings`` [-].
-    max_steps, max_iterations : int
-        Steps of the run; Newton iterations in one of them.
+    max_steps : int
+        Steps of the run.
     levels : tuple of MeshSize
         Meshes from coarse to fine, at least two.
     """
@@ -71,10 +75,8 @@ class TransientSettings:
     horizon: float = 30.0 * 86400.0
     densifies: bool = True
     stops_at_plateau: bool = False
-    stress_tolerance: float = 1e-4
     balance_tolerance: float = 1e-9
     max_steps: int = 1000
-    max_iterations: int = 20
     levels: tuple[MeshSize, ...] = field(default=TRANSIENT_LEVELS)
 
     @property
@@ -95,7 +97,7 @@ class TransientSettings:
             "start": self.start,
             "horizon_d": day_from_second(self.horizon),
             "densification": self.densifies,
-            "stress_tolerance": self.stress_tolerance,
+            "stress_tolerance": STRESS_TOLERANCE,
             "balance_tolerance": self.balance_tolerance,
         }
 
@@ -103,10 +105,8 @@ class TransientSettings:
         """Refuse settings that would make every result look converged."""
         require_within("accuracy", self.accuracy, 1e-4, 0.1)
         require_positive("horizon", self.horizon, "s")
-        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
         require_within("balance tolerance", self.balance_tolerance, 1e-14, 1e-6)
         require_count("steps", self.max_steps)
-        require_count("iterations", self.max_iterations)
         if len(self.levels) < 2:
             raise ModelError(say("scene.two_levels"))
 
@@ -126,10 +126,6 @@ class StaggeredSettings:
         ``straight`` (the paper), ``sagged`` or ``steady``.
     horizon : float
         Creep time to follow, over thickness by velocity scale.
-    stress_tolerance : float
-        Relative change of the stress in the last iteration of a step [-].
-    max_iterations : int
-        Newton iterations of a step.
     size : MeshSize
         Resolution.
     """
@@ -138,8 +134,6 @@ class StaggeredSettings:
     step_share: float = 1.0
     start: Start = "straight"
     horizon: float = LONGEST_EXCHANGE
-    stress_tolerance: float = 1e-6
-    max_iterations: int = 40
     size: MeshSize = field(default=TRANSIENT_LEVELS[0])
 
     @property
@@ -164,7 +158,7 @@ class StaggeredSettings:
             "base_drag": self.base_drag,
             "step_share": self.step_share,
             "horizon_creep_time": self.horizon,
-            "stress_tolerance": self.stress_tolerance,
+            "stress_tolerance": EXCHANGE_TOLERANCE,
         }
 
     def __post_init__(self) -> None:
@@ -172,8 +166,6 @@ class StaggeredSettings:
         require_within("base drag", self.base_drag, 1e-5, 10.0)
         require_within("step share", self.step_share, 1e-3, 2.0)
         require_positive("horizon", self.horizon)
-        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
-        require_count("iterations", self.max_iterations)
 
 
 def build_transient(

@@ -150,7 +150,7 @@ def _solve_part(problem: _Problem, max_iterations: int) -> _Part:
 
 
 def _slacken(problem: _Problem) -> _Part:
-    """All tensions 0; what segments lack is drawn from the others' surplus."""
+    """Lengths without tension: short segments draw in the surplus of the others."""
     surplus = np.maximum(problem.old - problem.final, 0.0)
     shortage = np.maximum(problem.final - problem.old, 0.0)
     drawn = float(shortage.sum() / surplus.sum()) if shortage.any() else 0.0

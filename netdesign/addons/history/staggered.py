@@ -34,6 +34,8 @@ from netdesign.addons.history.run import (
     record_moment,
 )
 from netdesign.addons.history.settings import (
+    EXCHANGE_TOLERANCE,
+    MOST_EXCHANGE_ITERATIONS,
     StaggeredSettings,
 )
 from netdesign.addons.history.sliding import join_points
@@ -156,8 +158,8 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
             state,
             step,
             _respond(problem, state, cable),
-            tolerance=settings.stress_tolerance,
-            max_iterations=settings.max_iterations,
+            tolerance=EXCHANGE_TOLERANCE,
+            max_iterations=MOST_EXCHANGE_ITERATIONS,
         )
         state, cable = _follow(problem, state, cable, instant, step)
         moment, way = record_moment(problem, state, instant, way, moments, step)

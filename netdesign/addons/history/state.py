@@ -257,7 +257,7 @@ def _hang_parabola(
 
 
 def _spread_length(problem: TransientProblem, curve: Floats) -> Floats:
-    """Unstressed lengths of the segments on a curve: the same strain in all."""
+    """Unstressed lengths of the segments on a curve, all under one strain."""
     points = curve[:, ::2]
     if problem.has_freeboard:
         points = np.column_stack([points, problem.head])

@@ -28,6 +28,8 @@ from netdesign.addons.history.run import (
     record_moment,
 )
 from netdesign.addons.history.settings import (
+    MOST_ITERATIONS,
+    STRESS_TOLERANCE,
     TransientSettings,
 )
 from netdesign.addons.history.state import (
@@ -247,9 +249,9 @@ class _Walk:
             self.problem,
             self.state,
             step,
-            tolerance=self.settings.stress_tolerance,
+            tolerance=STRESS_TOLERANCE,
             balance_tolerance=self.settings.balance_tolerance,
-            max_iterations=self.settings.max_iterations,
+            max_iterations=MOST_ITERATIONS,
         )
 
     def _estimate_error(self, instant: Instant, step: float) -> float:

@@ -238,7 +238,7 @@ def _settle(problem: _Problem, guess: NetGuess) -> _Settled:
 
 
 def _settle_compiled(problem: _Problem, guess: NetGuess) -> _Settled:
-    """The same in the compiled core."""
+    """Equilibrium of net and nodes by the compiled core."""
     code, end = _call_core(problem, guess, may_push=False)
     if code == _LOOSE:
         code, end = _call_core(problem, _loosen(problem, guess), may_push=True)

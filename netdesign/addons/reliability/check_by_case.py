@@ -168,7 +168,7 @@ def _follows_cases(check: MemberCheck) -> bool:
         return False
     if (
         force is None
-        or check.given.dimensions
+        or check.resistance.dimensions
         or check.use is None
         or check.ratio <= 0.0
     ):
@@ -214,7 +214,7 @@ def _find_push(task: RowToCheck, check: MemberCheck, force: MemberForce) -> Push
     on, results = force.on, task.solved.results
     if on.push is None or not on.push.high:
         return None
-    is_foot = check.given.member == Member.FOOT_ANCHOR
+    is_foot = check.resistance.member == Member.FOOT_ANCHOR
     rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
     inside = force.on_support * force.share
@@ -239,9 +239,9 @@ def _find_load(
     """
     effects = find_effects(forces.row, forces.standard, ranges)
     width = effects.find_support(check.width.position)
-    moved = find_force(forces, check.given, width) or now
+    moved = find_force(forces, check.resistance, width) or now
     load, span = moved.compare_load(now), ranges["inclination"]
-    if check.given.mode != "sliding":
+    if check.resistance.mode != "sliding":
         return load
     return load * find_tilt(forces.row, (span.low, span.high))
 

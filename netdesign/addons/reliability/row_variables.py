@@ -183,7 +183,7 @@ def _build_typed(typed: UncertainQuantity, name: str, value: float) -> Variable:
 def _build(
     name: str, kind: str, mean: float, variation: float, cap: float = math.inf
 ) -> Variable:
-    """Variable by its coefficient of variation; lognormal unless told otherwise."""
+    """Variable by its coefficient of variation; lognormal where ``kind`` is empty."""
     kind, deviation = read_kind(kind or "lognormal"), variation * mean
     return Variable(name=name, kind=kind, mean=mean, deviation=deviation, cap=cap)
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
@@ -19,7 +18,6 @@ from netdesign.report.blocks import (
     Paragraph,
     Part,
     Table,
-    fixed_cell,
     key_columns,
     section,
     text_cell,
@@ -39,7 +37,6 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.report.workbook.writer import BETWEEN_TABLES, TABLE_TOP, Book
 from netdesign.study.records import ReliabilityRecord, RowStudy, Study, VariableRecord
 
 _LINE, _BAR = 11.0, 7.0  # from bar to bar, height of a bar [pt]
@@ -241,29 +238,6 @@ def _name(variable: VariableRecord, words: Words) -> str:
     return words(f"label.{key}" if key else f"variable.{variable.name}")
 
 
-def tabulate_shares(study: Study, words: Words) -> Table:
-    """Shares of the variables in each index, for a sheet that draws their bars."""
-    names = ("share", "at_point")
-    return Table(
-        caption=words("reliability.all_shares"),
-        columns=(
-            *key_columns(words, "heading.", ("net_row", "quantity")),
-            *key_columns(words, "reliability.", names, numbers=names),
-        ),
-        rows=tuple(
-            (
-                text_cell(row.id),
-                text_cell(_name(variable, words)),
-                fixed_cell(words, variable.alpha_squared, 2),
-                text_cell(_show_value(variable, variable.at_design_point, words)),
-            )
-            for row, record in list_records(study)
-            for variable in record.variables
-        ),
-        empty=words("show.none"),
-    )
-
-
 def tabulate_variables(study: Study, words: Words) -> Table:
     """Distributions of all rows, with what each is from; equal lines are one."""
     names = ("distribution", "mean", "variation")
@@ -312,32 +286,8 @@ def _show_value(variable: VariableRecord, value: float | None, words: Words) -> 
     return append_unit(shown, form.unit) if form and form.unit else shown
 
 
-NAME = "reliability"
-_SHARE = 2  # column of the shares, zero-based
-
-
-def add_sheet(book: Book, study: Study) -> None:
-    """Add the sheet, with bars behind its shares."""
-    words = book.words
-    indices, shares = tabulate_indices(study, words), tabulate_shares(study, words)
-    note = words("reliability.is_not")
-    caption = words("reliability.captioned", caption=indices.caption, note=note)
-    tables = [
-        replace(indices, caption=caption),
-        shares,
-        tabulate_variables(study, words),
-    ]
-    sheet = book.add_table_sheet(NAME, words("heading.reliability"), tables)
-    first = TABLE_TOP + len(indices.rows) + BETWEEN_TABLES
-    if shares.rows:
-        last = first + len(shares.rows) - 1
-        book.add_ratio_bars(sheet, (first, _SHARE, last, _SHARE), full=1.0)
-
-
 SHOWN = Addition(
     annex="annex-reliability",
     show=show_reliability,
     list_lines=list_reliability,
-    sheet=NAME,
-    add_sheet=add_sheet,
 )

@@ -124,7 +124,7 @@ def _measure(
     name: str,
     asked: Mapping[str, Any],
 ) -> None:
-    """Measure the rows, tell what was found, and write it."""
+    """Measure the rows, print the results, and write workbook, map and page."""
     from netdesign.addons.terrain.geojson import list_row_features, write_features
     from netdesign.addons.terrain.measure import measure_plan
     from netdesign.addons.terrain.page import render_terrain
@@ -155,7 +155,7 @@ def _measure(
 
 
 def _read_ground(grid: Path, plan: Plan) -> Grid:
-    """Elevation grid of a plan; what was noted in reading either is told."""
+    """Elevation grid of a plan; remarks on both files are printed."""
     from netdesign.addons.terrain.grid import read_grid, require_same
 
     ground = read_grid(grid)

@@ -138,7 +138,7 @@ def require_same(grid: str, rows: str) -> None:
 
 
 def _name(crs: Any) -> str:
-    """Name as people know it, with its code."""
+    """Name of a reference system with its EPSG code."""
     name = make_printable(str(crs.to_dict(projjson=True)["name"]))[:60]
     code = crs.to_epsg()
     return f"{name} (EPSG:{code})" if code else name

@@ -251,7 +251,7 @@ def _hatch(chart: Chart, frame: Frame, coverage: Coverage) -> None:
 
 
 def _draw_contours(chart: Chart, extract: Extract) -> float:
-    """Contours, few enough to tell apart; their distance [m]."""
+    """Draw contours at a round distance, 25 at most; the distance [m]."""
     heights = extract.heights[np.isfinite(extract.heights)]
     low, high = float(heights.min()), float(heights.max())
     step = next(

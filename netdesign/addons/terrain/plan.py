@@ -76,13 +76,13 @@ def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
         unit, measure = list_choices().get(normalise(bracket), (bracket, ""))
         targets = _find_targets(heading, measure)
         if len(targets) > 1:
-            readings = ", ".join(one.title("en") for one in targets)
+            readings = ", ".join(target.title("en") for target in targets)
             fault = f"property {heading!r:.60} may mean: {readings}"
             faults.append(f"{fault}; name it as the workbook does")
         elif not targets:
             unread.append(f"{heading!r:.60}")
         else:
-            (field,) = (one.field for one in targets)
+            (field,) = (target.field for target in targets)
             key = _MEASURED.get(field.key, field.key)
             converted = _convert(value, unit, field.unit)
             if converted is None or key in cells:
@@ -97,15 +97,15 @@ def _find_targets(heading: str, measure: str) -> list[Target]:
     """Columns of rows and net types that have the name."""
     names = {normalise(heading), split_heading(heading)[0]}
     return [
-        one
-        for one in list_targets("rows")
-        if not names.isdisjoint(one.field.names)
-        and (not measure or one.measure == measure)
+        target
+        for target in list_targets("rows")
+        if not names.isdisjoint(target.field.names)
+        and (not measure or target.measure == measure)
     ]
 
 
 def _convert(value: object, own: str, unit: str) -> float | str | None:
-    """Number in the column's first unit, or words; None of what is neither."""
+    """Number in the column's first unit, or a text; None for any other value."""
     if isinstance(value, str):
         return value.strip() or None
     if isinstance(value, bool) or not isinstance(value, int | float):

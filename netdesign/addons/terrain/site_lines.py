@@ -70,25 +70,25 @@ def read_typed_sheets(path: Path) -> TypedSheets:
 
     workbook = read_workbook(path, is_wanted)
     findings: list[Finding] = []
-    alone = tuple(one for one in _TAKEN if one not in _PARTS)
-    found = find_office_tables(workbook, findings, alone)
+    alone = tuple(table for table in _TAKEN if table not in _PARTS)
+    office = find_office_tables(workbook, findings, alone)
     project = read_lines(
-        found.tables["project"], list(found.lines["project"]), findings
+        office.tables["project"], list(office.lines["project"]), findings
     )
     errors = [finding for finding in findings if finding.severity == "error"]
     if errors:
         raise SiteDataError(errors)
-    lines = {**found.lines, "project": [project]}
+    lines = {**office.lines, "project": [project]}
     tables = {
         table: [_show_line(table, line) for line in lines[table]] for table in _TAKEN
     }
-    measure = found.measures.get(("net_types", "slack")) or "slack"
+    measure = office.measures.get(("net_types", "slack")) or "slack"
     return TypedSheets(file=workbook.file, tables=tables, measure=measure)
 
 
 def _show_line(table: str, line: Row) -> dict[str, object]:
     """Cells that are filled in, in the units that the workbook shows."""
-    columns = {one.field.key: one for one in load_columns(table)}
+    columns = {column.field.key: column for column in load_columns(table)}
     return {
         key: _show(columns[key], reading)
         for key, reading in line.items()
@@ -257,9 +257,9 @@ def _choose(band: Band, cared: float) -> float:
 
 
 _ROW_KEYS = {"snow_thickness": "snow"}
-_ROWS = frozenset(one.field.key for one in load_columns("rows"))
+_ROWS = frozenset(column.field.key for column in load_columns("rows"))
 _NETS = {x.field.key: x for x in load_columns("net_types") if x.field.key != "id"}
-_STRUCTURE = {key for key, one in _NETS.items() if one.group == "structure"}
+_STRUCTURE = {key for key, column in _NETS.items() if column.group == "structure"}
 
 
 def write_workbook(
@@ -288,7 +288,7 @@ def write_workbook(
     """
     tables = dict(others.tables) if others else {}
     measure = others.measure if others else "slack"
-    nets = {str(one.get("id")): one for one in tables.get("net_types", ())}
+    nets = {str(net.get("id")): net for net in tables.get("net_types", ())}
     lines, notes, faults = [], [], list[str]()
     for row in rows:
         derived = {cell.key: cell for cell in derive_cells(row, rows, grid)}
@@ -299,14 +299,14 @@ def write_workbook(
         if isinstance(net, str):
             lines.append(_take_row({**values, **typed, "net_type": net}, row.line.id))
         else:
-            faults += [f"row {row.line.id}: {one}" for one in net]
+            faults += [f"row {row.line.id}: {fault}" for fault in net]
         notes.append(
             {_ROW_KEYS.get(key, key): _tell(x, typed) for key, x in derived.items()}
         )
     if faults:
         raise TerrainError("\n".join(faults))
     tables |= {"rows": lines, "net_types": list(nets.values())}
-    more = [one for one in ("tests",) if tables.get(one)]
+    more = ["tests"] if tables.get("tests") else []
     is_built = any(key in _STRUCTURE for net in nets.values() for key in net)
     more += ["parts"] if is_built or any(map(tables.get, _PARTS)) else []
     measures = {("rows", "snow"): "normal", ("net_types", "slack"): measure}
@@ -316,7 +316,7 @@ def write_workbook(
 def _take_row(cells: Mapping[str, object], name: str) -> dict[str, object]:
     """Cells of sheet Rows, the snow normal to the slope."""
     named = {_ROW_KEYS.get(key, key): value for key, value in cells.items()}
-    return {key: one for key, one in named.items() if key in _ROWS} | {"id": name}
+    return {key: value for key, value in named.items() if key in _ROWS} | {"id": name}
 
 
 def _take_net(cells: Mapping[str, float | str], measure: str) -> dict[str, object]:
@@ -339,14 +339,14 @@ def _name_net(
     """Id of a row's net type among those so far, or how it differs from that."""
     if not named:
         stem = f"D_K {net['net_height']:g}"
-        alike = [one for one in nets if one == stem or one.startswith(f"{stem} ")]
-        same = (one for one in alike if nets[one] == {"id": one, **net})
+        alike = [name for name in nets if name == stem or name.startswith(f"{stem} ")]
+        same = (name for name in alike if nets[name] == {"id": name, **net})
         named = next(same, f"{stem} {len(alike) + 1}" if alike else stem)
-    known = nets.setdefault(named, {"id": named, **net})
+    listed = nets.setdefault(named, {"id": named, **net})
     return [
-        f"{key} is {value!r:.40}, and {known.get(key)!r:.40} of net type {named!r:.40}"
+        f"{key} is {value!r:.40}, and {listed.get(key)!r:.40} of net type {named!r:.40}"
         for key, value in net.items()
-        if known.get(key) != value
+        if listed.get(key) != value
     ] or named
 
 

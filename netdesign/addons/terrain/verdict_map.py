@@ -176,7 +176,7 @@ def list_checks_at(row: RowStudy, position: Position) -> list[Check]:
 
 
 def _take_more(inside: Check, at_end: Check | None) -> Check:
-    """Check of the end where that has the same type and more load, else that inside."""
+    """Check at the end if it has the same type and a larger force, else that inside."""
     if at_end is None or at_end.resistance_type != inside.resistance_type:
         return inside
     loads = [check.read_band("E_d")[1] or 0.0 for check in (inside, at_end)]
@@ -222,7 +222,7 @@ def _is_beyond(part: str, bore: Bore, number: int, last: int) -> bool:
 
 
 def _mirror(bore: Bore) -> Bore:
-    """The same at the other end of the row."""
+    """Bore mirrored to the other end of the row."""
     x, y, z = bore.start
     along, out, aside = bore.direction
     return replace(bore, start=(x, y, -z), direction=(along, out, -aside))
@@ -469,7 +469,7 @@ def _add_label(drawing: Drawing, place: Point, layer: str, text: str) -> None:
 
 
 def _find_end(head: Point, properties: Mapping[str, Any]) -> Point:
-    """End of an anchor's axis, by the direction that the table tells."""
+    """End of an anchor's axis, from its azimuth, dip and length."""
     azimuth = math.radians(properties["azimuth_deg"])
     dip, length = math.radians(properties["dip_deg"]), properties["length_m"]
     flat = length * math.cos(dip)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.addons.winter.document import WinterRun
-    from netdesign.addons.winter.settling.pack import DayPack
+    from netdesign.addons.winter.settling.models import DayPack
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.message import Message

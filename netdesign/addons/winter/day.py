@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.settling.models import DayPack
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.panel_forces import spread_out
@@ -77,7 +77,7 @@ def _merge_pack(pack: DayPack) -> tuple[Layer, ...]:
 
 
 def _scale_layers(layers: Sequence[Layer], factor: float) -> tuple[Layer, ...]:
-    """Layers so many times as thick; none where one is uniform snow."""
+    """Layers with their thicknesses times ``factor``; none for a single layer."""
     if len(layers) == 1:
         return ()
     return tuple(replace(layer, thickness=factor * layer.thickness) for layer in layers)

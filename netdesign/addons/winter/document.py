@@ -20,7 +20,7 @@ from netdesign.addons.winter.season import (
     StationPacks,
     list_complete,
 )
-from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.settling.models import DayPack
 from netdesign.addons.winter.statistics import (
     RETURN_PERIODS,
     TAILS,
@@ -62,10 +62,6 @@ def _write_compared(comparison: Comparison, series: HeightSeries) -> dict[str, A
         "winter": comparison.winter,
         "member": comparison.member,
         "source": comparison.pulls.source,
-        "days_compared": int(comparison.ratios.size),
-        "computed_over_measured": comparison.mean_ratio,
-        "scatter": comparison.scatter,
-        "readings_in_band": comparison.inside,
         "temperature_amplitude_assumed": any(
             day.is_assumed for day in comparison.computed
         ),

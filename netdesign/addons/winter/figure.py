@@ -155,10 +155,7 @@ Span = tuple[datetime, datetime]
 
 
 def draw_measured(
-    entry: Mapping[str, Any],
-    air: Mapping[str, float],
-    words: Words,
-    span: Span | None = None,
+    entry: Mapping[str, Any], air: Mapping[str, float], words: Words
 ) -> str:
     """SVG of one member's readings beside the chain.
 
@@ -170,10 +167,9 @@ def draw_measured(
         Air temperature of the station by date [C]; may be empty.
     words : Words
         Language.
-    span : (datetime, datetime), optional
-        What is shown; all readings and the days beside them unless told.
     """
-    span = span or find_span(entry)
+    moments = [moment for moment, _ in _list_readings(entry)]
+    span = min(moments) - _DAY, max(moments) + _DAY
     value, low, high = (
         _cut([(_noon(day["date"]), float(day[key])) for day in entry["computed"]], span)
         for key in ("force_kN", "low_kN", "high_kN")
@@ -199,18 +195,6 @@ def draw_measured(
         panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
     figure = words("winter_measured.figure", member=member, winter=entry["winter"])
     return draw_panels(panels, figure, span=span, language=words.language)
-
-
-def find_span(entry: Mapping[str, Any]) -> Span:
-    """Time of all readings with a day beside them.
-
-    Parameters
-    ----------
-    entry : mapping
-        Of ``measured`` in the winter document, with at least one reading.
-    """
-    moments = [moment for moment, _ in _list_readings(entry)]
-    return min(moments) - _DAY, max(moments) + _DAY
 
 
 def _trace(

@@ -21,7 +21,6 @@ from netdesign.site.cells.cells import (
     Sheet,
     TextFormat,
     group_by_row,
-    name_column,
 )
 from netdesign.site.cells.findings import Finding, fold_findings, refuse_file
 from netdesign.site.cells.numbers import read_moment
@@ -41,7 +40,7 @@ class HeightColumns:
     Attributes
     ----------
     date, height : str
-        Headings as they stand in the file, or letters of the columns.
+        Headings as they stand in the file.
     unit : str
         Of the heights; "" where their heading has it.
     missing : tuple of str
@@ -173,51 +172,26 @@ def _rename(
     heading, day, height = places
     text = sheet.cell(heading, height).text
     unit = unit or split_heading(text)[1]
-    is_inch = unit == "in"
-    title = f"snow height [{'m' if is_inch else unit}]" if unit else text
-    titles = {day: "date", height: title}
-    own = [cell for cell in cells if cell.row > heading and cell.column in titles]
+    titles = {day: "date", height: f"snow height [{unit}]" if unit else text}
     return [
         *(
             replace(sheet.cell(heading, column), value=value)
             for column, value in titles.items()
         ),
-        *(
-            _take_inches(cell) if is_inch and cell.column == height else cell
-            for cell in own
-        ),
+        *(cell for cell in cells if cell.row > heading and cell.column in titles),
     ]
-
-
-_INCH = 0.0254  # [m]
-
-
-def _take_inches(cell: Cell) -> Cell:
-    """Height in metres; text that is no number stays, and is refused."""
-    try:
-        return replace(cell, value=_INCH * float(cell.text))
-    except ValueError:
-        return cell
 
 
 _Columns = tuple[int, int, int]  # row of the headings, columns of days and heights
 
 
 def _find_columns(sheet: Sheet, names: tuple[str, str]) -> _Columns | None:
-    """Columns by their headings, else by their letters above the first day."""
+    """Columns by their headings, in one line."""
     wanted = [name.casefold() for name in names]
     for row, cells in sheet.rows.items():
         texts = {cell.text.strip().casefold(): k for k, cell in cells.items()}
         if wanted[0] in texts and wanted[1] in texts:
             return row, texts[wanted[0]], texts[wanted[1]]
-    for before, after in pairwise(sheet.rows):
-        letters = {name_column(k).casefold(): k for k in sheet.rows[after]}
-        day, height = (letters.get(name) for name in wanted)
-        if day is None or height is None:
-            continue
-        first = sheet.cell(after, day)
-        if _is_moment(first.text) or _list_orders([first]):
-            return before, day, height
     return None
 
 
@@ -236,7 +210,6 @@ def _find_known(sheet: Sheet) -> _Columns | None:
 
 
 _NUMBERS = re.compile(r"(\d{1,4})([./-])(\d{1,2})\2(\d{1,4})\b(.*)", re.DOTALL)
-_PACKED = re.compile(r"(\d{4})(\d{2})(\d{2})(?:\d{2}){0,3}")
 _ORDERS = ((2, 1, 0), (2, 0, 1), (0, 1, 2))  # places of year, month, day
 _CENTURY = 70  # years of two digits from here on are 1970 to 1999
 
@@ -288,13 +261,10 @@ def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
 
 def _read_day(text: str, order: tuple[int, int, int]) -> date | None:
     """Day of a text in one order of its numbers; None if it is none."""
-    if packed := _PACKED.fullmatch(text):
-        numbers: tuple[str, ...] = packed.groups()
-        order = (0, 1, 2)
-    elif parted := _NUMBERS.fullmatch(text):
-        numbers = (parted[1], parted[3], parted[4])
-    else:
+    parted = _NUMBERS.fullmatch(text)
+    if parted is None:
         return None
+    numbers = (parted[1], parted[3], parted[4])
     year, month, day = (numbers[place] for place in order)
     if len(year) not in (2, 4) or len(month) > 2 or len(day) > 2:
         return None

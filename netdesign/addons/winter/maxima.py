@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from netdesign.addons.winter.day import LEAST_DENSITY, DaySolver, RowDay
-from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.settling.models import DayPack
 from netdesign.addons.winter.uniform_table import UniformTable, build_table
 from netdesign.numerics.arrays import Floats
 from netdesign.words.message import Message
@@ -177,7 +177,7 @@ def _solve_heaviest(
 
 
 def _list_uncovered(days: Sequence[RowDay], solved: Sequence[RowDay]) -> list[RowDay]:
-    """Days that no solved one outdoes in thickness and density."""
+    """Days that no solved day equals or exceeds in both thickness and density."""
     heaviest = _list_heaviest([heavier for heavier in solved if heavier.foot])
     return [
         day for day in days if not any(_covers(heavier, day) for heavier in heaviest)
@@ -187,7 +187,7 @@ def _list_uncovered(days: Sequence[RowDay], solved: Sequence[RowDay]) -> list[Ro
 def _choose_next(
     days: Sequence[RowDay], solved: Sequence[RowDay], solver: DaySolver
 ) -> list[RowDay]:
-    """Few days of the best ranks, of those that may pull more than what is solved."""
+    """The two highest-ranked days that may still exceed the largest solved pull."""
     ground = solver.row.scene.ground.kind
     pulling = [day for day in solved if day.foot]
     pulls = np.array([day.pull for day in pulling])
@@ -201,7 +201,7 @@ def _choose_next(
 
 
 def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
-    """Days of which no other is as thick and as dense; one of those that are alike."""
+    """Days that no other day equals or exceeds in both thickness and density."""
     order = sorted(days, key=lambda day: (-day.thickness, -day.density))
     heaviest: list[RowDay] = []
     for day in order:  # only what is denser than all that is thicker

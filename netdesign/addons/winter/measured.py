@@ -6,18 +6,15 @@ Theory: addons/winter/THEORY.md, section 6.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
-
-import numpy as np
 
 from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
 from netdesign.addons.winter.season import RowWinters, Season
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
-from netdesign.numerics.arrays import Floats
 from netdesign.site.further_sheets import MonitoringSeries
 from netdesign.site.model import Site
 from netdesign.snow.heights import HeightSeries, name_winter
@@ -47,23 +44,6 @@ class MeasuredPulls:
     forces: tuple[float, ...]
     source: str = ""
     air_temperatures: tuple[tuple[datetime, float], ...] = ()
-
-    def average_days(self, series: HeightSeries) -> Mapping[int, float]:
-        """Mean force of each day [N], by its place in a station's series.
-
-        Days outside the series are left out.
-
-        Parameters
-        ----------
-        series : HeightSeries
-            Of the station.
-        """
-        groups: dict[int, list[float]] = {}
-        for moment, force in zip(self.moments, self.forces, strict=True):
-            place = (moment.date() - series.first_day).days
-            if 0 <= place < len(series.heights):
-                groups.setdefault(place, []).append(force)
-        return {k: sum(forces) / len(forces) for k, forces in groups.items()}
 
 
 EXPANSION = 1.2e-5  # of steel [1/K]
@@ -167,29 +147,12 @@ class Comparison:
         Its readings in this winter.
     computed : tuple of ComputedForce
         Of the days of the curve that have a force, ascending.
-    ratios : ndarray, shape (n_days,)
-        Computed over measured mean of each day with readings within the curve [-].
-    inside : float or None
-        Share of the readings within the band [-]; None where none can be compared.
     """
 
     winter: str
     member: str
     pulls: MeasuredPulls
     computed: tuple[ComputedForce, ...]
-    ratios: Floats
-    inside: float | None
-
-    @property
-    def mean_ratio(self) -> float | None:
-        """Mean of computed over measured [-]; None where no day can be compared."""
-        return float(self.ratios.mean()) if self.ratios.size else None
-
-    @property
-    def scatter(self) -> float | None:
-        """Standard deviation of its logarithm [-]; None of fewer than two days."""
-        positive = self.ratios[self.ratios > 0.0]
-        return float(np.log(positive).std()) if positive.size > 1 else None
 
 
 def compare_season(
@@ -230,8 +193,6 @@ def compare_season(
         member=pulls.member,
         pulls=within,
         computed=computed,
-        ratios=_compare_days(within.average_days(series), computed),
-        inside=_count_inside(within, computed, series),
     )
 
 
@@ -278,48 +239,6 @@ def _compute(
         amplitude=amplitude,
         is_assumed=half_range is None,
     )
-
-
-def _compare_days(
-    measured: Mapping[int, float], computed: Sequence[ComputedForce]
-) -> Floats:
-    """Computed over measured of each day within the curve, between its days linear."""
-    if not computed:
-        return np.empty(0)
-    places = np.array([force_of_day.index for force_of_day in computed])
-    values = np.array([force_of_day.force.value for force_of_day in computed])
-    within = {
-        day: force
-        for day, force in measured.items()
-        if places[0] <= day <= places[-1] and force > 0.0
-    }
-    forces = np.array(list(within.values()))
-    return np.asarray(np.interp(np.array(list(within)), places, values) / forces)
-
-
-def _count_inside(
-    pulls: MeasuredPulls, computed: Sequence[ComputedForce], series: HeightSeries
-) -> float | None:
-    """Share of the readings between force less swing and force plus swing."""
-    if not computed:
-        return None
-    times = np.array([series.place(moment) for moment in pulls.moments])
-    places = np.array([force_of_day.index + _NOON for force_of_day in computed])
-    is_known = (times >= places[0]) & (times <= places[-1])
-    if not is_known.any():
-        return None
-    low = np.interp(
-        times,
-        places,
-        [force_of_day.force.low - force_of_day.swing for force_of_day in computed],
-    )
-    high = np.interp(
-        times,
-        places,
-        [force_of_day.force.high + force_of_day.swing for force_of_day in computed],
-    )
-    forces = np.array(pulls.forces)
-    return float(((low <= forces) & (forces <= high))[is_known].mean())
 
 
 def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:

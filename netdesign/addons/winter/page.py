@@ -176,13 +176,6 @@ def _describe_measured(entry: Mapping[str, Any], words: Words) -> str:
             source=show_text(entry["source"]),
         )
     ]
-    if entry["computed_over_measured"] is not None:
-        apart = {
-            "count": entry["days_compared"],
-            "ratio": entry["computed_over_measured"],
-            "inside": entry["readings_in_band"] or 0.0,
-        }
-        sentences.append(words("winter_measured.apart", **apart))
     sentences.append(words("winter_measured.swing"))
     if entry["temperature_amplitude_assumed"]:
         sentences.append(words("winter_measured.assumed"))

@@ -21,8 +21,11 @@ from netdesign.addons.winter.maxima import (
     find_many_maxima,
     find_maximum_alone,
 )
-from netdesign.addons.winter.settling.models import SettlingModel, follow_heights
-from netdesign.addons.winter.settling.pack import DayPack
+from netdesign.addons.winter.settling.models import (
+    DayPack,
+    SettlingModel,
+    follow_heights,
+)
 from netdesign.addons.winter.statistics import Sample, choose_sample
 from netdesign.addons.winter.uniform_table import UniformTable
 from netdesign.snow.heights import HeightSeries, split_winters
@@ -176,8 +179,9 @@ def _find_gain(
 ) -> float:
     """Most by which the layers of a day may pull more than its uniform snow.
 
-    Told by the gains of the nearest solved days, where their snow is like that day's;
-    ``gains`` ascends.
+    The gains of the two nearest solved days bound it, if these lie within 8 days of
+    each other and their densities within a tenth of the day's; otherwise
+    ``LAYERED_GAIN`` does. ``gains`` ascends by day.
     """
     places = list(gains)
     after = bisect(places, day.index)

@@ -47,7 +47,7 @@ class Gumbel:
         return self.deviation / self.mean if self.mean else math.nan
 
     def find_return_value(self, period: float) -> tuple[float, float]:
-        """Value exceeded once in so many years, and its error, eqs (Y6) and (Y7).
+        """Value exceeded once in ``period`` years, and its error, eqs (Y6) and (Y7).
 
         Parameters
         ----------
@@ -144,21 +144,21 @@ class Gumbel:
 
 @lru_cache(maxsize=4)
 def _draw_moments(count: int) -> tuple[Floats, Floats]:
-    """Means and deviations of samples of so many draws of Gumbel's distribution."""
+    """Means and deviations of samples of ``count`` draws of Gumbel's distribution."""
     samples = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
     return samples.mean(axis=1), samples.std(axis=1, ddof=1)
 
 
 @lru_cache(maxsize=8)
 def _draw_tails(count: int, shape: float) -> tuple[Floats, Floats]:
-    """Means and deviations of samples of so many draws with a heavier tail."""
+    """Means and deviations of samples of ``count`` draws with a heavier tail."""
     reduced = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
     samples = np.expm1(shape * reduced) / shape
     return samples.mean(axis=1), samples.std(axis=1, ddof=1)
 
 
 def _reduce_tail(period: float, shape: float) -> float:
-    """Reduced value exceeded once in so many years, with a heavier tail, (Y15)."""
+    """Reduced value exceeded once in ``period`` years, with a heavier tail, (Y15)."""
     return math.expm1(shape * _reduce_gumbel(period)) / shape
 
 
@@ -174,7 +174,7 @@ def _find_factor(period: float) -> float:
 
 
 def _reduce_gumbel(period: float) -> float:
-    """Reduced value of Gumbel's distribution exceeded once in so many years."""
+    """Reduced value of Gumbel's distribution exceeded once in ``period`` years."""
     return -math.log(-math.log(1.0 - 1.0 / period))
 
 
@@ -218,7 +218,7 @@ class LimitedGumbel:
         return math.pi / math.sqrt(6.0) * self.scale / self.mean
 
     def find_return_value(self, period: float) -> tuple[float, float]:
-        """Value exceeded once in so many years, and its error by the samples.
+        """Value exceeded once in ``period`` years, and its error by the samples.
 
         Parameters
         ----------

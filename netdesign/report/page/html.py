@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from netdesign.report.blocks import link
 from netdesign.report.page.render import render_page
-from netdesign.report.sections.whole import build_report, title_pages
-from netdesign.report.what_if import mark_verdict
+from netdesign.report.sections.whole import build_report
+from netdesign.report.what_if import mark_verdict, title_pages
 from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language

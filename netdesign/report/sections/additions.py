@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 from netdesign import addon_table
 from netdesign.report.blocks import Part
@@ -14,7 +13,7 @@ from netdesign.study.records import Study
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Addition:
-    """Blocks, lines and a sheet that an add-on has for a study with records of it.
+    """Blocks and lines that an add-on has for a study with records of it.
 
     Attributes
     ----------
@@ -24,17 +23,11 @@ class Addition:
         The annex, of page and document.
     list_lines : callable
         Lines for a terminal.
-    sheet : str
-        Name of its sheet.
-    add_sheet : callable
-        Adds the sheet to a ``Book`` of the workbook.
     """
 
     annex: str
     show: Callable[[Study, Words], Iterator[Part]]
     list_lines: Callable[[Study, Words], Iterator[str]]
-    sheet: str
-    add_sheet: Callable[[Any, Study], None]
 
 
 def list_additions(study: Study) -> list[Addition]:

@@ -173,13 +173,13 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     return (
         Cell(text=show_text(row.id), content=name),
         *(used_cell(rate(group), words) for group in groups),
-        Cell(content=_show_structure(row, words)),
+        Cell(content=show_structure(row, words)),
         Cell(content=(sign(siting.verdict, words),)),
         Cell(content=_tell_governing(row, words)),
     )
 
 
-def _show_structure(row: RowStudy, words: Words) -> Content:
+def show_structure(row: RowStudy, words: Words) -> Content:
     """Utilisation of the structure; the document that proves all of it."""
     line = find_structure(row)
     if line is None:

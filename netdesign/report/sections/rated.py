@@ -125,6 +125,13 @@ def find_deciding(row: RowStudy) -> Check | None:
     return max(pool, key=_rank) if pool else find_governing(row.checks)
 
 
+def find_shown(row: RowStudy) -> Check | None:
+    """Check that is named beside a row: the deciding one, else the most used."""
+    if row.verdict is Verdict.DECLARED:
+        return find_worked(row)
+    return find_deciding(row)
+
+
 def find_worked(row: RowStudy) -> Check | None:
     """Check of a force that is worked out: the deciding one, else the most used."""
     deciding = find_deciding(row)

@@ -8,14 +8,13 @@ from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.report.sections.basis import label_rows
 from netdesign.report.words import (
-    VERDICTS,
     Words,
     append_unit,
     show_check,
     show_text,
 )
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.scopes import BY_APPROVAL, SCOPES, Scope, ScopeRecord
+from netdesign.study.scopes import BY_APPROVAL, Scope, ScopeRecord
 
 _BETWEEN = " · "
 
@@ -71,22 +70,6 @@ def show_extent(record: ScopeRecord, check: Check | None, words: Words) -> str:
     if demand is None or is_met:
         return ""
     return append_unit(words.show_number("demand_kN", demand), "kN")
-
-
-def show_scope(row: RowStudy, scope: Scope, words: Words) -> tuple[str, str]:
-    """Symbol of a verdict with what decides: ``✓ 0.84 (6)``, ``† X``; and its style."""
-    record = row.scopes[scope]
-    check = _find_check(row, record)
-    extent = _find_approval(record, check) or show_extent(record, check, words)
-    count = f"({record.assumed})" if record.assumed else ""
-    shown = VERDICTS[record.verdict]
-    parts = (shown.symbol, show_text(extent) if extent else "", count)
-    return " ".join(filter(None, parts)), shown.style
-
-
-def list_headings(words: Words) -> list[str]:
-    """Headings of the columns of the scopes."""
-    return [words(f"heading.scope_{scope}") for scope in SCOPES]
 
 
 def list_exceeding(study: Study, words: Words) -> Iterator[str]:

@@ -10,7 +10,7 @@ from netdesign.report.blocks import Block
 from netdesign.report.sections import annexes, basis, decision, schedule
 from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.row import RowPage
-from netdesign.report.what_if import mark_title
+from netdesign.report.what_if import title_pages
 from netdesign.report.words import Words, show_text
 from netdesign.study.records import Study
 
@@ -66,11 +66,3 @@ def list_properties(study: Study, words: Words) -> dict[str, Any]:
         "author": show_text(study.project.author),
         "created": time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time,
     }
-
-
-def title_pages(study: Study, words: Words) -> str:
-    """Line that runs along with the pages of a print."""
-    project = study.project
-    texts = (project.number, project.name, project.revision)
-    title = " · ".join(show_text(text) for text in texts if text)
-    return mark_title(study, title, words)

@@ -21,7 +21,6 @@ from netdesign.report.blocks import (
     Pairs,
     Table,
 )
-from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
@@ -40,8 +39,8 @@ from netdesign.report.sections.decision import (
 )
 from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.sections.scopes import describe_study_scopes
-from netdesign.report.sections.whole import list_properties, title_pages
-from netdesign.report.what_if import build_what_if, mark_title, name_kind
+from netdesign.report.sections.whole import list_properties
+from netdesign.report.what_if import build_what_if, mark_title, name_kind, title_pages
 from netdesign.report.words import MISSING, Words, show_text
 from netdesign.report.workbook.check_sheet import (
     FIRST_LINE,
@@ -184,8 +183,7 @@ def render_workbook(
         book = Book(workbook, properties["subject"], words)
         _add_sheets(book, study, is_verified=is_verified)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
-        further = [one.sheet for one in list_additions(study)]
-        if names != tuple(book.name(sheet) for sheet in (*SHEETS, *further)):
+        if names != tuple(map(book.name, SHEETS)):
             raise NetDesignError(f"the workbook is incomplete: it has only {names}")
     return buffer.getvalue()
 
@@ -199,8 +197,6 @@ def _add_sheets(book: Book, study: Study, *, is_verified: bool) -> None:
     add_page_sheet(book, "inputs", [*above, build_inputs(study, words)])
     _add_part(book, "profile", show_profile(study, words).blocks)
     _add_notes(book, study)
-    for addition in list_additions(study):
-        addition.add_sheet(book, study)
     _link_sheets(book)
 
 

@@ -22,7 +22,6 @@ _NAMES, _TEXTS = 24.0, 90.0  # columns of a sheet without tables
 _CHARACTER, _CAPITAL = 0.82, 0.3  # width of one of ours; what a capital has beyond it
 _WIDEST_LETTER = 1.13  # above that of a capital, whatever is rounded
 _INDENT = 1.5  # of a text
-TABLE_TOP = 4  # line of a table below its caption and headings, zero-based
 BETWEEN_TABLES = 3  # lines from one table of a sheet to the next
 
 
@@ -168,9 +167,6 @@ _LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links ou
 def _show_literally(text: str) -> str:
     """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
     return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
-
-
-_FULL = 1.5  # utilisation of a full bar
 
 
 class Book:
@@ -369,22 +365,6 @@ class Book:
                 "format": form,
             }
             sheet.conditional_format(*area, rule)
-
-    def add_ratio_bars(
-        self, sheet: Any, area: tuple[int, int, int, int], full: float = _FULL
-    ) -> None:
-        """Bars behind ratios, utilisations unless ``full`` is that of others."""
-        rule = {
-            "type": "data_bar",
-            "data_bar_2010": True,
-            "bar_solid": True,
-            "bar_color": "#C9CED4",
-            "min_type": "num",
-            "max_type": "num",
-            "min_value": 0,
-            "max_value": full,
-        }
-        sheet.conditional_format(*area, rule)
 
 
 def _find_look(quantity: str, text: str) -> dict[str, Any]:

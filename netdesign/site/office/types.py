@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.resistance.products import find_product
+from netdesign.resistance.products import find_bar
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS, ROPES, TESTS
 from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si
@@ -149,10 +149,9 @@ def fill_in_anchor(row: Row, findings: list[Finding]) -> Row:
     force, diameter = row["tendon"], row["bar_diameter"]
     if row["kind"].word == "rope anchor" or "faulty" in (force.state, diameter.state):
         return row
-    product = find_product(row["id"].word)
+    product = find_bar(row["id"].word)
     is_open = all(row[key].state == "blank" for key in _STEEL)
-    is_bar = product is not None and product.family.endswith("bar")
-    if product is not None and is_bar and (is_open or force.state != "given"):
+    if product is not None and (is_open or force.state != "given"):
         keys = [key for key in _STEEL if row[key].state != "given"]
         how = say("derivation.named_bar", product=product.id, sources=product.sources)
         steel = name_values(row, keys, product, ("inner_diameter",), how)

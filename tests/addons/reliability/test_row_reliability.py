@@ -199,14 +199,16 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
                 continue
             by_case = find_check_by_case(task, known, one, [one])
             if by_case is None:
-                post = one.given.member in ("post", "post_base")
+                post = one.resistance.member in ("post", "post_base")
                 unsolved = not one.force.largest.high_kN  # and not pulled in any case
-                assert post or unsolved or on.load.across or one.given.dimensions
+                assert post or unsolved or on.load.across or one.resistance.dimensions
                 continue
-            followed.add((task.row.id, one.given.member))
+            followed.add((task.row.id, one.resistance.member))
             factor, design = one.check.read("γ_E"), one.check.read("R_d")
             for case in solved[::7]:
-                of_case = find_force(cut_to(known, solved, case), one.given, one.width)
+                of_case = find_force(
+                    cut_to(known, solved, case), one.resistance, one.width
+                )
                 direct = max(of_case.on.coupled.high, of_case.on.by_panel.high)
                 used = factor * direct / design
                 assert by_case.utilisation(case) == pytest.approx(used, rel=1e-9)

@@ -11,9 +11,9 @@ from netdesign.addons.winter.settling.models import (
     DELTA_SNOW,
     DELTA_SNOW_AGEING,
     Ageing,
+    DayPack,
     follow_heights,
 )
-from netdesign.addons.winter.settling.pack import DayPack
 
 G, DAY = 9.81, 86400.0
 RHO_0, RHO_MAX = 81.19417, 401.2588

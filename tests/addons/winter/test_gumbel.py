@@ -1,8 +1,5 @@
 """Return values of annual maxima."""
 
-import math
-
-import numpy as np
 import pytest
 
 from netdesign.addons.winter.statistics import Gumbel, fit_gumbel
@@ -20,14 +17,3 @@ def test_frequency_factors_are_those_of_the_textbooks(period, factor):
     fit = Gumbel(count=40, mean=17.3, deviation=5.9)
     got = (fit.find_return_value(period)[0] - 17.3) / 5.9
     assert got == pytest.approx(factor, abs=6e-4)
-
-
-def test_values_and_errors_are_those_of_drawn_samples():
-    """Samples of a known Gumbel distribution scatter as Kite's error says."""
-    rng = np.random.default_rng(23)
-    samples = rng.gumbel(16.0, 4.7, size=(3000, 35))
-    found = [fit_gumbel(list(one)).find_return_value(100.0) for one in samples]
-    exact = 16.0 - 4.7 * math.log(-math.log(0.99))
-    values, errors = np.array(found).T
-    assert values.mean() == pytest.approx(exact, rel=0.02)
-    assert errors.mean() == pytest.approx(values.std(), rel=0.08)

@@ -1,8 +1,6 @@
 """Measured forces on the dates of a winter."""
 
-from datetime import date, datetime
-
-import pytest
+from datetime import datetime
 
 from netdesign.addons.winter.measured import (
     explain_unused,
@@ -10,7 +8,6 @@ from netdesign.addons.winter.measured import (
     name_measured_winters,
 )
 from netdesign.site.further_sheets import MonitoringSeries
-from netdesign.snow.heights import HeightSeries
 from tests import small_site
 
 HOUR = 3600.0
@@ -35,14 +32,6 @@ def test_readings_keep_their_moments():
     assert pulls.forces == (11e3, 17e3, 23e3)
     assert pulls.moments[1] == datetime(2003, 2, 18, 23)
     assert list_measured_pulls(a_site(), "R2") == ()
-
-
-def test_days_have_the_mean_of_their_readings():
-    (pulls,) = list_measured_pulls(a_site(), "R1")
-    series = HeightSeries(first_day=date(2003, 2, 17), heights=(0.5, 0.6, 0.7, 0.8))
-    assert pulls.average_days(series) == pytest.approx({1: 14e3, 3: 23e3})
-    late = HeightSeries(first_day=date(2003, 2, 19), heights=(0.5,))
-    assert pulls.average_days(late) == {}
 
 
 def test_times_without_a_date_stand_beside_no_winter():

@@ -26,10 +26,3 @@ def test_density_up_and_back_leaves_no_force_behind(name):
     chain = follow_scenes(scenes, [creep_time] * len(scenes))
     at_rest = solve_alone(scenes[:5])
     np.testing.assert_allclose(chain, [*at_rest, at_rest[0]], rtol=0.015)
-
-
-def test_a_net_without_time_remembers():
-    """The check above can fail: without creep the net keeps the old snow's curve."""
-    scenes = [loaded(density, 3.0, GROUNDS["no slip"][0]) for density in (450.0, 200.0)]
-    chain = follow_scenes(scenes, [0.2, 1e-7], steps=6)
-    assert chain[1, 0] > 1.1 * solve_alone(scenes[1:])[0, 0]

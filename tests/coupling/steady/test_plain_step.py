@@ -42,21 +42,3 @@ def test_paths_agree(name):
         assert (found.x, found.y) == pytest.approx(
             (expected.x, expected.y), abs=ROUNDING * expected.size
         )
-
-
-def test_both_elements_are_compared():
-    elements = {build_tables(tables).flow_problem.element for tables in CHOSEN.values()}
-    assert elements == {"velocity", "mixed"}
-
-
-def test_the_plain_path_is_really_taken(monkeypatch):
-    taken = []
-    advance = plain_step.advance
-
-    def count(*arguments):
-        taken.append(arguments)
-        return advance(*arguments)
-
-    scene = build_tables(CHOSEN["rough-ground"])
-    solution = solve_steady(scene, replace(SETTINGS, step=count), on_failure="raise")
-    assert len(taken) == solution.cost.linear_solves

@@ -6,15 +6,16 @@ import pytest
 
 from netdesign.checks.geometry import Approval
 from netdesign.outcome import Verdict
+from netdesign.report.blocks import write_plain
 from netdesign.report.page.html import render_html
+from netdesign.report.sections.decision import show_structure
 from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor, rate
 from netdesign.report.sections.scopes import (
     describe_study_scopes,
     list_exceeding,
-    show_scope,
 )
 from netdesign.report.words import ENGLISH, Words
-from netdesign.study.scopes import SCOPES, Scope
+from netdesign.study.scopes import SCOPES
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader
@@ -50,7 +51,7 @@ def test_the_document_of_an_approval_is_named(language):
     told = describe_study_scopes(replace(STUDY, rows=[row]), words)
     assert f"{words('of_scope.structure')} " in told
     assert DOCUMENT in told
-    assert show_scope(row, Scope.STRUCTURE, words) == (f"† {DOCUMENT}", "declared")
+    assert write_plain(show_structure(row, words)) == f"† {DOCUMENT}"
 
 
 def test_every_scope_stands_with_its_verdict_and_utilisation():
@@ -64,7 +65,6 @@ def test_every_scope_stands_with_its_verdict_and_utilisation():
             if record.utilisation is not None:
                 used = ENGLISH.show_number("utilisation", record.utilisation)
                 assert used in text
-                assert used in show_scope(row, scope, ENGLISH)[0]
 
 
 def test_the_whole_study_names_the_row_that_decides():

@@ -41,12 +41,16 @@ FOUND = (1005, 1016, 1025, 1149)  # sites that showed a fault once
 
 
 def judge_lines(path, lines):
-    """Study, its site and profile; None where the reader refuses the site."""
+    """Study, its site and profile; None where the reader refuses the site.
+
+    Of the two equal rows beside one that goes on the first is judged.
+    """
     write_lines(path, lines)
     try:
         site = read_site(path)
     except SiteDataError:
         return None
+    site = replace(site, rows=site.rows[:2])
     named = site.project.standard
     standard = replace(load_standard(named or DEFAULT), is_default=not named)
     study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)

@@ -30,7 +30,7 @@ from netdesign.addons.evidence.benchmark.scenes import (
     write_heights,
     write_site,
 )
-from netdesign.addons.evidence.runner import SINGLE_THREADED, run_in_turns
+from netdesign.addons.evidence.runner import run_in_turns
 from netdesign.core.library import name_core
 from netdesign.outcome import ModelError
 from netdesign.words.message import say
@@ -180,7 +180,7 @@ def compare_versions(
 
 
 def write_sites(folder: Path, rows: int) -> None:
-    """Write the site of so many net rows, those with one value changed, and heights."""
+    """Write a site, copies with one value changed, and a station's snow heights."""
     write_site(folder / "site", rows)
     write_heights(folder / _HEIGHTS, _WINTERS)
     for name, change in CHANGED.items():
@@ -199,7 +199,7 @@ def time_figure(python: Path, figure: Figure, folder: Path) -> Times | str:
             capture_output=True,
             text=True,
             check=False,
-            env=kept | SINGLE_THREADED | store,
+            env=kept | store,
             timeout=_LONGEST_S,
         )
     except subprocess.TimeoutExpired:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from netdesign.coupling.scene import Scene
-from netdesign.files.scene import SceneFile, build_given
+from netdesign.files.scene import SceneFile, build_scene_of_file
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
@@ -59,7 +59,7 @@ def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
 
 def build_tables(tables: Tables) -> Scene:
     """Scene of the tables of a scene file."""
-    return build_given(SceneFile.model_validate(tables)).scene
+    return build_scene_of_file(SceneFile.model_validate(tables)).scene
 
 
 # Usual ranges of the symbols; stiffness and slip length are drawn on a log scale.
@@ -157,7 +157,7 @@ _SCALED = ("snow thickness [m]", "upslope length [m]")
 
 
 def write_site(folder: Path, count: int) -> None:
-    """Write a site of so many net rows, each sheet as a csv file.
+    """Write a site of ``count`` net rows, each sheet as a csv file.
 
     The rows are those of the first example; used again, each has less snow.
     """
@@ -192,7 +192,7 @@ _MELTS_CM = 6.0  # each day, once the snow melts
 
 
 def write_heights(path: Path, winters: int) -> None:
-    """Write a station's snow heights of so many winters, drawn: 0.7 to 2.5 m deep."""
+    """Write drawn snow heights of a station, 0.7 to 2.5 m deep."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("date", "HS [cm]"))

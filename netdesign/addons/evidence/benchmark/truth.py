@@ -121,7 +121,7 @@ def build_truth(solution: Solution | FailedSolution) -> Truth:
 
 
 def refine_size(size: MeshSize, times: int) -> MeshSize:
-    """Every triangle cut in four, so many times."""
+    """Mesh size whose triangles are cut in four ``times`` times."""
     return replace(size, subdivisions=size.subdivisions + times)
 
 

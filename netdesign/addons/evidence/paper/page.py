@@ -26,14 +26,8 @@ from netdesign.addons.evidence.paper.runs import (
     find_paper_time,
     find_steady,
 )
-from netdesign.addons.evidence.paper.tables import Listed, list_tables
-from netdesign.addons.history.moments import (
-    LEAST_STRAIN,
-    NODE_DRIFT,
-    PULL_DRIFT,
-    REST_SHARE,
-    REST_WAY,
-)
+from netdesign.addons.evidence.paper.tables import list_tables
+from netdesign.addons.history.moments import CRITERION
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.blocks import (
     Block,
@@ -350,23 +344,13 @@ PAGE_FILE = "index.html"
 
 
 def render_paper(study: PaperStudy) -> dict[str, bytes]:
-    """Contents of all files of the study, by name.
+    """Page of the study, by the name of its file.
 
     Parameters
     ----------
     study : PaperStudy
-        As computed; how many runs gave no result is told on the page.
+        Its runs.
     """
-    plates, tables = draw_plates(study), list_tables(study)
-    files = {PAGE_FILE: _render_page(study, plates, tables).encode()}
-    files |= {f"{plate.name}.svg": plate.svg.encode() for plate in plates}
-    files |= {f"{listed.name}.csv": listed.render() for listed in tables}
-    return files
-
-
-def _render_page(
-    study: PaperStudy, plates: Sequence[Plate], tables: Sequence[Listed]
-) -> str:
     lead = ENGLISH(
         "paper.lead",
         length=LENGTH,
@@ -383,14 +367,15 @@ def _render_page(
             ENGLISH("paper.heading"),
             Paragraph(text=lead, look="lead"),
         ),
-        section("pictures", ENGLISH("paper.pictures"), *_show_plates(plates)),
+        section(
+            "pictures", ENGLISH("paper.pictures"), *_show_plates(draw_plates(study))
+        ),
         section(
             "tables",
             ENGLISH("paper.tables"),
             *(
-                Part(kind="div", id=f"table-{listed.name}", blocks=(shown,))
-                for listed in tables
-                for shown in [listed.table.shown("study")]
+                Part(kind="div", id=f"table-{name}", blocks=(table.shown("study"),))
+                for name, table in list_tables(study).items()
             ),
             look="page",
         ),
@@ -408,21 +393,14 @@ def _render_page(
             ),
         ),
     )
-    return render_page(blocks, ENGLISH("paper.title"), "en")
+    return {PAGE_FILE: render_page(blocks, ENGLISH("paper.title"), "en").encode()}
 
 
 def _tell_histories(study: PaperStudy) -> str:
     return ENGLISH(
         "paper.how_histories",
         days=day_from_second(study.settings.horizon),
-        criterion=ENGLISH(
-            "solved.criterion",
-            strain=LEAST_STRAIN,
-            pull=PULL_DRIFT,
-            node=NODE_DRIFT,
-            rest=REST_SHARE,
-            way=REST_WAY,
-        ),
+        criterion=CRITERION,
         hours=find_history(NORMAL_NET_DEG).scene.time_scale / 3600.0,
     )
 

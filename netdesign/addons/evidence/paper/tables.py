@@ -1,10 +1,10 @@
-"""Tables of the paper's study, for the page and as CSV."""
+"""Tables of the paper's study."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -29,65 +29,37 @@ from netdesign.addons.evidence.table import (
     Kind,
     tabulate,
 )
-from netdesign.report.blocks import Table, text_cell, write_csv
+from netdesign.report.blocks import Table, text_cell
 from netdesign.report.words import ENGLISH
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Listed:
-    """One table: name of its CSV file, keys of its columns, cells."""
-
-    name: str
-    keys: tuple[str, ...]
-    table: Table
-
-    def render(self) -> bytes:
-        """CSV with full precision; a missing number is an empty cell."""
-        rows = [
-            [cell.number if column.is_number else cell.text for cell, column in pairs]
-            for pairs in (
-                list(zip(row, self.table.columns, strict=True))
-                for row in self.table.rows
-            )
-        ]
-        return write_csv(self.keys, rows)
-
-
-Columns = Mapping[str, tuple[str, Kind]]  # by their keys in a file: heading, kind
+Columns = tuple[tuple[str, Kind], ...]  # headings, or their keys, and kinds
 _WORDS = Kind(
     show=lambda key: text_cell(ENGLISH(f"paper_value.{key}")), is_number=False
 )
-_NET: Columns = {"inclination_deg": ("θ [°]", INCLINATIONS)}
+_NET = ("θ [°]", INCLINATIONS)
 
 
-def list_tables(study: PaperStudy) -> list[Listed]:
-    """All tables of the study."""
-    return [
-        _tabulate_plateaus(study),
-        _tabulate_growth(study),
-        _tabulate_parameters(study),
-    ]
-
-
-def _list(
-    name: str, caption: str, columns: Columns, rows: Iterable[Sequence[object]]
-) -> Listed:
-    table = tabulate(ENGLISH(caption), list(columns.values()), rows)
-    return Listed(name=name, keys=tuple(columns), table=table)
-
-
-def _tabulate_plateaus(study: PaperStudy) -> Listed:
-    columns: Columns = {
-        **_NET,
-        "method": ("paper_table.method", _WORDS),
-        "foot_kN_per_m": ("paper_table.foot", FORCES),
-        "foot_error_kN_per_m": ("± ", ERRORS),
-        "head_kN_per_m": ("paper_table.head", FORCES),
-        "head_error_kN_per_m": ("± ", ERRORS),
-        "foot_against_steady_percent": ("paper_table.foot_against_steady", CHANGES),
-        "largest_foot_kN_per_m": ("paper_table.largest_foot", FORCES),
-        "plateau_from_s": ("paper_table.plateau_from", TIMES),
+def list_tables(study: PaperStudy) -> dict[str, Table]:
+    """Tables of the study by their anchors on the page."""
+    return {
+        "plateau": _tabulate_plateaus(study),
+        "friction": _tabulate_growth(study),
+        "inclination-and-gravity": _tabulate_parameters(study),
     }
+
+
+def _tabulate_plateaus(study: PaperStudy) -> Table:
+    columns: Columns = (
+        _NET,
+        ("paper_table.method", _WORDS),
+        ("paper_table.foot", FORCES),
+        ("± ", ERRORS),
+        ("paper_table.head", FORCES),
+        ("± ", ERRORS),
+        ("paper_table.foot_against_steady", CHANGES),
+        ("paper_table.largest_foot", FORCES),
+        ("paper_table.plateau_from", TIMES),
+    )
     rows = []
     for net in NETS_DEG:
         straight = find_history(net)
@@ -111,20 +83,17 @@ def _tabulate_plateaus(study: PaperStudy) -> Listed:
                     run.plateau_time,
                 )
             )
-    return _list("plateau", "paper_table.plateau", columns, rows)
+    return tabulate(ENGLISH("paper_table.plateau"), columns, rows)
 
 
-def _tabulate_growth(study: PaperStudy) -> Listed:
-    columns: Columns = {
-        "method": ("paper_table.method", _WORDS),
-        **_NET,
-        "quantity": ("paper_table.force", _WORDS),
-        **{
-            f"friction_{phi:.0f}_deg_kN_per_m": (f"{phi:.0f}°", FORCES)
-            for phi in FRICTIONS_DEG
-        },
-        "change_percent": ("paper_table.change", CHANGES),
-    }
+def _tabulate_growth(study: PaperStudy) -> Table:
+    columns: Columns = (
+        ("paper_table.method", _WORDS),
+        _NET,
+        ("paper_table.force", _WORDS),
+        *((f"{phi:.0f}°", FORCES) for phi in FRICTIONS_DEG),
+        ("paper_table.change", CHANGES),
+    )
     rows: list[tuple[object, ...]] = []
     for net in NETS_DEG:
         histories = [find_history(net, phi) for phi in FRICTIONS_DEG]
@@ -135,7 +104,7 @@ def _tabulate_growth(study: PaperStudy) -> Listed:
             rows.append(("steady", net, end, *values, _change(values[-1], values[0])))
     exchanges = [study[find_exchange(NORMAL_NET_DEG, phi)] for phi in FRICTIONS_DEG]
     rows += _grow_histories("staggered", NORMAL_NET_DEG, exchanges)
-    return _list("friction", "paper_table.friction", columns, rows)
+    return tabulate(ENGLISH("paper_table.friction"), columns, rows)
 
 
 def _grow_histories(
@@ -168,15 +137,15 @@ def _read_node(track: Track, node: str, time: float) -> tuple[float, float]:
     return x, y
 
 
-def _tabulate_parameters(study: PaperStudy) -> Listed:
-    columns: Columns = {
-        **_NET,
-        "gravity": ("paper_table.gravity", _WORDS),
-        "history_foot_kN_per_m": ("paper_table.history_foot", FORCES),
-        "history_head_kN_per_m": ("paper_table.history_head", FORCES),
-        "steady_foot_kN_per_m": ("paper_table.steady_foot", FORCES),
-        "steady_head_kN_per_m": ("paper_table.steady_head", FORCES),
-    }
+def _tabulate_parameters(study: PaperStudy) -> Table:
+    columns: Columns = (
+        _NET,
+        ("paper_table.gravity", _WORDS),
+        ("paper_table.history_foot", FORCES),
+        ("paper_table.history_head", FORCES),
+        ("paper_table.steady_foot", FORCES),
+        ("paper_table.steady_head", FORCES),
+    )
     cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
     cases += [replace(find_history(net), gravity="parallel") for net in NETS_DEG]
     rows = []
@@ -184,7 +153,7 @@ def _tabulate_parameters(study: PaperStudy) -> Listed:
         history, steady = study[case], study[find_steady(case)]
         ends = (history.foot, history.head, steady.foot, steady.head)
         rows.append((case.inclination_deg, case.gravity, *ends))
-    return _list("inclination-and-gravity", "paper_table.parameters", columns, rows)
+    return tabulate(ENGLISH("paper_table.parameters"), columns, rows)
 
 
 def _change(value: float | None, reference: float | None) -> float | None:

@@ -401,7 +401,7 @@ def wall_force(
     length: float = 40.0,
     friction_angle: float | None = None,
 ) -> float:
-    """Force along X [N/m] on a wall, adhering unless told; slope in degrees."""
+    """Force along X [N/m] on a wall, adhering without a friction angle."""
     scene = build_scene(
         (_THICKNESS, density), slope=slope, length=length, ground=ground, lean=0.0
     )

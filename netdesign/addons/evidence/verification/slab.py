@@ -49,7 +49,7 @@ class Slab:
     creep_law: CreepLaw = BOUTILLIER_2004
 
     def __post_init__(self) -> None:
-        """Refuse what is no snow on a slope."""
+        """Refuse dimensions and densities out of range."""
         require_positive("snow thickness", self.thickness, "m")
         require_within("slope angle", self.slope_angle, 0.05, 1.5, "rad")
         require_positive("density", self.density, "kg/m3")
@@ -143,32 +143,22 @@ class SlabForce:
         Of the creep and glide that is held back [N/m].
     at_rest : float
         Of the snow's settling, which cannot spread [N/m].
-    wedge : float
-        Weight along the slope of the snow between slope normal and net [N/m].
-    wedge_normal : float
-        Its weight towards the ground, negative [N/m].
     """
 
     influence_length: float
     dynamic: float
     at_rest: float
-    wedge: float = 0.0
-    wedge_normal: float = 0.0
 
     @property
     def total(self) -> float:
         """Sum along the slope [N/m]."""
-        return self.dynamic + self.at_rest + self.wedge
+        return self.dynamic + self.at_rest
 
 
 def compute_slab_force(
-    slab: Slab,
-    *,
-    slip_length: float,
-    upslope_length: float = math.inf,
-    inclination: float = 0.0,
+    slab: Slab, *, slip_length: float, upslope_length: float = math.inf
 ) -> SlabForce:
-    """Force of a slab on a smooth face; (H6), (H7) and (H10).
+    """Force of a slab on a smooth face normal to the slope; (H6), (H7).
 
     Parameters
     ----------
@@ -178,8 +168,6 @@ def compute_slab_force(
         D* of linear creep; 0 without slip, infinite where nothing holds the snow [m].
     upslope_length : float
         L, from the face to the free upslope end [m].
-    inclination : float
-        theta of the face from the slope normal, upper edge downslope positive [rad].
 
     Returns
     -------
@@ -195,27 +183,23 @@ def compute_slab_force(
     -----------
     tests/verification/test_slab_force.py, ``netdesign verify``, cases haefeli-*
     """
-    require_within("net inclination", inclination, 0.0, 1.5, "rad")
     if upslope_length != math.inf:
         require_positive("upslope length", upslope_length, "m")
     sine, cosine = math.sin(slab.slope_angle), math.cos(slab.slope_angle)
     weight = slab.density * GRAVITY * slab.thickness  # of a metre of slope [N/m2]
-    wedge = weight * slab.thickness * math.tan(inclination) / 2.0
     length, reach, end = _find_reach(slab, slip_length, upslope_length)
     side = slab.poisson / (1.0 - slab.poisson) / 2.0
     return SlabForce(
         influence_length=length,
         dynamic=weight * reach * sine,
         at_rest=(1.0 - end) * side * weight * slab.thickness * cosine,
-        wedge=wedge * sine,
-        wedge_normal=-wedge * cosine,
     )
 
 
 def _find_reach(
     slab: Slab, slip_length: float, upslope_length: float
 ) -> tuple[float, float, float]:
-    """Influence length, length of slope held [m], and what is felt of the end [-]."""
+    """Influence length and held length of slope [m]; effect of the upslope end [-]."""
     if slip_length == math.inf:  # the limit of (H6): the whole snowpack
         require_positive("upslope length", upslope_length, "m")
         return math.inf, upslope_length, 1.0

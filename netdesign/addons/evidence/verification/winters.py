@@ -22,9 +22,9 @@ from netdesign.addons.winter.settling.models import (
     DELTA_SNOW,
     HS2SWE,
     MODELS,
+    DayPack,
     follow_heights,
 )
-from netdesign.addons.winter.settling.pack import DayPack
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.numerics.arrays import Floats
