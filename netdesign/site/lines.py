@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
 from netdesign.site.headings import Table
@@ -40,6 +40,8 @@ class Lines:
         That its rows share.
     links, tests : sequence of Row
         Of sheets Links and Tests.
+    typed : mapping of str to sequence of Row
+        Lines as they are typed, by table, of all on which net rows rest.
     """
 
     nets: Sequence[Row]
@@ -51,6 +53,7 @@ class Lines:
     ranges: SiteRanges
     links: Sequence[Row] = ()
     tests: Sequence[Row] = ()
+    typed: Mapping[str, Sequence[Row]] = field(default_factory=dict)
 
     @property
     def places(self) -> dict[str, str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from statistics import median
 from typing import TypeAlias
 
@@ -67,31 +67,55 @@ _Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest 
 
 def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
     """Doubts, each with the net rows that rest on its number."""
-    for sheet, group in _list_groups(lines):
-        for rows, line in group:
-            yield from ((rows, doubt) for doubt in list_doubts(line))
-        owner = {id(one): rows for rows, line in group for one in line.values()}
+    of_types: dict[str, dict[str, None]] = {}
+    for sheet in TYPE_SHEETS:
+        for name, rows in _list_users(lines, sheet).items():
+            for alike in (name, name_bare(name)):
+                of_types.setdefault(alike, {}).update(rows)
+    for users, line in _list_typed(lines, of_types):
+        yield from ((users, doubt) for doubt in _list_doubted_cells(line))
+    for sheet, group in _list_groups(lines, of_types):
+        for users, line in group:
+            yield from ((users, doubt) for doubt in list_doubts(line))
+        owner = {id(one): users for users, line in group for one in line.values()}
         for doubt in list_column_doubts([line for _, line in group], sheet):
             yield owner[id(doubt[0])], doubt
 
 
-def _list_groups(lines: Lines) -> Iterator[tuple[str, _Group]]:
+def _list_typed(
+    lines: Lines, of_types: Mapping[str, Iterable[str]]
+) -> Iterator[tuple[list[str], Row]]:
+    """Lines as they are typed, each with the net rows that rest on it."""
+    nets: dict[str, list[str]] = {}
+    for line in lines.nets:
+        nets.setdefault(line["net_type"].word, []).append(line["id"].word)
+    for table, found in lines.typed.items():
+        for line in found:
+            key = next((one for one in ("row", "type", "id") if one in line), "")
+            name = line[key].word if key else ""
+            if table == "rows" or key == "row":
+                yield [name], line
+            elif table == "net_types":
+                yield nets.get(name, []), line
+            else:
+                yield list(of_types.get(name, ())) if key else list(lines.places), line
+
+
+def _list_groups(
+    lines: Lines, of_types: Mapping[str, Iterable[str]]
+) -> Iterator[tuple[str, _Group]]:
     """Lines by their sheet; without its name where columns are not looked along."""
     every = [line["id"].word for line in lines.nets]
     yield "Nets", [([line["id"].word], line) for line in lines.nets]
     yield "", [([row], end) for row, end in lines.ends.items()]
     yield "", [([row], one) for row, layers in lines.snow.items() for one in layers]
     yield "", [(every, line) for line in lines.ranges.lines]
-    of_types: dict[str, dict[str, None]] = {}
     for sheet in TYPE_SHEETS:
         users = _list_users(lines, sheet)
         yield (
             sheet,
             [(list(users[name]), one) for name, one in lines.types[sheet].items()],
         )
-        for name, rows in users.items():
-            for alike in (name, name_bare(name)):
-                of_types.setdefault(alike, {}).update(rows)
     for sheet, found in (("Links", lines.links), ("Tests", lines.tests)):
         yield sheet, [(list(of_types.get(one["type"].word, ())), one) for one in found]
 
@@ -126,7 +150,6 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
     line : mapping of str to Reading
         Of any sheet.
     """
-    yield from _list_doubted_cells(line)
     typed = {key: one for key, one in line.items() if _is_meant(one)}
     alone = dict(_list_unlike(typed, line))
     for key, reading in typed.items():

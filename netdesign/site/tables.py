@@ -160,7 +160,7 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     _judge_columns_without_heading(table, findings)
 
 
-_NOT_ASKED = ("Project", "Declared", "Winter", "Monitoring", "Uncertainty")
+_NOT_ASKED = ("project", "declared", "Winter", "Monitoring", "Uncertainty")
 
 
 def _note_lines_above(table: Table) -> Iterator[Finding]:

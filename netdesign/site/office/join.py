@@ -57,6 +57,7 @@ _NAMING = {
     "Ropes": ("ridge_rope", "lower_rope", "uphill_guy", "downhill_guy", "end_guy"),
     "Posts": ("post",),
 }
+_NOT_OF_ROWS = ("project", "declared")
 _BLOCKS = {"Anchors": "anchor_types", "Ropes": "ropes", "Posts": "posts"}
 
 
@@ -227,6 +228,7 @@ def _collect(
         ranges=build_site_ranges(project),
         links=join_links(lines["links"]),
         tests=tests,
+        typed={one: lines[one] for one in lines if one not in _NOT_OF_ROWS},
     )
     for of_row in snow.values():
         refuse_unknown_ids([of_row[0]["row"]], joined.places, findings)

@@ -10,29 +10,36 @@ from openpyxl.styles import Font
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.numbers import compute_formula
-from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from tests.each import each
+from tests.make import find_cell, lay_out, write_site
 from tests.site.plausible.office import draw_office
-from tests.site_lines import write_lines
 
-ASKED = ("Nets", "Ends", "Anchors", "Ropes", "Posts", "Ranges")
+_LINES = {"Rows": 6, "Net types": 6, "Anchors": 6}  # first of the data
 
 
 @pytest.fixture
 def path(tmp_path):
-    write_lines(tmp_path / "site.xlsx", draw_office(3, rows=3))
-    return tmp_path / "site.xlsx"
+    return write_site(tmp_path / "site.xlsx", draw_office(3, rows=3))
 
 
 def list_filled(path):
+    """Cells with data of a sheet; of sheet Parts those of ropes and posts."""
     book = openpyxl.load_workbook(path)
-    return [
+    types = {"rope", "post"}
+    found = [
         (sheet, cell.coordinate)
-        for sheet in ASKED
-        for line in book[sheet].iter_rows(min_row=2)
+        for sheet, first in _LINES.items()
+        for line in book[sheet].iter_rows(min_row=first)
         for cell in line
-        if cell.value is not None and not (sheet == "Ranges" and cell.column < 3)
+        if cell.value is not None
+    ]
+    parts = [line for line in book["Parts"].iter_rows() if line[0].value in types]
+    return found + [
+        ("Parts", cell.coordinate)
+        for line in parts
+        for cell in line
+        if isinstance(cell.value, int)
     ]
 
 
@@ -53,16 +60,16 @@ def test_every_cell_that_is_struck_out_is_asked_about(path, seed):
     for sheet, address in cells:
         assert f"{sheet} › {address}" in told
     assert "is struck out" in told
-    of_rows = {address[-1] for sheet, address in cells if sheet in ("Nets", "Ends")}
-    for number, row in enumerate(site.rows, start=2):
+    of_rows = {x[-1] for sheet, x in cells if sheet in ("Rows", "Net types")}
+    for number, row in enumerate(site.rows, start=6):
         if str(number) in of_rows:
             assert row.questions
-    write_lines(path, draw_office(3, rows=3))
+    write_site(path, draw_office(3, rows=3))
 
 
 def test_a_line_that_is_struck_out_is_one_question(path):
-    cells = [(sheet, one) for sheet, one in list_filled(path) if one.endswith("3")]
-    strike(path, [one for one in cells if one[0] == "Nets"])
+    filled = list_filled(path)
+    strike(path, [x for x in filled if x[0] == "Rows" and x[1].endswith("7")])
     site = read_site(path)
     assert len(site.questions) == 1
     assert [bool(row.questions) for row in site.rows] == [False, True, False]
@@ -70,19 +77,19 @@ def test_a_line_that_is_struck_out_is_one_question(path):
 
 def test_a_part_of_a_text_that_is_struck_out_is_asked_about(path):
     """As spreadsheets store it: one text with formats of its own."""
-    write_formulas(path, {}, struck_part="Nets!R2")
+    write_formulas(path, {}, struck_part=find_cell("rows", "downhill_anchor"))
     (question,) = read_site(path).questions
-    assert "Nets › R2" in str(question)
+    assert "Rows › L6" in str(question)
     assert "struck out" in str(question)
     assert len(read_site(path).rows) == 3
 
 
-@each("sheet, address", [("Project", "B2"), ("Nets", "I1"), ("Declared", "B2")])
+@each("sheet, address", [("Project", "B8"), ("Rows", "B3"), ("Declared", "B6")])
 def test_what_no_net_row_rests_on_alone_is_refused_struck_out(path, sheet, address):
     book = openpyxl.load_workbook(path)
     line = ("all", "foot_anchor.pull_out", "Report 1", "B. N.", "2026-02-03")
     for column, value in enumerate(line, start=1):
-        book["Declared"].cell(2, column).value = value
+        book["Declared"].cell(6, column).value = value
     book.save(path)
     strike(path, [(sheet, address)])
     with pytest.raises(SiteDataError, match="is struck out"):
@@ -91,22 +98,19 @@ def test_what_no_net_row_rests_on_alone_is_refused_struck_out(path, sheet, addre
 
 def write_formulas(path, formulas, *, by_hand=False, struck_part=""):
     """The office's list with formulas and their stored results in some cells."""
-    lines = draw_office(3, rows=3)
     book = xlsxwriter.Workbook(str(path))
     if by_hand:
         book.set_calc_mode("manual")
-    for plan in SHEETS:
-        sheet = book.add_worksheet(plan.name)
-        fields = [field for field in plan.fields if field.is_offered]
-        for column, field in enumerate(fields):
-            sheet.write_string(0, column, field.heading_for("en"))
-            for row, line in enumerate(lines.get(plan.name, ()), start=1):
-                if field.key in line:
-                    sheet.write(row, column, line[field.key])
+    for name, lines in lay_out(draw_office(3, rows=3)).items():
+        sheet = book.add_worksheet(name)
+        for row, line in enumerate(lines):
+            for column, value in enumerate(line):
+                if value not in (None, ""):
+                    sheet.write(row, column, value)
         for place, (formula, value) in formulas.items():
-            if place.startswith(f"{plan.name}!"):
+            if place.startswith(f"{name}!"):
                 sheet.write_formula(place.partition("!")[2], formula, None, value)
-        if struck_part.startswith(f"{plan.name}!"):
+        if struck_part.startswith(f"{name}!"):
             struck = book.add_format({"font_strikeout": True})
             bold = book.add_format({"bold": True})
             place = struck_part.partition("!")[2]
@@ -115,23 +119,27 @@ def write_formulas(path, formulas, *, by_hand=False, struck_part=""):
     return path
 
 
+SNOW, HEIGHT = find_cell("rows", "snow"), "'Net types'!B6"
+
+
 def draw_formula(draw):
-    """A formula of a snow thickness, and its result from Nets!B2 and Nets!I2."""
-    line = draw_office(3, rows=3)["Nets"][0]
-    slope, height = line["slope_angle"], line["net_height"]
+    """A formula of a snow thickness, and its result from Rows!B6 and Net types!B6."""
+    tables = draw_office(3, rows=3)
+    slope = tables["rows"][0]["slope_angle"]
+    height = tables["net_types"][0]["net_height"]
     a, b = round(draw.uniform(1.5, 3.0), 2), round(draw.uniform(0.8, 0.95), 3)
     cosine = math.cos(math.radians(slope))
     return draw.choice(
         [
             (f"={a}*{b}", a * b),
             (f"={a}+0.1*2^2-10%", a + 0.3),
-            (f"=I2*{b}", height * b),
-            ("=ROUND(I2*COS(RADIANS(B2)),2)", round(height * cosine, 2)),
+            (f"={HEIGHT}*{b}", height * b),
+            (f"=ROUND({HEIGHT}*COS(RADIANS(B6)),2)", round(height * cosine, 2)),
             (
-                f"=3.4*COS(Nets!$B$2*PI()/180)-(0.1-{a / 100})",
+                f"=3.4*COS(Rows!$B$6*PI()/180)-(0.1-{a / 100})",
                 3.4 * cosine - (0.1 - a / 100),
             ),
-            (f"=MIN(I2,SUM(I2:I3,{a}))", height),
+            (f"=MIN({HEIGHT},SUM({a},{HEIGHT}))", height),
             (f"=AVERAGE({a},{b})+1", (a + b) / 2 + 1),
         ]
     )
@@ -141,27 +149,26 @@ def draw_formula(draw):
 def test_a_stored_result_that_its_formula_does_not_give_is_asked_about(path, seed):
     draw = random.Random(seed)
     formula, value = draw_formula(draw)
-    site = read_site(write_formulas(path, {"Nets!C2": (formula, value)}))
+    site = read_site(write_formulas(path, {SNOW: (formula, value)}))
     assert not [one for one in map(str, site.questions) if "calculated anew" in one]
     old = value * draw.choice((0.9, 1.001, 1.1))
-    site = read_site(write_formulas(path, {"Nets!C2": (formula, old)}))
+    site = read_site(write_formulas(path, {SNOW: (formula, old)}))
     (told,) = [one for one in map(str, site.questions) if "calculated anew" in one]
-    assert "Nets › C2" in told
+    assert "Rows › C6" in told
     assert site.rows[0].questions
     assert not site.rows[1].questions
 
 
 def test_a_workbook_calculated_by_hand_is_asked_about_where_nothing_tells(path):
     """What can be worked out is, whoever calculates; a what-if makes results old."""
-    odd = {"Nets!C2": ("=VLOOKUP(A2,A2:I9,9)*0.9", 2.4)}
+    odd = {SNOW: ("=VLOOKUP(A6,A6:I9,9)*0.9", 2.4)}
     assert not read_site(write_formulas(path, odd)).questions
     (question,) = read_site(write_formulas(path, odd, by_hand=True)).questions
     assert "calculated by hand" in str(question)
-    plain = {
-        "Nets!C2": ("=I2*0.8", draw_office(3, rows=3)["Nets"][0]["net_height"] * 0.8)
-    }
+    height = draw_office(3, rows=3)["net_types"][0]["net_height"]
+    plain = {SNOW: (f"={HEIGHT}*0.8", height * 0.8)}
     assert not read_site(write_formulas(path, plain, by_hand=True)).questions
-    changed = read_site(path, instead={"Nets!I2": "3.6"})
+    changed = read_site(path, instead={"Net types!B6": "3.6"})
     assert "calculated anew" in " ".join(map(str, changed.questions))
 
 
