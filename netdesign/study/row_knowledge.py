@@ -179,7 +179,7 @@ def know_row(cases: RowCases, base: RowForces) -> RowForces:
     task, floor = cases.task, cases.floor
     head = floor.head if floor else None
     held = find_held_sideways(task, cases.heads, head)
-    forces = replace(base, row=task.row, held=held, sizes={})
+    forces = replace(base, row=task.row, held=held)
     share, one_way = forces.effects.lateral_share, find_one_way_pull(forces)
     pulls = list_pulls(task, cases.feet, share, head, one_way)
     forces = replace(forces, pulls=tuple(pulls))

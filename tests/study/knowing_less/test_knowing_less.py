@@ -202,13 +202,7 @@ def list_opened(before, after):
             yield check.id
 
 
-@pytest.mark.parametrize(
-    "seed",
-    [
-        pytest.param(seed, marks=() if seed % 3 == 2 else pytest.mark.long)
-        for seed in range(SITES_IN_SUITE)
-    ],
-)
+@pytest.mark.parametrize("seed", range(SITES_IN_SUITE))
 def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
 
