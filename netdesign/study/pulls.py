@@ -10,6 +10,7 @@ from itertools import chain
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
+from netdesign.envelope.head_pulls import list_panels
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
@@ -35,7 +36,7 @@ from netdesign.structure.row_position import (
 from netdesign.structure.splay import Guys
 from netdesign.study.case_records import PullRecord
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import list_panels, place_row
+from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
+from netdesign.envelope.head_pulls import HeadPulls, read_heads
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
@@ -27,12 +28,10 @@ from netdesign.study.record_envelope import record_largest
 from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
 from netdesign.study.sideways import (
     EndShare,
-    HeadStates,
     find_end_guy,
     find_held_sideways,
     find_rope_factors,
     find_tilt,
-    read_heads,
 )
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -77,7 +76,7 @@ def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     cases = gather_cases(task, row, solved)
     if not row.panel_assumed:
         return know_row(cases, know_cases(cases))
-    heads = read_heads(row, solved.results, has_panels=False)
+    heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
     cases = replace(cases, heads=heads, feet=feet)
     base = know_cases(cases)
@@ -123,7 +122,7 @@ class RowCases:
     ----------
     task : RowToCheck
         The row with its envelope there.
-    heads : HeadStates
+    heads : HeadPulls
         Of all its cases.
     feet : FootPulls
         What they bring to the foot.
@@ -132,7 +131,7 @@ class RowCases:
     """
 
     task: RowToCheck
-    heads: HeadStates
+    heads: HeadPulls
     feet: FootPulls
     floor: Floor | None
 
@@ -144,7 +143,9 @@ def gather_cases(
     at = replace(task, row=row, solved=solved, extremes=solved.extremes)
     return RowCases(
         task=at,
-        heads=before.heads if before else read_heads(row, solved.results),
+        heads=before.heads
+        if before
+        else read_heads(row.layout.post_spacing, solved.results),
         feet=before.feet if before else measure_feet(solved.results),
         floor=_find_floor(task, row.layout),
     )

@@ -10,18 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
-import numpy as np
-
-from netdesign.checks import Band
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
+from netdesign.envelope.head_pulls import HeadPulls, list_panels
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
-from netdesign.numerics.arrays import Floats, Ints
 from netdesign.site.model import NetRow
 from netdesign.structure.head import FailedSupport, HeadForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
@@ -49,7 +45,7 @@ GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 
 
 def find_held_sideways(
-    task: RowToCheck, heads: HeadStates, floor: HeadSpan | None
+    task: RowToCheck, heads: HeadPulls, floor: HeadSpan | None
 ) -> HeldSidewaysRecord | Message:
     """Load along the row at its heads over the solved cases, or why it is not held.
 
@@ -58,7 +54,7 @@ def find_held_sideways(
     task : RowToCheck
         Row with its guys, cases and largest forces; the profile gives the share of the
         load.
-    heads : HeadStates
+    heads : HeadPulls
         States of all its cases.
     floor : HeadSpan or None
         What the guideline's load brings at the head; None without a floor.
@@ -71,7 +67,7 @@ def find_held_sideways(
         return splay
     if not heads.count:
         return describe_gap(results) or say("check.no_case_solved")
-    places = heads.place(row)
+    places = _place_heads(row, heads)
     states = (heads.pulls, places, heads.places)
     if not is_held_sideways(*states, share=value.value, splay=splay):
         pairs = zip(heads.pulls.T.tolist(), heads.places.tolist(), strict=True)
@@ -83,7 +79,7 @@ def find_held_sideways(
 
 def _record(
     task: RowToCheck,
-    heads: HeadStates,
+    heads: HeadPulls,
     floor: HeadSpan | None,
     load: tuple[float, float],
 ) -> HeldSidewaysRecord:
@@ -93,7 +89,7 @@ def _record(
         for member in (*GUYS, Member.POST)
         if member in extremes
     }
-    pull = _widen(heads, sum(hidden.values()))
+    pull = heads.bound_size(sum(hidden.values()))
     of_floor = 0.0 if is_layout_assumed(row) else _find_floor_tension(row, floor)
     # Between two panels or two layouts as they may be built, the guy of one side can
     # give way to that of the other: then none is counted on.
@@ -110,7 +106,7 @@ def _record(
         least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
-        **weigh_places(heads.place(row)),
+        **weigh_places(_place_heads(row, heads)),
     )
 
 
@@ -184,7 +180,7 @@ class EndShare:
 
 
 def find_end_guy(
-    task: RowToCheck, load: EndShare, heads: HeadStates
+    task: RowToCheck, load: EndShare, heads: HeadPulls
 ) -> EndGuyRecord | Message | None:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
 
@@ -196,7 +192,7 @@ def find_end_guy(
         Row with its end, cases and largest forces.
     load : EndShare
         On the head there.
-    heads : HeadStates
+    heads : HeadPulls
         States of all its cases.
     """
     row, span = task.row, task.site.ranges["inclination"]
@@ -234,7 +230,7 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, guy: EndGuy, load: EndShare, states: HeadStates
+    task: RowToCheck, guy: EndGuy, load: EndShare, states: HeadPulls
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
@@ -257,7 +253,7 @@ def _share_end(
         default=0.0,
     )
     scale = load.end.width / row.layout.post_spacing * load.factor * hidden
-    places = states.place(row)
+    places = _place_heads(row, states)
     heads = [
         EndHead(points=places[k], pull=(scale * x, scale * y), along=load.along)
         for k, (x, y) in states.outermost
@@ -297,84 +293,9 @@ def find_rope_factors(
     return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
 
 
-_DIRECTIONS = 16  # in which the outermost of the pulls on a head are looked for
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class HeadStates:
-    """Heads inside a row in its solved cases: by the section, and by every panel.
-
-    The net pulls them alike on every layout of the support.
-
-    Attributes
-    ----------
-    inclinations : tuple of float
-        Of the net [rad].
-    places : ndarray of int, shape (n,)
-        Which of these each state has.
-    pulls, errors : ndarray, shape (2, n) and (n,)
-        Of the net on a head, and its error [N].
-    has_panels : bool
-        Some state is that of a panel.
-    """
-
-    inclinations: tuple[float, ...]
-    places: Ints
-    pulls: Floats
-    errors: Floats
-    has_panels: bool
-
-    @property
-    def count(self) -> int:
-        """Number of states."""
-        return self.places.size
-
-    def place(self, row: NetRow) -> list[SupportPoints]:
-        """Points of a support of the row at each of the inclinations [m]."""
-        return [place_row(row, angle) for angle in self.inclinations]
-
-    @cached_property
-    def outermost(self) -> list[tuple[int, Point]]:
-        """Pulls that lie outermost among those at each of the inclinations [N]."""
-        turns = 2.0 * np.pi * np.arange(_DIRECTIONS)[:, None] / _DIRECTIONS
-        outermost: list[tuple[int, Point]] = []
-        for place in range(len(self.inclinations)):
-            x, y = self.pulls[:, self.places == place]
-            far = (np.cos(turns) * x + np.sin(turns) * y).argmax(axis=1)
-            pulls = zip(x[far].tolist(), y[far].tolist(), strict=True)
-            outermost += [(place, pull) for pull in dict.fromkeys(pulls)]
-        return outermost
-
-
-def read_heads(
-    row: NetRow, results: Sequence[CaseResult], *, has_panels: bool = True
-) -> HeadStates:
-    """States of the heads in the solved cases of a row; those of panels if wanted."""
-    width, states = row.layout.post_spacing, []
-    for result in results:
-        if result.anchors is None or result.solution is None:
-            continue
-        ends = [(result.anchors, result.solution.head)]
-        if has_panels:
-            ends += [(panel.anchors, panel.head) for panel in list_panels(result)]
-        states += [
-            (result.case.inclination, *anchors.head_pull, head.error * width)
-            for anchors, head in ends
-        ]
-    inclinations, x, y, errors = np.array(states).reshape(-1, 4).T
-    distinct, places = np.unique(inclinations, return_inverse=True)
-    return HeadStates(
-        inclinations=tuple(distinct.tolist()),
-        places=places,
-        pulls=np.array((x, y)),
-        errors=errors,
-        has_panels=has_panels and any(map(list_panels, results)),
-    )
-
-
-def list_panels(result: CaseResult) -> Sequence[PanelForces]:
-    """Panels that a case has forces of."""
-    return result.panel.variants if isinstance(result.panel, PanelForces) else ()
+def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:
+    """Points of a support of the row at each inclination of its cases [m]."""
+    return [place_row(row, angle) for angle in heads.inclinations]
 
 
 def place_row(row: NetRow, inclination: float) -> SupportPoints:
@@ -410,16 +331,6 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
     """Part of a member's force that may hide, by section or panel [N]."""
     names = (member, name_in_panel(member))
     return max(extremes[name].hidden for name in names if name in extremes)
-
-
-def _widen(heads: HeadStates, hidden: float) -> Band:
-    """Largest pull on a head with its error and with what may hide [N]."""
-    sizes = np.hypot(*heads.pulls)
-    return Band(
-        low=max(0.0, float((sizes - heads.errors).max())),
-        value=float(sizes.max()),
-        high=float((sizes + heads.errors).max()) + hidden,
-    )
 
 
 def find_splay(row: NetRow) -> float | Message:
