@@ -76,6 +76,8 @@ def list_improvements(before, after):
             is_open = pulled is None or not pulled.resistance_type
             if check.mode == "wedge" and check.id not in checks and is_open:
                 continue  # of no type: nobody says what its ground bears
+            if check.id == "geometry.cover" and check.id not in checks:
+                continue  # nobody says what it has to be: a condition
             if check.id == "geometry.anchors" and states_row_above(now):
                 continue
             # the net of a row that goes on is checked at its end, once it has one
