@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign import __version__
 from netdesign.addons.charts import draw_decades
-from netdesign.addons.evidence.benchmark.truth import (
+from netdesign.addons.evidence.benchmark.fine_mesh import (
     Truth,
     build_truth,
     refine_size,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history import response
-from netdesign.addons.history.response import hold_net, measure_arcs, respond
+from netdesign.addons.history.net_pulls import hold_net, measure_arcs, respond
 from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
