@@ -19,9 +19,10 @@ from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
-from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import Message, say
 from tests.report.build_study import SCRIPT, build_study
+from tests.words.gaps import list_gaps
 
 SHIPPED = ("nf-p-95-304-style", "eurocode", "onr-24805-style", "swiss-guideline-2007")
 OTHERS = [language for language in LANGUAGES if language != "en"]

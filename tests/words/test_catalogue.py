@@ -8,9 +8,10 @@ import tomllib
 import pytest
 
 from netdesign.edge.input_files import find_resource
-from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
 from tests.sources import PACKAGE, walk_package
+from tests.words.gaps import list_gaps
 
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
