@@ -137,7 +137,7 @@ def test_unsolved_friction_is_an_error_and_no_force(monkeypatch):
     points = arc_points(3)
     solve = net_pulls.solve_sliding
     monkeypatch.setattr(
-        response,
+        net_pulls,
         "solve_sliding",
         lambda *given, **named: solve(*given, **named, max_iterations=0),
     )
