@@ -171,7 +171,9 @@ def list_checks_at(row: RowStudy, position: Position) -> list[Check]:
         return [*(at_end or inside).values()]
     if position == "intermediate":
         return [*inside.values()]
-    larger = {name: _take_more(check, at_end.get(name)) for name, check in inside.items()}
+    larger = {
+        name: _take_more(check, at_end.get(name)) for name, check in inside.items()
+    }
     return [*(larger | second).values()]
 
 
