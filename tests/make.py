@@ -53,6 +53,31 @@ def write_tiny(path, edit=None):
     return write_site(path, tables)
 
 
+def load_rows(rows=(), *, leans=True, cells=None):
+    """Tables of some of the seven rows, each with a net type of its own.
+
+    A net that does not lean over a range keeps to its least inclination. ``cells`` are
+    those of a row or of its net type that differ, by row and column.
+    """
+    tables = load_tables("seven_rows")
+    kept = rows or [line["id"] for line in tables["rows"]]
+    for table, key in (("rows", "id"), ("declared", "row")):
+        tables[table] = [line for line in tables[table] if line[key] in kept]
+    nets = {line["id"]: line for line in tables["net_types"]}
+    of_rows = {one.field.key for one in load_columns("rows")}
+    for line in tables["rows"]:
+        for key, value in (cells or {}).get(line["id"], {}).items():
+            (line if key in of_rows else nets[line["net_type"]])[key] = value
+    if not leans:
+        tables["project"][0]["inclination"] = 25
+    return tables
+
+
+def write_rows(path, rows=(), *, leans=False, cells=None):
+    """Workbook of some of the seven rows; of one inclination they are soon solved."""
+    return write_site(path, load_rows(rows, leans=leans, cells=cells))
+
+
 def write_site(path, tables, language="en", measures=None):
     """Workbook of these tables; returns its path.
 
@@ -102,13 +127,19 @@ def lay_out(tables, language="en", measures=None):
     return sheets
 
 
-def find_cell(table, key, line=0, language="en"):
-    """Cell of a value outside sheet Parts, as ``Rows!B6``."""
+def find_cell(table, key, line=0, language="en", tables=None):
+    """Cell of a value, as ``Rows!B6``; of sheet Parts it hangs on the ``tables``."""
     number = [one.field.key for one in load_columns(table)].index(key)
     name = load_plan(table).name_in(language)
     if table == "project":
         return f"{name}!B{_HEADINGS + 2 + number}"
-    return f"{name}!{xl_col_to_name(number)}{_HEADINGS + _BELOW + line + 1}"
+    start = _HEADINGS
+    if table in PARTS:
+        before = PARTS[: PARTS.index(table)]
+        start += 1 + sum(
+            _BELOW + 2 + len((tables or {}).get(one, ())) for one in before
+        )
+    return f"{name}!{xl_col_to_name(number)}{start + _BELOW + line + 1}"
 
 
 def _lay_out_project(lines, language):

@@ -17,7 +17,7 @@ from netdesign.site.reader import read_frames
 from netdesign.site.template.example import load_input_example
 from netdesign.study.scopes import Scope, list_of_scope
 from netdesign.words.catalogue import LANGUAGES
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 ADDRESS = re.compile("![A-Z]{1,2}[0-9]+$")
 LAYOUT = nd.SupportLayout(
@@ -44,12 +44,12 @@ def build_scene(**snow):
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    write_short_example(path, ["R1", "R6"])
+    write_rows(path, ["R1", "R6"])
     return nd.check(str(path), accuracy=0.05)
 
 
 def test_a_site_is_checked_by_its_path_as_by_what_was_read(study, tmp_path):
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R6"])
+    write_rows(tmp_path / "site.xlsx", ["R1", "R6"])
     site = nd.read_site(str(tmp_path / "site.xlsx"))
     again = nd.check(
         site, standard=nd.load_standard("nf-p-95-304-style"), accuracy=0.05
@@ -59,7 +59,7 @@ def test_a_site_is_checked_by_its_path_as_by_what_was_read(study, tmp_path):
 
 
 def test_reliability_is_worked_out_where_it_is_asked_for(study, tmp_path):
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R6"])
+    write_rows(tmp_path / "site.xlsx", ["R1", "R6"])
     path = str(tmp_path / "site.xlsx")
     again = nd.check(path, accuracy=0.05, reliability=True)
     first, second = (row.reliability for row in again.rows)

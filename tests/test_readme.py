@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from tests.each import each
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -84,7 +84,7 @@ def test_python_block_prints_what_is_shown(capsys):
 
 def test_python_lines_check_a_site_as_printed(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    write_short_example(tmp_path / "site.xlsx", ["R6"])
+    write_rows(tmp_path / "site.xlsx", ["R6"])
     (readme,) = blocks("python")
     exec(compile(readme, "README.md", "exec"), {})
     assert "foot_anchor" in capsys.readouterr().out

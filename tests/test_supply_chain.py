@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 ROOT = Path(__file__).resolve().parent.parent
 CI = ROOT / ".ci"
@@ -72,7 +72,7 @@ def test_every_dependency_has_a_lowest_version(capsys):
 @pytest.mark.skipif(sys.platform == "win32", reason="sockets are otherwise there")
 def test_a_site_is_checked_without_a_network(tmp_path):
     """In two processes; every way to a socket of the network is an error."""
-    write_short_example(tmp_path / "site.xlsx", ["R1"])
+    write_rows(tmp_path / "site.xlsx", ["R1"])
     program = [sys.executable, "-c", NO_NETWORK, "check", "site.xlsx"]
     ended = subprocess.run(
         [*cut_off(), *program, "--accuracy", "0.1", "--jobs", "2", "--no-cache"],

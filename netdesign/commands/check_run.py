@@ -21,7 +21,6 @@ from netdesign.commands.running import (
 )
 from netdesign.commands.usage import speak, tell
 from netdesign.edge.output import (
-    PROFILES_FILE,
     STUDY_FILE,
     WHAT_IF_MARK,
     print_json,
@@ -191,15 +190,12 @@ class Outputs:
         Of each profile.
     sized : list of list of Path
         Of the what-if studies of ``--size``, as far as there will be any.
-    together : list of Path
-        Of the page that compares several profiles.
     style : ReportStyle
         Of the reports.
     """
 
     of_studies: list[list[Path]]
     sized: list[list[Path]]
-    together: list[Path]
     style: ReportStyle
 
 
@@ -221,8 +217,6 @@ def plan_outputs(
     kinds = list_wanted(asked)
     mark = partial(mark_names, is_what_if=asked["instead"], is_part=asked["rows"])
     names = name_files(folder, profiles, mark([STUDY_FILE, *kinds]))
-    is_compared = "report.html" in kinds and len(profiles) > 1
-    page = mark([PROFILES_FILE]) if is_compared else []
     what_ifs = [
         [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
         for group in names
@@ -230,10 +224,9 @@ def plan_outputs(
     outputs = Outputs(
         of_studies=names,
         sized=what_ifs if asked["size"] else [],
-        together=[folder / name for name in page] if folder else [],
         style=choose_style(asked),
     )
-    groups = (*outputs.of_studies, *outputs.sized, outputs.together)
+    groups = (*outputs.of_studies, *outputs.sized)
     require_free([path for group in groups for path in group], overwrite=asked["force"])
     return outputs
 
@@ -282,10 +275,6 @@ def render_outputs(
     for (_, what_if), paths in zip(sized, outputs.sized, strict=True):
         if what_if is not None:
             files |= render_files([what_if], [paths], style)
-    for place in outputs.together:
-        from netdesign.report.page.comparison_page import render_comparison
-
-        files[place] = render_comparison(studies, style.language)
     return files
 
 

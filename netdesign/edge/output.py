@@ -31,7 +31,6 @@ from netdesign.words.message import say
 
 # Names of outputs, for those who plan files and for those who write them.
 STUDY_FILE = "study.json"
-PROFILES_FILE = "profiles.html"  # the page that compares several profiles
 PART_MARK = "part-"  # before the name of every file of some net rows
 WHAT_IF_MARK = "what-if-"  # before the name of every file of a what-if
 

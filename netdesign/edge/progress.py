@@ -24,35 +24,9 @@ def show_progress(
 
     ``what`` names the pieces: a text ``piece.what`` of every language.
     """
-    if quiet:
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield _count_quarters(total, what, language)
-        return
-    with Progress(console=console, transient=True) as progress:
-        task = progress.add_task(render(say(f"piece.{what}"), language), total=total)
-        yield lambda _: progress.advance(task)
-
-
-def _count_quarters(
-    total: int, what: str, language: Language
-) -> Callable[[object], None]:
-    done = 0
-
-    def on_done(_: object) -> None:
-        nonlocal done
-        done += 1
-        if done <= total and done * 4 // total > (done - 1) * 4 // total:
-            named = say(f"piece.{what}")
-            line = say("progress.count", done=done, total=total, what=named)
-            sys.stderr.write(f"{render(line, language)}\n")
-
-    return on_done
+    phase = Phase(key=what, words=say(f"piece.{what}"), cases=total)
+    with show_phases([phase], quiet=quiet, language=language) as progress:
+        yield None if quiet else progress.count_case
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -334,7 +334,7 @@ def _solve_panels(
     Of several that may be built, one that would lie on the ground has the largest sags
     with which it hangs free; where it never does, another one stands in its place.
     """
-    solutions = [solve_strips(strip, panel) for panel in panels]
+    solutions = solve_strips(strip, panels)
     failed = [panel for panel in solutions if isinstance(panel, FailedPanel)]
     free = [panel for panel in solutions if not isinstance(panel, FailedPanel)]
     if not failed:
@@ -363,7 +363,8 @@ def _hang_free(
             replace(rope, sag=sag + share * (rope.sag - sag))
             for rope, sag in zip((panel.upper, panel.lower), least, strict=True)
         )
-        trial = solve_strips(strip, replace(panel, upper=upper, lower=lower))
+        hung = replace(panel, upper=upper, lower=lower)
+        (trial,) = solve_strips(strip, (hung,))
         if isinstance(trial, FailedPanel):
             lying = share
         else:

@@ -8,7 +8,6 @@ bounded first, and in nearly all rows no post pulls. Theory: structure/THEORY.md
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -24,9 +23,8 @@ from netdesign.envelope.signed_forces import (
     read_signed,
     read_signed_errors,
     spread_ends,
-    take_ends,
 )
-from netdesign.numerics.arrays import Floats, Number, measure_length
+from netdesign.numerics.arrays import Floats, measure_length
 from netdesign.search import surrogate
 from netdesign.search.maxima import Maxima, SearchSettings, Values, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
@@ -34,7 +32,6 @@ from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
 from netdesign.structure.head import Vector, resolve_loose
 from netdesign.structure.layout import (
     SupportLayout,
-    place_support,
 )
 from netdesign.structure.members import (
     Member,
@@ -125,22 +122,15 @@ def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
         raise ValueError("a case without a support")
     panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
     states = (result.anchors, *(panel.anchors for panel in panels))
-    head, (first, *others) = result.solution.head_point, layouts
-    rises = []
-    for anchors in states:
-        pull, foot = anchors.head_pull, anchors.foot_anchor.size
-        lifted = _lift(pull, foot, take_ends(place_support(first, head)))
-        rises.append([pull[1] / (math.hypot(*pull) or 1.0), *lifted])
-    if others:
-        x, y = np.array([state.head_pull for state in states]).T
-        feet = np.array([state.foot_anchor.size for state in states])
-        of_others = _lift((x, y), feet, spread_ends(others, head))
-        rises.append([-math.inf, *(float(rise.max()) for rise in of_others)])
-    largest: Floats = np.array(rises).max(axis=0)
-    return largest if first.is_foot_shared else largest[:-1]
+    x, y = np.array([state.head_pull for state in states]).T
+    feet = np.array([state.foot_anchor.size for state in states])
+    rise = y / np.where((x == 0.0) & (y == 0.0), 1.0, np.hypot(x, y))
+    lifted = _lift((x, y), feet, spread_ends(layouts, result.solution.head_point))
+    largest: Floats = np.array([rise.max(), *(one.max() for one in lifted)])
+    return largest if layouts[0].is_foot_shared else largest[:-1]
 
 
-def _lift(pull: Vector[Number], foot: Number, ends: Ends[Number]) -> list[Number]:
+def _lift(pull: Vector[Floats], foot: Floats, ends: Ends) -> list[Floats]:
     """Pull of the post, guys without it, uphill anchor of net and guy [N]."""
     uphill, downhill = resolve_loose(pull, ends.head, ends.uphill, ends.downhill)
     x, y = ends.base[0] - ends.head[0], ends.base[1] - ends.head[1]

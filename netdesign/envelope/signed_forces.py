@@ -12,44 +12,32 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Generic
 
 import numpy as np
 
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.numerics.arrays import Floats, Number
+from netdesign.numerics.arrays import Floats
 from netdesign.structure.head import Vector, resolve_signed
 from netdesign.structure.layout import (
     Point,
     SupportLayout,
-    SupportPoints,
     place_support,
 )
 from netdesign.structure.members import CARRYING_MEMBERS, Member, name_in_panel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ends(Generic[Number]):
-    """Points of a support, or of many of shape (n, 1) [m]."""
+class Ends:
+    """Points of some supports, x and y of shape (n, 1) each [m]."""
 
-    head: Vector[Number]
-    base: Vector[Number]
-    uphill: Vector[Number]
-    downhill: Vector[Number]
-
-
-def take_ends(points: SupportPoints) -> Ends[float]:
-    """Points of a support without what is on the ground alone."""
-    return Ends(
-        head=points.head,
-        base=points.post_base,
-        uphill=points.uphill_anchor,
-        downhill=points.downhill_anchor,
-    )
+    head: Vector[Floats]
+    base: Vector[Floats]
+    uphill: Vector[Floats]
+    downhill: Vector[Floats]
 
 
-def spread_ends(layouts: Sequence[SupportLayout], head: Point) -> Ends[Floats]:
+def spread_ends(layouts: Sequence[SupportLayout], head: Point) -> Ends:
     """Points of some layouts under one head."""
     places = [place_support(layout, head) for layout in layouts]
 
@@ -91,38 +79,23 @@ def read_signed(
         (solution.head.x * width, solution.head.y * width),
         *(panel.solution.head for panel in panels),
     ]
-    feet = [anchors.foot_anchor.size, *map(_find_foot, panels)]
-    first = take_ends(place_support(layouts[0], head))
-    states = [
-        _find_signed(pull, foot, first) for pull, foot in zip(pulls, feet, strict=True)
-    ]
-    if others := layouts[1:]:
-        x, y = np.array(pulls).T
-        on_others = _find_signed((x, y), np.array(feet), spread_ends(others, head))
-        states = _take_largest(states, on_others)
-    section, *beside = states
-    return section and section | _name_largest(state or {} for state in beside)
+    x, y = np.array(pulls).T
+    feet = np.array([anchors.foot_anchor.size, *map(_find_foot, panels)])
+    signed = _find_signed((x, y), feet, spread_ends(layouts, head))
+    if signed is None:
+        return None
+    largest = {name: values.max(axis=0) for name, values in signed.items()}
+    of_section = {name: float(values[0]) for name, values in largest.items()}
+    if not panels:
+        return of_section
+    return of_section | {
+        name_in_panel(name): float(values[1:].max()) for name, values in largest.items()
+    }
 
 
 def _find_foot(panel: PanelForces) -> float:
     """Force on the more loaded foot anchor of a panel [N]."""
     return max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
-
-
-_Signed = dict[str, float] | None
-
-
-def _take_largest(
-    states: Sequence[_Signed], on_others: dict[str, Floats] | None
-) -> list[_Signed]:
-    """Signed forces by state, or those on other layouts where they are larger."""
-    if on_others is None:
-        return [None for _ in states]
-    most = {name: values.max(axis=0).tolist() for name, values in on_others.items()}
-    return [
-        state and {name: max(value, most[name][place]) for name, value in state.items()}
-        for place, state in enumerate(states)
-    ]
 
 
 def read_signed_errors(
@@ -132,68 +105,36 @@ def read_signed_errors(
     solution = result.solution
     if solution is None or result.anchors is None:
         return None
-    head, width = solution.head_point, layouts[0].post_spacing
-    errors = _find_largest_errors(
-        solution.foot.error * width, solution.head.error * width, layouts, head
-    )
+    width, ends = layouts[0].post_spacing, spread_ends(layouts, solution.head_point)
+    foot, head = solution.foot.error, solution.head.error
+    errors = _find_errors(foot * width, head * width, ends)
     if errors is None or not isinstance(result.panel, PanelForces):
         return errors
     pulls = [(panel.foot.error, panel.head.error) for panel in result.panel.variants]
-    foot, pull = (width * max(ends) for ends in zip(*pulls, strict=True))
-    beside = _find_largest_errors(foot, pull, layouts, head) or {}
+    foot, head = (max(errors) for errors in zip(*pulls, strict=True))
+    beside = _find_errors(foot * width, head * width, ends) or {}
     return errors | {name_in_panel(name): error for name, error in beside.items()}
 
 
-def _find_largest_errors(
-    foot: float, pull: float, layouts: Sequence[SupportLayout], head: Point
-) -> dict[str, float] | None:
-    """Errors of signed forces on the layout where each is largest [N]."""
-    errors = _find_errors(foot, pull, take_ends(place_support(layouts[0], head)))
-    if errors is None or len(layouts) < 2:
-        return errors
-    ends = spread_ends(layouts[1:], head)
-    others = _find_errors(np.array([foot]), np.array([pull]), ends)
-    if others is None:
-        return None
-    return {name: max(own, float(others[name].max())) for name, own in errors.items()}
-
-
-def _name_largest(panels: Iterable[dict[str, float]]) -> dict[str, float]:
-    """Largest values of some panels, by their names beside those of the section."""
-    largest: dict[str, float] = {}
-    for values in panels:
-        for name, value in values.items():
-            before = largest.get(name_in_panel(name), -math.inf)
-            largest[name_in_panel(name)] = max(before, value)
-    return largest
-
-
-def _find_errors(
-    foot: Number, head: Number, ends: Ends[Number]
-) -> dict[str, Number] | None:
-    """Errors of signed forces from those of the forces behind them [N].
+def _find_errors(foot: float, head: float, ends: Ends) -> dict[str, float] | None:
+    """Errors of signed forces from those of foot and head on the worst support [N].
 
     They are linear in these: what an error of each component causes is added, as in
     the bands of the members.
     """
-    none = 0.0 * head
-    sizes: dict[str, Number] = {}
-    for pull, at_foot in (
-        ((head, none), none),
-        ((none, head), none),
-        ((none, none), foot),
-    ):
-        caused = _find_signed(pull, at_foot, ends)
-        if caused is None:
-            return None
-        sizes = {name: sizes.get(name, none) + abs(caused[name]) for name in caused}
-    return sizes
+    across, along, at_foot = np.diag((head, head, foot))[:, None]
+    caused = _find_signed((across, along), at_foot, ends)
+    if caused is None:
+        return None
+    return {
+        name: float(np.abs(each).sum(axis=1).max()) for name, each in caused.items()
+    }
 
 
 def _find_signed(
-    pull: Vector[Number], foot: Number, ends: Ends[Number]
-) -> dict[str, Number] | None:
-    """Signed forces under a pull on the head and a force on the foot anchor [N]."""
+    pull: Vector[Floats], foot: Floats, ends: Ends
+) -> dict[str, Floats] | None:
+    """Signed forces under pulls on the head and forces on the foot anchor [N]."""
     pairs = [
         resolve_signed(pull, ends.head, ends.base, anchor)
         for anchor in (ends.uphill, ends.downhill)
@@ -201,7 +142,8 @@ def _find_signed(
     if pairs[0] is None or pairs[1] is None:
         return None
     (post_up, uphill), (post_down, downhill) = pairs[0], pairs[1]
-    across = ends.head[1] / _length(ends.head, ends.base)
+    reach = np.hypot(ends.head[0] - ends.base[0], ends.head[1] - ends.base[1])
+    across = ends.head[1] / reach
     return {
         _NET: foot + 0.0 * uphill,
         _SHARED: foot + uphill,
@@ -244,9 +186,3 @@ def choose_watched(
         sources = name_sources(member, is_shared=is_shared)
         watched |= dict.fromkeys(sources or (member,))
     return tuple(watched)
-
-
-def _length(start: Vector[Number], end: Vector[Number]) -> Number:
-    x, y = start[0] - end[0], start[1] - end[1]
-    length: Number = (x * x + y * y) ** 0.5
-    return length

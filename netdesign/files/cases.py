@@ -19,7 +19,8 @@ from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.scene import SceneSupport
-from netdesign.panel.solve import EndForces, RopeForces, compute_end_forces
+from netdesign.panel.row_end import EndForces, compute_end_forces
+from netdesign.panel.solve import RopeForces
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings, keep_state

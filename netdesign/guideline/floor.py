@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
@@ -25,7 +25,7 @@ from netdesign.guideline.load_model import (
     SnowLoad,
     compute_creep_factor,
 )
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
@@ -168,7 +168,22 @@ class Floor:
 def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> Floor:
     """Largest member forces of load cases 1 and 2 over the ranges of a row.
 
-    Theory: guideline/THEORY.md, eq. (G10).
+    As `find_floors`, on the layout of the row's net.
+    """
+    (floor,) = find_floors(model, ranges, altitude, (ranges.net.layout,))
+    return floor
+
+
+def find_floors(
+    model: LoadModel,
+    ranges: NetRanges,
+    altitude: float | None,
+    layouts: Sequence[SupportLayout],
+) -> list[Floor]:
+    """Largest member forces of load cases 1 and 2 over the ranges of a row.
+
+    One search for all layouts: the pulls of the net are the same. Theory:
+    guideline/THEORY.md, eq. (G10).
 
     Parameters
     ----------
@@ -178,29 +193,50 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         Nets that count.
     altitude : float or None
         Of the row [m]; None is not known, and gets the largest factor.
+    layouts : sequence of SupportLayout
+        In the place of the net's own, which they differ from in tilt and distances.
 
     Returns
     -------
-    Floor
-        Not available where the closed forms fail at anything that is tried: the
-        largest force may lie there.
+    list of Floor
+        One a layout; not available where the closed forms fail at anything that is
+        tried: the largest force may lie there.
 
     Verified by
     -----------
     tests/guideline/test_floor.py
     """
-    scan = _Scan(model=model, ranges=ranges, altitude=altitude)
+    scan = _Scan(model=model, ranges=ranges, altitude=altitude, layouts=tuple(layouts))
     try:
         points, largest = find_largest(scan.list_sought, _spread(ranges))
     except _FailedAtError as failed:
-        return Floor(reason=failed.reason)
-    reached = scan.try_points(points)
+        if len(layouts) == 1:
+            return [Floor(reason=failed.reason)]
+        alone = (find_floors(model, ranges, altitude, (one,)) for one in layouts)
+        return [floor for (floor,) in alone]
+    reached, count = scan.try_points(points), len(layouts)
+    own = zip(np.split(points, count, axis=1), np.split(largest, count), strict=True)
+    tried = np.split(np.arange(points.shape[1]), count)
+    return [
+        _take_floor(scan, place, of_layout, _list_sizes(reached, place, tried[place]))
+        for place, of_layout in enumerate(own)
+    ]
+
+
+def _take_floor(
+    scan: _Scan,
+    place: int,
+    found: tuple[Floats, Floats],
+    reached: Mapping[str, Floats],
+) -> Floor:
+    """Floor on one of the layouts, from the points found for it and what they bring."""
+    points, largest = found
     solve = cache(scan.solve_one)  # members are often largest at the same place
     by_member: dict[str, FloorForce] = {}
-    for key, sizes in _list_sizes(reached).items():
+    for key, sizes in reached.items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
         point = tuple(map(float, points[:, number]))
-        at, snow, result = solve(point, int(case), int(end))
+        at, snow, result = solve(point, int(case), int(end), place)
         if result.solved is None:
             return Floor(reason=_explain(at, result))
         load, pull, anchors = result.solved
@@ -219,54 +255,17 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     )
 
 
-def find_anchor_forces(
-    model: LoadModel,
-    ranges: NetRanges,
-    altitude: float | None,
-    layouts: Sequence[SupportLayout],
-) -> list[dict[str, float]] | Message:
-    """Forces on the anchors, and pull on the head, on each of some layouts [N].
-
-    Those of `find_floor` at all corners of the assumed ranges, by one search: the pulls
-    of the net are the same.
-
-    Parameters
-    ----------
-    model, ranges, altitude : LoadModel, NetRanges, float or None
-        As there.
-    layouts : sequence of SupportLayout
-        In the place of the net's own, which they differ from in tilt and distances.
-
-    Returns
-    -------
-    list of dict of str to float, or Message
-        By anchor, and by ``head_pull``; why they are not available.
-
-    Verified by
-    -----------
-    tests/guideline/test_floor.py
-    """
-    scan = _Scan(model=model, ranges=ranges, altitude=altitude, layouts=tuple(layouts))
-    try:
-        _, largest = find_largest(scan.list_anchors, _spread(ranges))
-    except _FailedAtError as failed:
-        return failed.reason
-    shared, of_layouts = np.split(largest, [1])
-    return [
-        dict(zip((*_SOUGHT, HEAD_PULL), map(float, (*forces, *shared)), strict=True))
-        for forces in of_layouts.reshape(len(layouts), -1)
-    ]
-
-
-_SOUGHT = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-
-
-def _list_sizes(tried: ManyForces) -> dict[str, Floats]:
-    """Sizes of which the largest counts, at all that was tried."""
+def _list_sizes(tried: ManyForces, place: int, own: Ints) -> dict[str, Floats]:
+    """Sizes of which the largest counts on a layout, at some of what was tried."""
     uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
     turn = tried.foot_turn
     spans = (tried.head_pull, -(uphill + downhill), -turn, turn)
-    return {**tried.of_members, **dict(zip(SPANS, spans, strict=True))}
+    sizes = {**tried.of_members, **dict(zip(SPANS, spans, strict=True))}
+    shape = uphill.shape
+    return {
+        key: np.broadcast_to(each, shape)[place][..., own]
+        for key, each in sizes.items()
+    }
 
 
 def _measure(anchors: AnchorForces, pull: NetPull[float]) -> dict[str, float]:
@@ -319,34 +318,30 @@ class _Scan:
     model: LoadModel
     ranges: NetRanges
     altitude: float | None
-    layouts: tuple[SupportLayout, ...] = ()  # in the place of the net's own
-
-    def list_anchors(self, points: Floats) -> Floats:
-        """Pull on the head, then forces on the anchors of each layout, shape (q, n)."""
-        tried = self.try_points(points)
-        forces = [tried.of_members[member] for member in _SOUGHT]
-        every = np.array(np.broadcast_arrays(*forces)).max(axis=(2, 3))
-        pull = tried.head_pull.max(axis=(0, 1))[None]
-        values: Floats = np.concatenate([pull, *every.swapaxes(0, 1)])
-        return values
+    layouts: tuple[SupportLayout, ...]
 
     def list_sought(self, points: Floats) -> Floats:
-        """Values that are made as large as they can be, at points, shape (3, n).
+        """Values that are made as large as they can be, at points, shape (q, n).
 
-        Member forces, pull on the head, direction of the foot's pull and less that
-        direction, the tension of the guys with a sign and less that.
+        Of each layout member forces, pull on the head, direction of the foot's pull and
+        less that direction, the tension of the guys with a sign and less that.
         """
         tried = self.try_points(points)
         turn = tried.foot_turn
         uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
         signed = uphill - downhill
         members = (tried.of_members[member] for member in _LOADED)
-        at_head = (tried.head_pull, turn, -turn, signed, -signed)
-        largest: Floats = np.array([*members, *at_head]).max(axis=(1, 2))
-        return largest
+        sought = (*members, tried.head_pull, turn, -turn, signed, -signed)
+        shape = (len(self.layouts), len(points.T))
+        largest = [np.broadcast_to(one.max(axis=(-3, -2)), shape) for one in sought]
+        values: Floats = np.stack(largest, axis=1).reshape(-1, shape[1])
+        return values
 
     def try_points(self, points: Floats) -> ManyForces:
-        """Forces by load case, end of the tension and point, shape (c, e, n)."""
+        """Forces by layout, load case, end of the tension and point, (m, c, e, n).
+
+        Without the first dimension what is alike on all layouts.
+        """
         net = self._place(points)
         snow, glide = self._load(points)
         try:
@@ -354,7 +349,7 @@ class _Scan:
         except ModelError:
             raise self._find_failed(points) from None
         forces = compute_many_forces(
-            ManyLayouts.of(self.layouts) if self.layouts else net.layout,
+            ManyLayouts.of(self.layouts),
             place_head(net),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
@@ -422,7 +417,7 @@ class _Scan:
         return points
 
     def solve_one(
-        self, point: tuple[float, ...], case: int, end: int, place: int = 0
+        self, point: tuple[float, ...], case: int, end: int, place: int
     ) -> tuple[LoadedNet, LoadCase[float], GuidelineResult]:
         """One net and load case as everywhere else."""
         inclination, thickness, share = point
@@ -433,7 +428,7 @@ class _Scan:
             inclination=inclination,
             stiffness=stiffness,
             slack=slack,
-            layout=self.layouts[place] if self.layouts else self.ranges.net.layout,
+            layout=self.layouts[place],
         )
         snow = list_load_cases(self.model, net, self.altitude)[case]
         depth = thickness if snow.creep_factor is None else net.net_height
@@ -445,7 +440,7 @@ class _Scan:
         """First of the points at which a load case fails, and why."""
         ends = range(len(_list_ends(self.ranges)))
         count = len(list_load_cases(self.model, self.ranges.net, self.altitude))
-        places = range(max(1, len(self.layouts)))
+        places = range(len(self.layouts))
         for point, case, end, place in product(points.T, range(count), ends, places):
             at, _, result = self.solve_one(tuple(map(float, point)), case, end, place)
             if result.anchors is None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,7 @@ from netdesign.panel.strips import (
 )
 
 
+@lru_cache(maxsize=32)
 def compute_excess_length(sag: float) -> float:
     """Length of a parabola over its span, less 1: L_r / span - 1 of (P2).
 
@@ -174,11 +176,11 @@ class RopeLoads:
 
     Attributes
     ----------
-    along : ndarray, shape (2,)
+    along : ndarray, shape (.., 2)
         H of the ropes [N].
-    pulls : ndarray, shape (2, 2, K + 1)
+    pulls : ndarray, shape (.., 2, 2, K + 1)
         Of the strips on each rope [N/m].
-    displacements : ndarray, shape (2, 2, K + 1)
+    displacements : ndarray, shape (.., 2, 2, K + 1)
         Of each rope under these pulls [m].
     """
 
@@ -220,7 +222,7 @@ def build_problem(strip: Strip, panel: Panel, count: int) -> PanelProblem:
     """
     stations = build_stations(count, has_mid_anchors=panel.has_mid_anchors)
     ropes, half = (panel.lower, panel.upper), panel.post_spacing / 2.0
-    spans = (stations.lower, stations.upper)
+    deflection, shear = _scale_spans(count, half, has_mid_anchors=panel.has_mid_anchors)
     return PanelProblem(
         panel=panel,
         strip=strip,
@@ -228,9 +230,20 @@ def build_problem(strip: Strip, panel: Panel, count: int) -> PanelProblem:
         lengths=cut_lengths(panel, strip, stations),
         stiffness=np.array([rope.stiffness for rope in ropes]),
         excess=np.array([compute_excess_length(rope.sag) for rope in ropes]),
-        deflection=half**2 * np.array([span.deflection for span in spans]),
-        shear=half * np.array([span.shear for span in spans]),
+        deflection=deflection,
+        shear=shear,
     )
+
+
+@lru_cache(maxsize=8)
+def _scale_spans(
+    count: int, half: float, *, has_mid_anchors: bool
+) -> tuple[Floats, Floats]:
+    """Deflection and shear of both ropes on half a panel of so many metres."""
+    stations = build_stations(count, has_mid_anchors=has_mid_anchors)
+    spans = (stations.lower, stations.upper)
+    deflection = half**2 * np.array([span.deflection for span in spans])
+    return deflection, half * np.array([span.shear for span in spans])
 
 
 def describe_panel(
@@ -284,22 +297,22 @@ def guess_point(problem: PanelProblem) -> Floats:
     return np.concatenate([pulls, np.log(along)])
 
 
-def read_loads(problem: PanelProblem, point: Floats) -> RopeLoads:
-    """Pulls and ropes at a point.
+def read_loads(problem: PanelProblem, points: Floats) -> RopeLoads:
+    """Pulls and ropes at a point, or at those of several panels.
 
     Parameters
     ----------
     problem : PanelProblem
-        Strips and ropes.
-    point : ndarray, shape (2 K + 4,)
+        Strips and ropes; of several panels with one spacing and stations the first.
+    points : ndarray, shape (.., 2 K + 4)
         Pulls over the load, and log H [-].
     """
-    foot = problem.load_size * point[:-2].reshape(2, -1)
-    along = np.exp(point[-2:])
-    pulls = np.array([foot, problem.strip.load[:, None] - foot])
+    foot = problem.load_size * points[..., :-2].reshape(*points.shape[:-1], 2, -1)
+    along = np.exp(points[..., -2:])
+    pulls = np.stack([foot, problem.strip.load[:, None] - foot], axis=-3)
     # mid-panel's strip shows only where it hangs
     displacements = pulls[..., :-1] @ problem.deflection.transpose(0, 2, 1)
-    displacements /= along[:, None, None]
+    displacements /= along[..., None, None]
     return RopeLoads(along=along, pulls=pulls, displacements=displacements)
 
 

@@ -1,14 +1,15 @@
 """A panel at rest: strips and ropes by Newton's method on all of them at once.
 
-First: the result, forces on supports and ropes, and on the support at the row's end.
-Theory: panel/THEORY.md, sections 3 and 4; structure/THEORY.md, (S1) to (S6).
+First: the result, forces on supports and ropes. Theory: panel/THEORY.md, section 3.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,11 +28,9 @@ from netdesign.panel.equations import (
     read_loads,
     read_point,
 )
-from netdesign.panel.inputs import LARGEST_GUY_ANGLE, Panel
+from netdesign.panel.inputs import Panel
 from netdesign.panel.strips import Strip, draw_strips, take_strip
-from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
-from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.layout import Point
 from netdesign.words.message import Message, say
 
 
@@ -57,7 +56,7 @@ class RopeForces:
     tensions: Floats
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class PanelBalance:
     """Forces and moments that are missing, over the load (and the chord).
 
@@ -129,84 +128,6 @@ class FailedPanel:
     reason: Message
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EndForces:
-    """Forces of the first or last support of a row.
-
-    Attributes
-    ----------
-    support : AnchorForces
-        Forces in the section, of half a bay [N].
-    foot : tuple of float, shape (3,)
-        Force on the foot anchor: downslope, out of the ground, along the row [N].
-    head_along : float
-        Pull of the ridge rope on the post head along the row [N].
-    guy_tension : float
-        Of the end guy that holds the head along the row [N].
-    post_compression : float
-        Of half a bay and of that guy [N].
-    """
-
-    support: AnchorForces
-    foot: tuple[float, float, float]
-    head_along: float
-    guy_tension: float
-    post_compression: float
-
-    @property
-    def foot_size(self) -> float:
-        """Size of the force on the foot anchor [N]."""
-        return math.hypot(*self.foot)
-
-
-def compute_end_forces(
-    panel: PanelSolution, points: SupportPoints, guy_angle: float
-) -> EndForces | FailedSupport:
-    """Forces of the support at a row's end: half a bay, and both ropes, (P7).
-
-    Parameters
-    ----------
-    panel : PanelSolution
-        The last panel.
-    points : SupportPoints
-        Geometry of the support [m].
-    guy_angle : float
-        Of the guy that holds the head along the row, to the row [rad].
-
-    Returns
-    -------
-    EndForces or FailedSupport
-        Per anchor [N].
-
-    Raises
-    ------
-    ModelError
-        If the guy is steeper than ``LARGEST_GUY_ANGLE``.
-
-    Verified by
-    -----------
-    tests/verification/test_panel.py
-    """
-    require_within("end guy angle", guy_angle, 0.0, LARGEST_GUY_ANGLE, "rad")
-    spacing = panel.panel.post_spacing
-    support = compute_anchor_forces(
-        points,
-        foot_pull_per_m=(panel.foot[0] / spacing, panel.foot[1] / spacing),
-        head_pull_per_m=(panel.head[0] / spacing, panel.head[1] / spacing),
-        post_spacing=spacing / 2.0,
-    )
-    if isinstance(support, FailedSupport):
-        return support
-    along = panel.upper.along
-    return EndForces(
-        support=support,
-        foot=(support.foot_anchor.x, support.foot_anchor.y, panel.lower.along),
-        head_along=along,
-        guy_tension=along / math.cos(guy_angle),
-        post_compression=support.head.post_compression + along * math.tan(guy_angle),
-    )
-
-
 # Stations of half a panel: the error falls to a tenth or so with each, where the net is
 # taut to a quarter; six cost hardly more than four.
 STATIONS = 6
@@ -248,22 +169,28 @@ def solve_panel(
     -----------
     tests/verification/test_panel.py
     """
-    return solve_strips(take_strip(solution), panel, stations=stations)
+    (solved,) = solve_strips(take_strip(solution), (panel,), stations=stations)
+    return solved
 
 
 def solve_strips(
-    strip: Strip, panel: Panel, *, stations: int = STATIONS
-) -> PanelSolution | FailedPanel:
-    """Panel of strips like the one at the post; otherwise as ``solve_panel``.
+    strip: Strip, panels: Sequence[Panel], *, stations: int = STATIONS
+) -> list[PanelSolution | FailedPanel]:
+    """Panels of strips like the one at the post; otherwise as ``solve_panel``.
 
     Parameters
     ----------
     strip : Strip
         At the post.
-    panel : Panel
+    panels : sequence of Panel
         Spacing, ropes and cut.
     stations : int
         K, strips on half the panel, 1 to 10 [-].
+
+    Returns
+    -------
+    list of PanelSolution or FailedPanel
+        One a panel.
 
     Raises
     ------
@@ -271,21 +198,41 @@ def solve_strips(
         If K is out of its range.
     """
     require_within("stations", stations, 1, LARGEST_COUNT)
-    try:
-        problem = build_problem(strip, panel, stations)
-        return _build_solution(problem, *_solve(problem))
-    except SolveError as failure:
-        return FailedPanel(outcome=failure.outcome, reason=failure.reason)
+    core = find_core()
+    found: dict[int, PanelSolution | FailedPanel] = {}
+    alike: dict[tuple[bool, float], dict[int, _SolvedPoint]] = {}
+    for place, panel in enumerate(panels):
+        try:
+            solved = _solve(build_problem(strip, panel, stations), core)
+        except SolveError as failure:
+            found[place] = _fail(failure)
+        else:
+            key = panel.has_mid_anchors, panel.post_spacing
+            alike.setdefault(key, {})[place] = solved
+    for points in alike.values():
+        found |= zip(points, _build_solutions(list(points.values())), strict=True)
+    return [found[place] for place in range(len(panels))]
 
 
-def _solve(problem: PanelProblem) -> tuple[RopeLoads, int]:
-    """Loads under which nothing is missing, and Newton steps to them.
+def _fail(failure: SolveError) -> FailedPanel:
+    return FailedPanel(outcome=failure.outcome, reason=failure.reason)
+
+
+class _SolvedPoint(NamedTuple):
+    """Point, shape (2 K + 4,), at which nothing is missing; Newton steps to it."""
+
+    problem: PanelProblem
+    point: Floats
+    steps: int
+
+
+def _solve(problem: PanelProblem, core: ctypes.PyDLL | None) -> _SolvedPoint:
+    """Point at which nothing is missing.
 
     A step is halved until the next one, by the same derivatives, would be shorter:
     that needs no common measure of gaps and lengths (Deuflhard's natural test).
     """
     point = guess_point(problem)
-    core = find_core()
     if core is not None:
         return _solve_compiled(core, problem, point)
     state = read_point(problem, point)
@@ -297,7 +244,7 @@ def _solve(problem: PanelProblem) -> tuple[RopeLoads, int]:
             tried = read_point(problem, point + share * step)
             left = float(np.linalg.norm(inverse @ tried.missing))
             if left <= _STILL:
-                return tried.loads, number
+                return _SolvedPoint(problem, point + share * step, number)
             if left <= (1.0 - share / 4.0) * float(np.linalg.norm(step)):
                 break
             share /= 2.0
@@ -309,7 +256,7 @@ def _solve(problem: PanelProblem) -> tuple[RopeLoads, int]:
 
 def _solve_compiled(
     core: ctypes.PyDLL, problem: PanelProblem, point: Floats
-) -> tuple[RopeLoads, int]:
+) -> _SolvedPoint:
     """The same by the compiled core."""
     argument, kept = describe_panel(problem)
     argument.still, argument.longest_step = _STILL, _LONGEST_STEP
@@ -321,7 +268,7 @@ def _solve_compiled(
         raise SolveError(Outcome.MAX_ITERATIONS)
     if code:
         raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found"))
-    return read_loads(problem, unknowns), argument.steps
+    return _SolvedPoint(problem, unknowns, argument.steps)
 
 
 def _invert(matrix: Floats) -> Floats:
@@ -331,85 +278,149 @@ def _invert(matrix: Floats) -> Floats:
         raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found")) from singular
 
 
-def _build_solution(problem: PanelProblem, end: RopeLoads, steps: int) -> PanelSolution:
-    """Result of the last step; refused if it is not in balance or on the ground."""
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Panels:
+    """Solved panels of one strip, spacing and kind of anchors, as arrays.
+
+    Attributes
+    ----------
+    problem : PanelProblem
+        The first one.
+    loads : RopeLoads
+        Of all of them; the panels are the first dimension.
+    curves : ndarray, shape (p, K + 1, 2, 2 n + 1)
+        Nodes of the strips [m].
+    lower, upper : ndarray, shape (p, 2, 2)
+        Forces of both bays on the supports of each rope: x and y, post and mid-panel
+        [N].
+    """
+
+    problem: PanelProblem
+    loads: RopeLoads
+    curves: Floats
+    lower: Floats
+    upper: Floats
+
+
+def _gather(points: Sequence[_SolvedPoint]) -> _Panels:
+    first = points[0].problem
+    loads = read_loads(first, np.array([one.point for one in points]))
+    lengths = np.array([one.problem.lengths for one in points])
     curves = draw_strips(
-        problem.strip, problem.lengths, end.displacements, end.pulls[0]
+        first.strip,
+        lengths.ravel(),
+        np.moveaxis(loads.displacements, 0, 2).reshape(2, 2, -1),
+        np.moveaxis(loads.pulls[:, 0], 0, 1).reshape(2, -1),
     )
-    _require_clear_of_ground(problem, curves)
-    stations = problem.stations
     lower, upper = (
-        2.0 * problem.half * load[:, :-1] @ span.end_shear.T * [1.0, -1.0]
-        for load, span in zip(end.pulls, (stations.lower, stations.upper), strict=True)
+        2.0 * first.half * loads.pulls[:, rope, :, :-1] @ span.end_shear.T * [1.0, -1.0]
+        for rope, span in enumerate((first.stations.lower, first.stations.upper))
     )
-    balance = _measure_balance(problem, end, curves, lower, upper)
+    return _Panels(
+        problem=first,
+        loads=loads,
+        curves=curves.reshape(*lengths.shape, 2, -1),
+        lower=lower,
+        upper=upper,
+    )
+
+
+def _build_solutions(
+    points: Sequence[_SolvedPoint],
+) -> list[PanelSolution | FailedPanel]:
+    """Results of some panels; refused if not in balance or on the ground."""
+    panels = _gather(points)
+    problem = panels.problem
+    depths = -panels.curves[:, :, 1].min(axis=(1, 2))
+    ropes = [_describe_ropes(panels, which) for which in (0, 1)]
+    missing = np.array(_measure_balance(panels)).T.tolist()
+    places = problem.half * (1.0 - np.append(problem.stations.xi, 0.0))
+    found: list[PanelSolution | FailedPanel] = []
+    for k, (one, parts) in enumerate(zip(points, missing, strict=True)):
+        balance = PanelBalance(*parts)
+        try:
+            _require_sound(float(depths[k]), balance, problem)
+        except SolveError as failure:
+            found.append(_fail(failure))
+            continue
+        solution = PanelSolution(
+            panel=one.problem.panel,
+            foot=_as_point(panels.lower[k, :, 0]),
+            mid_foot=_as_point(panels.lower[k, :, 1]),
+            head=_as_point(panels.upper[k, :, 0]),
+            lower=ropes[0][k],
+            upper=ropes[1][k],
+            stations=places,
+            curves=panels.curves[k],
+            balance=balance,
+            steps=one.steps,
+        )
+        found.append(solution)
+    return found
+
+
+def _describe_ropes(panels: _Panels, which: int) -> list[RopeForces]:
+    """Lower (0) or upper rope of each panel."""
+    problem, loads = panels.problem, panels.loads
+    along = loads.along[:, which]
+    supports = (panels.lower, panels.upper)[which]
+    across = np.hypot(supports[:, 0], supports[:, 1]).max(axis=1) / 2.0
+    shear = loads.pulls[:, which, :, :-1] @ problem.shear[which].T
+    tensions = np.hypot(along[:, None], np.hypot(shear[:, 0], shear[:, 1]))
+    middles = loads.displacements[:, which, :, -1]
+    return [
+        RopeForces(
+            along=pull,
+            tension=math.hypot(pull, side),
+            mid_displacement=_as_point(middles[k]),
+            tensions=tensions[k],
+        )
+        for k, (pull, side) in enumerate(
+            zip(along.tolist(), across.tolist(), strict=True)
+        )
+    ]
+
+
+def _require_sound(depth: float, balance: PanelBalance, problem: PanelProblem) -> None:
+    """Refuse a panel that lies on the ground, or is not in balance."""
+    if depth > _ON_GROUND * problem.strip.chord:
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY, say("panel.lies_on_ground", depth=depth)
+        )
     if not balance.largest <= _BALANCED:
         raise SolveError(
             Outcome.BALANCE_VIOLATED,
             say("panel.out_of_balance", missing=balance.largest, accepted=_BALANCED),
         )
-    return PanelSolution(
-        panel=problem.panel,
-        foot=_as_point(lower[:, 0]),
-        mid_foot=_as_point(lower[:, 1]),
-        head=_as_point(upper[:, 0]),
-        lower=_describe_rope(problem, end, 0, lower),
-        upper=_describe_rope(problem, end, 1, upper),
-        stations=problem.half * (1.0 - np.append(stations.xi, 0.0)),
-        curves=curves,
-        balance=balance,
-        steps=steps,
-    )
 
 
-def _describe_rope(
-    problem: PanelProblem, end: RopeLoads, which: int, supports: Floats
-) -> RopeForces:
-    """Lower (0) or upper rope, from the forces of both bays on its supports (2, 2)."""
-    along = float(end.along[which])
-    across = float(np.hypot(*supports).max()) / 2.0
-    shear = end.pulls[which][:, :-1] @ problem.shear[which].T
-    return RopeForces(
-        along=along,
-        tension=math.hypot(along, across),
-        mid_displacement=_as_point(end.displacements[which][:, -1]),
-        tensions=np.asarray(np.hypot(along, np.hypot(*shear))),
-    )
-
-
-def _require_clear_of_ground(problem: PanelProblem, curves: Floats) -> None:
-    depth = -float(curves[:, 1].min())
-    if depth > _ON_GROUND * problem.strip.chord:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, say("panel.lies_on_ground", depth=depth)
-        )
-
-
-def _measure_balance(
-    problem: PanelProblem, end: RopeLoads, curves: Floats, lower: Floats, upper: Floats
-) -> PanelBalance:
+def _measure_balance(panels: _Panels) -> tuple[Floats, Floats, Floats]:
     """Missing forces and moments, from curves and supports as they came out (P6)."""
+    problem, loads = panels.problem, panels.loads
     strip, half = problem.strip, problem.half
     load, weights = strip.load, problem.stations.weights
     size, chord = problem.load_size, strip.chord
-    force = lower.sum(axis=1) + upper.sum(axis=1) - 2.0 * half * load
-    ends = [end.displacements[0], end.displacements[1] + strip.head[:, None]]
-    held = sum(_cross(at, pull) for at, pull in zip(ends, end.pulls, strict=True))
-    turned = _cross(curves.transpose(1, 0, 2), strip.forces[:, None]).sum(axis=1)
-    lever = half**2 / 2.0 * load - half * (lower[:, 1] + upper[:, 1]) / 2.0
-    for along, moved in zip(end.along, end.displacements, strict=True):
-        lever = lever - along * moved[:, -1]
-    return PanelBalance(
-        force=float(np.hypot(*force)) / (2.0 * half * size),
-        moment_in_section=float(np.abs(turned - held)[:-1] @ weights) / (size * chord),
-        moment_along_row=float(np.hypot(*lever)) / (half * size * chord),
+    lower, upper = panels.lower, panels.upper
+    force = lower.sum(axis=-1) + upper.sum(axis=-1) - 2.0 * half * load
+    ends = loads.displacements + np.array([(0.0, 0.0), strip.head])[:, :, None]
+    held = _cross(ends, loads.pulls).sum(axis=1)
+    turned = _cross(panels.curves, strip.forces).sum(axis=-1)
+    lever = half**2 / 2.0 * load - half * (lower[..., 1] + upper[..., 1]) / 2.0
+    moved = loads.displacements[..., -1]
+    lever = lever - (loads.along[:, :, None] * moved).sum(axis=1)
+    return (
+        np.hypot(force[:, 0], force[:, 1]) / (2.0 * half * size),
+        np.abs(turned - held)[:, :-1] @ weights / (size * chord),
+        np.hypot(lever[:, 0], lever[:, 1]) / (half * size * chord),
     )
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[0] * b[1] - a[1] * b[0])
+    """Moment of vectors whose components are the dimension before the last."""
+    x, y = a[..., 0, :], a[..., 1, :]
+    return np.asarray(x * b[..., 1, :] - y * b[..., 0, :])
 
 
 def _as_point(vector: Floats) -> Point:
-    x, y = vector
-    return float(x), float(y)
+    x, y = vector.tolist()
+    return x, y

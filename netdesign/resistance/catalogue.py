@@ -47,6 +47,12 @@ def load_catalogue() -> dict[str, Any]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
+def quote(table: str, value: float) -> Datum:
+    """Value of a table of the catalogue, with the status and source of the table."""
+    status, source = load_catalogue()[table]["status"], f"resistance_source.{table}"
+    return Datum(value=float(value), status=status, source=say(source))
+
+
 def find_bond_stress(
     ground: str, grouting: str, *, ground_name: Message | str = ""
 ) -> Datum:
@@ -54,14 +60,11 @@ def find_bond_stress(
 
     A refusal calls the ground by its name where one is given, else by its key.
     """
-    bond = load_catalogue()["bond"]
-    ranges = pick(say("catalogue.ground"), ground, bond["ground"])
+    ranges = pick(say("catalogue.ground"), ground, load_catalogue()["bond"]["ground"])
     types = {name: value for name, value in ranges.items() if name != "text"}
     what = say("catalogue.grouting_in", ground=ground_name or ground)
     least, _ = pick(what, grouting, types)
-    return Datum(
-        value=float(least), status=bond["status"], source=say("resistance_source.bond")
-    )
+    return quote("bond", least)
 
 
 def find_bond_span(ground: str = "") -> tuple[float, float]:
@@ -77,23 +80,18 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
 
 def find_steel_bond() -> Datum:
     """Design bond stress f_bd of ribbed steel in grout [MPa]."""
-    table = load_catalogue()["steel_bond"]
-    source = say("resistance_source.steel_bond")
-    return Datum(value=table["f_bd_MPa"], status=table["status"], source=source)
+    return quote("steel_bond", load_catalogue()["steel_bond"]["f_bd_MPa"])
 
 
 def find_rope_factor(construction: str, factor: str) -> Datum:
     """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
-    rope = load_catalogue()["rope"]
-    factors = pick(
-        say("catalogue.rope_construction"), construction, rope["construction"]
-    )
+    constructions = load_catalogue()["rope"]["construction"]
+    factors = pick(say("catalogue.rope_construction"), construction, constructions)
     value = pick(say("catalogue.rope_factor"), factor, factors)
     if "is_spiral" in factors:
         source = say("resistance_source.spiral")
         return Datum(value=value, status="assumed", source=source)
-    source = say("resistance_source.rope")
-    return Datum(value=value, status=rope["status"], source=source)
+    return quote("rope", value)
 
 
 def list_constructions() -> list[str]:
@@ -103,21 +101,13 @@ def list_constructions() -> list[str]:
 
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
-    table = load_catalogue()["termination"]
-    value = pick(say("catalogue.termination"), kind, list_terminations())
-    return Datum(
-        value=value, status=table["status"], source=say("resistance_source.termination")
-    )
+    losses = list_terminations()
+    return quote("termination", pick(say("catalogue.termination"), kind, losses))
 
 
 def find_loop_efficiency() -> Datum:
     """Least loss factor k_e of a rope anchor's loop [-]."""
-    table = load_catalogue()["loop"]
-    return Datum(
-        value=table["least"],
-        status=table["status"],
-        source=say("resistance_source.loop"),
-    )
+    return quote("loop", load_catalogue()["loop"]["least"])
 
 
 def list_terminations() -> dict[str, float]:
@@ -128,11 +118,8 @@ def list_terminations() -> dict[str, float]:
 
 def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
-    table = load_catalogue()["buckling"]
-    value = pick(say("catalogue.buckling_curve"), curve, table["curve"])
-    return Datum(
-        value=value, status=table["status"], source=say("resistance_source.buckling")
-    )
+    factors = load_catalogue()["buckling"]["curve"]
+    return quote("buckling", pick(say("catalogue.buckling_curve"), curve, factors))
 
 
 def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:

@@ -276,6 +276,6 @@ def _find_rope_diameter(
 
 
 def _keep_cores(ropes: list[str], text: str, cores: dict[str, str]) -> list[str]:
-    """Constructions whose core is said; all, if none is, or none has it."""
-    said = [core for core, pattern in cores.items() if _has_word(pattern, text)]
-    return [rope for rope in ropes if rope.partition("-")[2] in said] or ropes
+    """Constructions whose core is named; all, if none is, or none has it."""
+    named = [core for core, pattern in cores.items() if _has_word(pattern, text)]
+    return [rope for rope in ropes if rope.partition("-")[2] in named] or ropes

@@ -9,7 +9,13 @@ import math
 from dataclasses import dataclass
 
 from netdesign.outcome import ModelError, require_within
-from netdesign.resistance.catalogue import Datum, interpolate, load_catalogue, pick
+from netdesign.resistance.catalogue import (
+    Datum,
+    interpolate,
+    load_catalogue,
+    pick,
+    quote,
+)
 from netdesign.words.message import say
 
 
@@ -301,8 +307,7 @@ def find_direction_factor(angle: float) -> Datum:
     table = load_catalogue()["shackle"]
     angles, factors = table["angle_deg"], table["factor"]
     factor = interpolate(angles, factors, min(math.degrees(abs(angle)), angles[-1]))
-    source = say("resistance_source.shackle")
-    return Datum(value=factor, status=table["status"], source=source)
+    return quote("shackle", factor)
 
 
 def find_angle(link: Link, pulled: float | None) -> float:
@@ -405,8 +410,7 @@ def find_loss(soil: str, years: int) -> Datum:
     if not 0 <= years <= table["years"][-1]:
         raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
     loss = interpolate([0, *table["years"]], [0.0, *losses], years)
-    source = say("resistance_source.corrosion")
-    return Datum(value=loss, status=table["status"], source=source)
+    return quote("corrosion", loss)
 
 
 def leave_area(outer: float, inner: float, loss: float) -> float:

@@ -79,17 +79,6 @@ REPORTED_MEMBERS = (
 )
 # Those of one solved support, whose post may pull.
 SOLVED_MEMBERS = (*REPORTED_MEMBERS, Member.POST_FOOT)
-# Points of a support on the ground, in their order, and what brings the force there.
-BROUGHT_BY: Mapping[str, Member] = MappingProxyType(
-    {
-        Member.FOOT_ANCHOR: Member.NET,
-        Member.UPHILL_ANCHOR: Member.UPHILL_GUY,
-        Member.DOWNHILL_ANCHOR: Member.DOWNHILL_GUY,
-        Member.POST_BASE: Member.POST,
-    }
-)
-
-
 # What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.FOOT_ANCHOR, "tendon"),

@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome, require_within
 from netdesign.structure.head import (
     FailedSupport,
@@ -209,8 +209,9 @@ def compute_splayed_head(
 
 
 def is_held_sideways(
-    pulls: Sequence[Point],
+    pulls: Floats,
     places: Sequence[SupportPoints],
+    at: Ints,
     *,
     share: float,
     splay: float,
@@ -219,10 +220,12 @@ def is_held_sideways(
 
     Parameters
     ----------
-    pulls : sequence of tuple of float, shape (2,)
+    pulls : ndarray, shape (2, n)
         Force of the net on each head in the section [N].
     places : sequence of SupportPoints
-        Of each head [m].
+        Supports on which the heads stand [m].
+    at : ndarray of int, shape (n,)
+        Which of these each head is of.
     share : float
         Load on a head along the row, over its pull [-].
     splay : float
@@ -232,13 +235,9 @@ def is_held_sideways(
     -----------
     tests/structure/test_splay.py
     """
-    directions: dict[int, tuple[Point, Point, Point]] = {}
-    for points in places:  # many states stand on one support
-        if id(points) not in directions:
-            directions[id(points)] = list_directions(points)
-    ways = np.array([directions[id(points)] for points in places]).transpose(1, 2, 0)
-    x, y = np.array(pulls).T
-    (post, uphill, downhill) = ((way[0], way[1]) for way in ways)
+    ways = np.array([list_directions(points) for points in places])[at]
+    (post, uphill, downhill) = ((way[0], way[1]) for way in ways.transpose(1, 2, 0))
+    x, y = pulls
     head = hold_head((x, y), post, uphill, downhill)
     held = share * np.hypot(x, y) / math.tan(splay)
     above, below = cross(uphill, post), cross(downhill, post)

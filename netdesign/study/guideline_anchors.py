@@ -21,8 +21,7 @@ from netdesign.structure.splay import weigh_splay
 from netdesign.study.case_records import HeldSidewaysRecord
 from netdesign.study.guideline_load import (
     find_effects,
-    find_row_anchor_forces,
-    find_row_floor,
+    find_row_floors,
     list_assumed,
 )
 from netdesign.study.member_force import RowForces, find_guideline_force
@@ -177,14 +176,14 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
 
 def _find_loads(row: NetRow, ranges: Ranges, standard: Standard) -> Loads | Message:
     """Forces inside the row by layout, or why they are not available."""
-    layouts = list_layouts(row)
-    if len(layouts) > 1:
-        return find_row_anchor_forces(row, ranges, standard, layouts)
-    floor = find_row_floor(row, ranges, standard)
-    if floor is None or floor.head is None:
-        return (floor.reason if floor else None) or say("check.no_case_solved")
-    forces = {force.member: force.force for force in floor.forces}
-    return {row.layout: {**forces, HEAD_PULL: floor.head.pull}}
+    loads: dict[SupportLayout, Mapping[str, float]] = {}
+    found = find_row_floors(row, ranges, standard, list_layouts(row))
+    for layout, floor in found.items():
+        if floor is None or floor.head is None:
+            return (floor.reason if floor else None) or say("check.no_case_solved")
+        forces = {force.member: force.force for force in floor.forces}
+        loads[layout] = {**forces, HEAD_PULL: floor.head.pull}
+    return loads
 
 
 def _list_statics(row: NetRow) -> list[NetRow]:

@@ -29,8 +29,7 @@ from netdesign.guideline.floor import (
     Floor,
     FloorForce,
     NetRanges,
-    find_anchor_forces,
-    find_floor,
+    find_floors,
 )
 from netdesign.guideline.load_model import (
     LoadModel,
@@ -214,22 +213,18 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
     The load model is the guideline's own, whatever the profile; that may add the
     dimensioning form.
     """
-    if standard.floor == "none":
-        return None
-    model = read_floor_model(standard)
-    return find_floor(model, _list_nets(row, ranges), row.altitude)
+    return find_row_floors(row, ranges, standard, (row.layout,))[row.layout]
 
 
-def find_row_anchor_forces(
+def find_row_floors(
     row: NetRow, ranges: Ranges, standard: Standard, layouts: Sequence[SupportLayout]
-) -> dict[SupportLayout, dict[str, float]] | Message:
-    """Forces of the guideline's load on a row's anchors, on each of some layouts."""
-    model = read_floor_model(standard)
-    nets = _list_nets(row, ranges)
-    forces = find_anchor_forces(model, nets, row.altitude, layouts)
-    if isinstance(forces, Message):
-        return forces
-    return dict(zip(layouts, forces, strict=True))
+) -> dict[SupportLayout, Floor | None]:
+    """Those forces of a row on each of some layouts."""
+    if standard.floor == "none":
+        return dict.fromkeys(layouts)
+    model, nets = read_floor_model(standard), _list_nets(row, ranges)
+    floors = find_floors(model, nets, row.altitude, layouts)
+    return dict(zip(layouts, floors, strict=True))
 
 
 def read_floor_model(standard: Standard) -> LoadModel:

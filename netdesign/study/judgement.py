@@ -32,7 +32,6 @@ from netdesign.study.member_force import (
     MemberForce,
     RowForces,
     find_force,
-    size_force,
 )
 from netdesign.study.posts import ask_efficiency, find_short_post
 from netdesign.study.pulls import (
@@ -189,7 +188,7 @@ def rate_member(
     if _find_unsaid(forces, resistance, width):
         return Rating(group=(), low=0.0, high=0.0)
     try:
-        force = size_force(forces, resistance, width)
+        force = find_force(forces, resistance, width, is_size=True)
     except ModelError:  # outside the range of an operation
         return None
     if force is None:

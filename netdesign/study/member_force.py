@@ -89,10 +89,16 @@ def solve_for(record: LargestForce, symbol: str) -> Quantity:
     )
 
 
-def size_force(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
+def find_force(
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    *,
+    is_size: bool = False,
 ) -> MemberForce | None:
-    """The force that `find_force` finds, by its size alone.
+    """Force on a member of the support of that width; None without a solved case.
+
+    With its way unless its size alone is asked for; each is calculated once.
 
     Raises
     ------
@@ -100,10 +106,11 @@ def size_force(
         Where an operation of its formula lies outside its range.
     """
     mode = resistance.mode if resistance.mode in OWN_FORCES else ""
-    key = (resistance.member, mode, width.position)
-    if key not in forces.sizes:
-        forces.sizes[key] = find_force(forces, resistance, width, is_size=True)
-    return forces.sizes[key]
+    key = (resistance.member, mode, width, is_size)
+    if key not in forces.worked_out:
+        force = _work_out(forces, resistance, width, is_size=is_size)
+        forces.worked_out[key] = force
+    return forces.worked_out[key]
 
 
 def _calculate(
@@ -118,14 +125,9 @@ def _calculate(
     )
 
 
-def find_force(
-    forces: RowForces,
-    resistance: Resistance,
-    width: LoadedWidth,
-    *,
-    is_size: bool = False,
+def _work_out(
+    forces: RowForces, resistance: Resistance, width: LoadedWidth, *, is_size: bool
 ) -> MemberForce | None:
-    """Force on a member of the support of that width; None without a solved case."""
     member = resistance.member
     if member in ROPE_OF:
         return _find_end_force(forces, member, width, is_size=is_size)

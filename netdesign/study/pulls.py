@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
+from netdesign.envelope.head_pulls import list_panels
+from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import BENDING
@@ -33,7 +36,7 @@ from netdesign.structure.row_position import (
 from netdesign.structure.splay import Guys
 from netdesign.study.case_records import PullRecord
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import SupportState, place_row
+from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
@@ -62,17 +65,25 @@ class FootPulls:
     along: float
 
 
-def measure_feet(states: Sequence[SupportState]) -> FootPulls:
-    """Pulls on the foot anchors: they are the same on every layout of a support."""
-    turns = [
-        measure_pull(x, y, Member.FOOT_ANCHOR)
-        for state in states
-        for x, y in state.feet
-    ]
+def measure_feet(
+    results: Sequence[CaseResult], *, has_panels: bool = True
+) -> FootPulls:
+    """Pulls on the foot anchors: they are the same on every layout of a support.
+
+    Those of the sections, and of every panel if that is wanted.
+    """
+    of_cases = map(list_panels, results) if has_panels else ()
+    panels = list(chain.from_iterable(of_cases))
+    anchors = [result.anchors for result in results if result.anchors is not None]
+    anchors += [panel.anchors for panel in panels]
+    pulls = [(support.foot_anchor.x, support.foot_anchor.y) for support in anchors]
+    mids = [panel.solution.mid_foot for panel in panels]
+    pulls += [mid for mid in mids if any(mid)]
+    turns = [measure_pull(x, y, Member.FOOT_ANCHOR) for x, y in pulls]
     shares = (
-        state.panel.solution.lower.along / state.anchors.foot_anchor.size
-        for state in states
-        if state.panel is not None and state.anchors.foot_anchor.size > 0.0
+        panel.solution.lower.along / panel.anchors.foot_anchor.size
+        for panel in panels
+        if panel.anchors.foot_anchor.size > 0.0
     )
     return FootPulls(
         turns=(min(turns), max(turns)) if turns else (), along=max(shares, default=0.0)
@@ -93,13 +104,11 @@ def list_pulls(
     rope's pull along the row; last the anchors of the row's end: those of types of
     their own, then those that hold the row along it.
     """
-    row, solved = (
-        task.row,
-        [result for result in task.solved.results if result.is_converged],
-    )
-    points = [place_row(row, result.case.inclination) for result in solved]
+    solved = [result for result in task.solved.results if result.is_converged]
+    row, inclined = task.row, [result.case.inclination for result in solved]
+    places = {angle: place_row(row, angle) for angle in dict.fromkeys(inclined)}
     directions = {
-        anchor: [_measure_guy(place, anchor, row.guys) for place in points]
+        anchor: [_measure_guy(place, anchor, row.guys) for place in places.values()]
         for anchor in ANCHORS
     }
     directions[Member.FOOT_ANCHOR] = list(feet.turns)
@@ -119,6 +128,7 @@ def list_pulls(
     if at_foot is not None and turn > 0.0:
         foot = (row, Member.FOOT_ANCHOR, at_foot, share + turn)
         of_supports.insert(len(ANCHORS), build_pull(*foot, position="second"))
+    points = [places[angle] for angle in inclined]
     return [*of_supports, *_list_end_pulls(row, points)]
 
 

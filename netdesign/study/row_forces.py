@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from netdesign.calculation.quantity import Quantity
 from netdesign.checks.forces import SupportForce
 from netdesign.structure.members import Member, RopeForce, name_in_panel
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import (
     EndGuyRecord,
     FloorForceRecord,
@@ -57,9 +58,9 @@ class RowForces(Basis):
     pulls: tuple[PullRecord, ...] = ()
     gap: Message | None = None
     panel_gap: Message | None = None
-    # forces of which the size alone was asked for, by member and support
-    sizes: dict[tuple[str, str, str], MemberForce | None] = field(
-        default_factory=dict, compare=False, repr=False
+    # forces that were asked for, with their way or by their size alone
+    worked_out: dict[tuple[str, str, LoadedWidth, bool], MemberForce | None] = field(
+        default_factory=dict, init=False, compare=False, repr=False
     )
 
     @property

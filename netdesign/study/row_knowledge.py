@@ -7,15 +7,17 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
+from netdesign.envelope.head_pulls import HeadPulls, read_heads
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import RopeForce
 from netdesign.study.case_records import LargestForce
-from netdesign.study.guideline_load import find_effects, find_row_floor, record_floor
+from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
 from netdesign.study.member_force import (
     RowForces,
     find_end_pull,
@@ -23,15 +25,13 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.pulls import FootPulls, list_pulls, measure_feet
 from netdesign.study.record_envelope import record_largest
-from netdesign.study.row_to_check import RowToCheck, list_variants
+from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
 from netdesign.study.sideways import (
     EndShare,
-    SupportState,
     find_end_guy,
     find_held_sideways,
     find_rope_factors,
     find_tilt,
-    list_states,
 )
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -49,11 +49,11 @@ def know_variants(task: RowToCheck) -> list[Variant]:
     """All variants of a row; those of one layout share what its cases tell there."""
     variants: list[Variant] = []
     rows = groupby(list_variants(task.row), key=attrgetter("layout"))
-    feet: FootPulls | None = None
+    cases: RowCases | None = None
     for place, (_, of_layout) in enumerate(rows):
         solved, (first, *others) = task.solved.at_layout(place), of_layout
-        cases = gather_cases(task, first, solved, feet)
-        feet, base = cases.feet, know_cases(cases)
+        cases = gather_cases(task, first, solved, cases)
+        base = know_cases(cases)
         for row in (first, *others):
             of_row = replace(cases.task, row=row)
             forces = know_row(replace(cases, task=of_row), base)
@@ -76,8 +76,9 @@ def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     cases = gather_cases(task, row, solved)
     if not row.panel_assumed:
         return know_row(cases, know_cases(cases))
-    heads = [state for state in cases.heads if state.panel is None]
-    cases = replace(cases, heads=heads, feet=measure_feet(heads))
+    heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
+    feet = measure_feet(solved.results, has_panels=False)
+    cases = replace(cases, heads=heads, feet=feet)
     base = know_cases(cases)
     largest = _take_least(base.largest, solved.results)
     floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
@@ -121,8 +122,8 @@ class RowCases:
     ----------
     task : RowToCheck
         The row with its envelope there.
-    heads : sequence of SupportState
-        States of all its cases.
+    heads : HeadPulls
+        Of all its cases.
     feet : FootPulls
         What they bring to the foot.
     floor : Floor or None
@@ -130,23 +131,35 @@ class RowCases:
     """
 
     task: RowToCheck
-    heads: Sequence[SupportState]
+    heads: HeadPulls
     feet: FootPulls
     floor: Floor | None
 
 
 def gather_cases(
-    task: RowToCheck, row: NetRow, solved: RowEnvelope, feet: FootPulls | None = None
+    task: RowToCheck, row: NetRow, solved: RowEnvelope, before: RowCases | None = None
 ) -> RowCases:
-    """Solved cases of a variant of a row; ``feet`` where they are known already."""
+    """Solved cases of a variant of a row; ``before`` on another layout of its."""
     at = replace(task, row=row, solved=solved, extremes=solved.extremes)
-    heads = [head for result in solved.results for head in list_states(row, result)]
     return RowCases(
         task=at,
-        heads=heads,
-        feet=feet or measure_feet(heads),
-        floor=find_row_floor(row, task.site.ranges, task.standard),
+        heads=before.heads
+        if before
+        else read_heads(row.layout.post_spacing, solved.results),
+        feet=before.feet if before else measure_feet(solved.results),
+        floor=_find_floor(task, row.layout),
     )
+
+
+def _find_floor(task: RowToCheck, layout: SupportLayout) -> Floor | None:
+    """Forces by the guideline's load on a layout; all corners are found at once."""
+    ranges = task.site.ranges
+    if (layout, ranges) not in task.floors:
+        corners = list_layouts(task.row)
+        layouts = corners if layout in corners else (layout,)
+        floors = find_row_floors(task.row, ranges, task.standard, layouts)
+        task.floors.update(((one, ranges), floor) for one, floor in floors.items())
+    return task.floors[layout, ranges]
 
 
 def know_cases(cases: RowCases) -> RowForces:
@@ -179,7 +192,7 @@ def know_row(cases: RowCases, base: RowForces) -> RowForces:
     task, floor = cases.task, cases.floor
     head = floor.head if floor else None
     held = find_held_sideways(task, cases.heads, head)
-    forces = replace(base, row=task.row, held=held, sizes={})
+    forces = replace(base, row=task.row, held=held)
     share, one_way = forces.effects.lateral_share, find_one_way_pull(forces)
     pulls = list_pulls(task, cases.feet, share, head, one_way)
     forces = replace(forces, pulls=tuple(pulls))

@@ -9,7 +9,7 @@ gives a number".
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 from netdesign.cable.net import Net
@@ -17,9 +17,10 @@ from netdesign.checks import Standard
 from netdesign.checks.check import AssumedPoint
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.ranges import Case
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.snow.snowpack import Snowpack
@@ -142,12 +143,16 @@ class RowToCheck(Basis):
     """One net row under one profile.
 
     ``extremes`` are the largest forces of its solved cases; ``solver`` is None where
-    nothing beyond the solved cases is to be solved.
+    nothing beyond the solved cases is to be solved; ``floors`` are those worked out so
+    far, by layout and ranges.
     """
 
     solved: RowEnvelope
     extremes: Mapping[str, Extreme]
     solver: CaseSolver | None
+    floors: dict[tuple[SupportLayout, Ranges], Floor | None] = field(
+        default_factory=dict
+    )
 
     def count_faults(self) -> int:
         """Faults of the program in the solves so far."""

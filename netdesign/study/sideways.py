@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from netdesign.checks import Band
 from netdesign.checks.schema import LATERAL_SHARE
-from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme, describe_gap
+from netdesign.envelope.head_pulls import HeadPulls, list_panels
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.site.model import NetRow
-from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport, HeadForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member, RopeForce, name_in_panel
@@ -47,7 +45,7 @@ GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 
 
 def find_held_sideways(
-    task: RowToCheck, heads: Sequence[SupportState], floor: HeadSpan | None
+    task: RowToCheck, heads: HeadPulls, floor: HeadSpan | None
 ) -> HeldSidewaysRecord | Message:
     """Load along the row at its heads over the solved cases, or why it is not held.
 
@@ -56,7 +54,7 @@ def find_held_sideways(
     task : RowToCheck
         Row with its guys, cases and largest forces; the profile gives the share of the
         load.
-    heads : sequence of SupportState
+    heads : HeadPulls
         States of all its cases.
     floor : HeadSpan or None
         What the guideline's load brings at the head; None without a floor.
@@ -67,13 +65,13 @@ def find_held_sideways(
         return say("ends.no_lateral_load", value=LATERAL_SHARE)
     if isinstance(splay, Message):
         return splay
-    if not heads:
+    if not heads.count:
         return describe_gap(results) or say("check.no_case_solved")
-    pulls, places = zip(
-        *((state.head_pull, state.points) for state in heads), strict=True
-    )
-    if not is_held_sideways(pulls, places, share=value.value, splay=splay):
-        failed = (_fail(head, value.value, splay) for head in heads)
+    places = _place_heads(row, heads)
+    states = (heads.pulls, places, heads.places)
+    if not is_held_sideways(*states, share=value.value, splay=splay):
+        pairs = zip(heads.pulls.T.tolist(), heads.places.tolist(), strict=True)
+        failed = (_fail((x, y), places[k], value.value, splay) for (x, y), k in pairs)
         reason = next((message for message in failed if message is not None), None)
         return reason or say("support.not_held_sideways")
     return _record(task, heads, floor, (value.value, splay))
@@ -81,7 +79,7 @@ def find_held_sideways(
 
 def _record(
     task: RowToCheck,
-    heads: Sequence[SupportState],
+    heads: HeadPulls,
     floor: HeadSpan | None,
     load: tuple[float, float],
 ) -> HeldSidewaysRecord:
@@ -91,15 +89,14 @@ def _record(
         for member in (*GUYS, Member.POST)
         if member in extremes
     }
-    in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
-    solved = min(head.tension for head in heads)
-    pull = _widen(row, heads, sum(hidden.values()))
+    pull = heads.bound_size(sum(hidden.values()))
     of_floor = 0.0 if is_layout_assumed(row) else _find_floor_tension(row, floor)
     # Between two panels or two layouts as they may be built, the guy of one side can
     # give way to that of the other: then none is counted on.
-    is_assumed = row.panel_assumed or is_layout_assumed(row)
-    least = 0.0 if is_assumed else max(0.0, solved - in_guys)
-    places = {id(state.points): state.points for state in heads}
+    least = 0.0
+    if not row.panel_assumed and not is_layout_assumed(row):
+        in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
+        least = max(0.0, _find_least_tension(task.solved.results) - in_guys)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -109,7 +106,7 @@ def _record(
         least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
-        **weigh_places(places.values()),
+        **weigh_places(_place_heads(row, heads)),
     )
 
 
@@ -126,14 +123,28 @@ def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
     }
 
 
-def _fail(head: SupportState, share: float, splay: float) -> Message | None:
-    """Reason why the load along the row is not held in a state."""
-    held = compute_splayed_head(
-        head.head_pull, head.points, sideways=share * head.pull, splay=splay
-    )
+def _fail(
+    pull: Point, points: SupportPoints, share: float, splay: float
+) -> Message | None:
+    """Reason why the load along the row is not held under a pull on the head."""
+    sideways = share * math.hypot(*pull)
+    held = compute_splayed_head(pull, points, sideways=sideways, splay=splay)
     if isinstance(held, FailedSupport):
         return held.reason
-    return None if weigh_splay(head.points) else say("support.not_held_sideways")
+    return None if weigh_splay(points) else say("support.not_held_sideways")
+
+
+def _find_least_tension(results: Sequence[CaseResult]) -> float:
+    """Least tension of the guys on both sides, of which one is at work [N]."""
+    return min(
+        sum(bands[guy].low for guy in guys)
+        for result in results
+        if result.is_converged
+        for bands, guys in (
+            (result.member_forces, GUYS),
+            *((panel.bands, GUYS_BY_PANEL) for panel in list_panels(result)),
+        )
+    )
 
 
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
@@ -169,7 +180,7 @@ class EndShare:
 
 
 def find_end_guy(
-    task: RowToCheck, load: EndShare, states: Sequence[SupportState]
+    task: RowToCheck, load: EndShare, heads: HeadPulls
 ) -> EndGuyRecord | Message | None:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
 
@@ -181,8 +192,8 @@ def find_end_guy(
         Row with its end, cases and largest forces.
     load : EndShare
         On the head there.
-    states : sequence of SupportState
-        Of all its cases.
+    heads : HeadPulls
+        States of all its cases.
     """
     row, span = task.row, task.site.ranges["inclination"]
     guy = row.row_end.guy if row.row_end else None
@@ -195,17 +206,17 @@ def find_end_guy(
     )
     if failed is not None:
         return failed.reason
-    heads = [support for support in held if isinstance(support, HeadForces)]
-    posts = [head.post_compression for head in heads]
+    forces = [support for support in held if isinstance(support, HeadForces)]
+    posts = [head.post_compression for head in forces]
     upright = [place.head[1] / place.post_length for place in places]
-    tensions = _share_end(task, guy, load, states)
+    tensions = _share_end(task, guy, load, heads)
     if isinstance(tensions, Message):
         return tensions
     return EndGuyRecord(
         post_part=max(posts),
         base_part=max(a * b for a, b in zip(posts, upright, strict=True)),
-        uphill_part=max(head.uphill_guy_tension for head in heads),
-        downhill_part=max(head.downhill_guy_tension for head in heads),
+        uphill_part=max(head.uphill_guy_tension for head in forces),
+        downhill_part=max(head.downhill_guy_tension for head in forces),
         uphill_guy_kN=tensions and kilonewton_from_newton(tensions[0]),
         downhill_guy_kN=tensions and kilonewton_from_newton(tensions[1]),
     )
@@ -219,7 +230,7 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, guy: EndGuy, load: EndShare, states: Sequence[SupportState]
+    task: RowToCheck, guy: EndGuy, load: EndShare, states: HeadPulls
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
@@ -229,7 +240,7 @@ def _share_end(
     row, splay = task.row, task.row.guys.splay
     if row.row_end is None or row.guys.count < 2 or splay is None:
         return None
-    if all(state.panel is None for state in states):
+    if not states.has_panels:
         return None
     keys = (*GUYS, *GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
     extremes = [task.extremes[key] for key in keys if key in task.extremes]
@@ -242,9 +253,10 @@ def _share_end(
         default=0.0,
     )
     scale = load.end.width / row.layout.post_spacing * load.factor * hidden
+    places = _place_heads(row, states)
     heads = [
-        EndHead(points=points, pull=(scale * x, scale * y), along=load.along)
-        for points, (x, y) in _list_outermost(row, states)
+        EndHead(points=places[k], pull=(scale * x, scale * y), along=load.along)
+        for k, (x, y) in states.outermost
     ]
     ways = row.row_end.stiffnesses
     tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)
@@ -252,31 +264,6 @@ def _share_end(
         return say("support.not_held_sideways")
     outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)
     return float(outer[0]), float(outer[2])
-
-
-_DIRECTIONS = 16  # in which the outermost of the pulls on a head are looked for
-
-
-def _list_outermost(
-    row: NetRow, states: Sequence[SupportState]
-) -> list[tuple[SupportPoints, Point]]:
-    """Pulls on the head that lie outermost among those at one inclination [N]."""
-    turns = [2.0 * math.pi * part / _DIRECTIONS for part in range(_DIRECTIONS)]
-    pulls: dict[float, list[Point]] = {}
-    for state in states:
-        if state.result is not None:
-            pulls.setdefault(state.result.case.inclination, []).append(state.head_pull)
-    return [
-        (place_row(row, inclination), pull)
-        for inclination, heads in pulls.items()
-        for pull in {_find_outermost(heads, turn) for turn in turns}
-    ]
-
-
-def _find_outermost(pulls: Sequence[Point], turn: float) -> Point:
-    """Pull with the largest part in a direction [N]."""
-    across, up = math.cos(turn), math.sin(turn)
-    return max(pulls, key=lambda pull: across * pull[0] + up * pull[1])
 
 
 def find_rope_factors(
@@ -306,82 +293,9 @@ def find_rope_factors(
     return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SupportState:
-    """A state on a support inside the row: by its section, or by a panel between posts.
-
-    Attributes
-    ----------
-    result, panel : CaseResult, PanelForces or None
-        What it is of; no result under the guideline's load, no panel by its section.
-    points : SupportPoints
-        Geometry [m].
-    anchors : AnchorForces
-        On the ground; those of a panel on the row's first layout [N].
-    head_pull : tuple of float, shape (2,)
-        Of the net on the head [N].
-    foot, head : EndPull or None
-        Pulls of the net with their errors [N/m]; None without a solution.
-    tension : float
-        Least of the guys on both sides, of which one is at work [N].
-    """
-
-    result: CaseResult | None = None
-    panel: PanelForces | None = None
-    points: SupportPoints
-    anchors: AnchorForces
-    head_pull: Point
-    foot: EndPull | None
-    head: EndPull | None
-    tension: float = 0.0
-
-    @property
-    def pull(self) -> float:
-        """Size of the pull on the post head [N]."""
-        return math.hypot(*self.head_pull)
-
-    @property
-    def mid_foot(self) -> Point:
-        """Force on an anchor in mid-panel [N]."""
-        return self.panel.solution.mid_foot if self.panel else (0.0, 0.0)
-
-    @property
-    def feet(self) -> list[Point]:
-        """Forces of the net on foot anchors, beside a post and in mid-panel [N]."""
-        foot, mid = self.anchors.foot_anchor, self.mid_foot
-        return [(foot.x, foot.y), *([mid] if any(mid) else [])]
-
-
-def list_states(row: NetRow, result: CaseResult) -> list[SupportState]:
-    """States of a case, by its section and by every panel; none of a failed one."""
-    if not result.is_converged or result.anchors is None:
-        return []
-    points, solution = place_row(row, result.case.inclination), result.solution
-    of_section = SupportState(
-        result=result,
-        points=points,
-        anchors=result.anchors,
-        head_pull=result.anchors.head_pull,
-        foot=solution.foot if solution else None,
-        head=solution.head if solution else None,
-        tension=_add_guys(result.member_forces, GUYS),
-    )
-    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    return [
-        of_section,
-        *(
-            replace(
-                of_section,
-                panel=panel,
-                anchors=panel.anchors,
-                head_pull=panel.anchors.head_pull,
-                foot=panel.foot,
-                head=panel.head,
-                tension=_add_guys(panel.bands, GUYS_BY_PANEL),
-            )
-            for panel in panels
-        ),
-    ]
+def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:
+    """Points of a support of the row at each inclination of its cases [m]."""
+    return [place_row(row, angle) for angle in heads.inclinations]
 
 
 def place_row(row: NetRow, inclination: float) -> SupportPoints:
@@ -413,28 +327,10 @@ def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:
     return max(map(math.fabs, tilts), default=0.0)
 
 
-def _add_guys(bands: Mapping[str, Band], guys: Sequence[str]) -> float:
-    """Least tension of the guys on both sides, of which one is at work [N]."""
-    return sum(bands[guy].low for guy in guys)
-
-
 def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
     """Part of a member's force that may hide, by section or panel [N]."""
     names = (member, name_in_panel(member))
     return max(extremes[name].hidden for name in names if name in extremes)
-
-
-def _widen(row: NetRow, heads: Sequence[SupportState], hidden: float) -> Band:
-    """Largest pull on a head with its error and with what may hide [N]."""
-    width = row.layout.post_spacing
-    pulls = [
-        (state.pull, state.head.error * width if state.head else 0.0) for state in heads
-    ]
-    return Band(
-        low=max(0.0, *(pull - error for pull, error in pulls)),
-        value=max(pull for pull, _ in pulls),
-        high=max(pull + error for pull, error in pulls) + hidden,
-    )
 
 
 def find_splay(row: NetRow) -> float | Message:

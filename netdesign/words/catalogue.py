@@ -269,8 +269,3 @@ def _list_texts(table: Mapping[str, Any], above: str) -> Iterator[tuple[str, str
             yield key, value
         else:
             yield from _list_texts(value, key)
-
-
-def list_gaps(text: str) -> frozenset[str]:
-    """Names of the arguments that a text asks for."""
-    return frozenset(name for _, name, _, _ in _FORMATTER.parse(text) if name)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.response import keep_lengths, pull_nodes
+from netdesign.addons.history.net_pulls import keep_lengths, pull_nodes
 from netdesign.addons.history.sliding import (
     compute_node_forces,
     compute_segment_lengths,

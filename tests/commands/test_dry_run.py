@@ -4,7 +4,7 @@ import pytest
 
 from netdesign.commands import check_run
 from netdesign.solving import workers
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 # Seven rows of an approved net, and one whose slack is searched, too.
 SEARCH, BESIDE = 7 * 61 + 95, 8 * 2
@@ -74,7 +74,7 @@ def test_no_more_is_solved_of_the_example_than_was_promised(
 ):
     """One that passes narrowly, and one that fails."""
     path, calls = tmp_path / "site.xlsx", []
-    write_short_example(path, [row], leans=True)
+    write_rows(path, [row], leans=True)
     quick = ("check", path, "--accuracy", "0.05", "--jobs", "1", "--json")
     plan = json.loads(call(*quick, "--dry-run").out)
 

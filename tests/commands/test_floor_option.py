@@ -6,7 +6,7 @@ import re
 import pytest
 
 from netdesign.words.catalogue import LANGUAGES, load_texts
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-cache", "--quiet")
 OWN = re.compile(r'^load\.floor = "guideline"', re.M)
@@ -15,7 +15,7 @@ OWN = re.compile(r'^load\.floor = "guideline"', re.M)
 @pytest.fixture
 def site(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    write_short_example(tmp_path / "site.xlsx", ["R1"])
+    write_rows(tmp_path / "site.xlsx", ["R1"])
     return tmp_path
 
 

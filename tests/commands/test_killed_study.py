@@ -12,7 +12,7 @@ import time
 
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 # Both parties find and leave everything in their own folder, under the same names.
@@ -26,7 +26,7 @@ KILLS = 20
 def folder(tmp_path_factory):
     """Folder with a site of two net rows of the example."""
     place = tmp_path_factory.mktemp("killed")
-    write_short_example(place / "site.xlsx", ["R1", "R7"], leans=True)
+    write_rows(place / "site.xlsx", ["R1", "R7"], leans=True)
     return place
 
 

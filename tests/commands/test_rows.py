@@ -5,7 +5,7 @@ import json
 import pytest
 
 from netdesign.words.catalogue import LANGUAGES
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet", "--no-excel")
 
@@ -18,7 +18,7 @@ def store(tmp_path_factory):
 @pytest.fixture
 def site(tmp_path, monkeypatch, store):
     monkeypatch.setenv("NETDESIGN_STORE", str(store))
-    write_short_example(tmp_path / "site.xlsx", ["R1", "R6"])
+    write_rows(tmp_path / "site.xlsx", ["R1", "R6"])
     return tmp_path
 
 

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from netdesign.report.words import VERDICTS
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-cache", "--quiet")
 NAMES = ("anchors", "structure", "siting")
@@ -15,7 +15,7 @@ ORDER = ("fail", "not_proven", "declared", "pass")
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("scopes")
-    write_short_example(folder / "site.xlsx", ["R6"])  # anchors not proven
+    write_rows(folder / "site.xlsx", ["R6"])  # anchors not proven
     return folder
 
 

@@ -3,20 +3,16 @@
 import openpyxl
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import load_rows, write_site
 from tests.site.csv_folder import write_csv_folder
 
 SHEETS = {
-    "Nets": [
-        "id;slope angle [deg];snow thickness [m];upslope length [m];ground law;"
-        "net height [m];net stiffness [kN/m];post spacing [m]",
-        "R1;38,500;2,75;20;free;3,5;9000;3,5",
+    "Rows": [
+        "row;slope ψ [deg];snow height [m vertical];glide factor N;"
+        "upslope length L [m];net type;post spacing b [m]",
+        "R1;38,500;3,75;2,5;20;N1;3,5",
     ],
-    "Ranges": [
-        "quantity;low;high",
-        "density [kg/m3];270;400",
-        "friction angle [deg];15;45",
-    ],
+    "Net types": ["net type;effective height D_K [m]", "N1;3,5"],
 }
 
 
@@ -34,7 +30,7 @@ def test_a_refused_site_is_given_back_with_its_findings(call, site, tmp_path):
     assert f"\n{faults} finding" in ended.err
     assert "the file was read with" in ended.err
     marked = openpyxl.load_workbook(tmp_path / "marked.xlsx")
-    assert "38.500 or 38500" in marked["Nets"]["B2"].comment.text
+    assert "38.500 or 38500" in marked["Rows"]["B2"].comment.text
 
 
 @pytest.mark.parametrize(
@@ -56,11 +52,9 @@ def test_wrong_options_of_reading_end_with_2(call, tmp_path, options, message):
 
 def test_a_profile_other_than_the_site_names_is_told(call, tmp_path):
     path = tmp_path / "site.xlsx"
-    write_short_example(path, ["R1"])
-    book = openpyxl.load_workbook(path)
-    (cell,) = (row[1] for row in book["Project"] if row[0].value == "standard")
-    cell.value = "swiss-guideline-2007"
-    book.save(path)
+    tables = load_rows(["R1"])
+    tables["project"][0]["standard"] = "swiss-guideline-2007"
+    write_site(path, tables)
     told = "the site names the limit profile swiss-guideline-2007; eurocode is used"
     other = call("check", path, "--dry-run", "--standard", "eurocode")
     assert told in other.err

@@ -3,7 +3,7 @@
 import sys
 
 from netdesign.commands import check_run
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 
 def test_the_verdict_is_told_before_the_reports_are_made(call, tmp_path, monkeypatch):
@@ -15,7 +15,7 @@ def test_the_verdict_is_told_before_the_reports_are_made(call, tmp_path, monkeyp
 
     check_run_render = check_run.render_outputs
     monkeypatch.setattr(check_run, "render_outputs", render)
-    write_short_example(tmp_path / "site.xlsx", ["R1"])
+    write_rows(tmp_path / "site.xlsx", ["R1"])
     ended = call("check", "site.xlsx", "--out", "o", "--quiet")
     assert told, ended.err
     assert "Verdict:" in told[0]

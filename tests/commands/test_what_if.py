@@ -5,10 +5,12 @@ import json
 import pytest
 
 from netdesign.study.document import read_document, write_document
-from tests.short_example import write_short_example
+from tests.make import find_cell, write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet")
 BARE = ("--no-html", "--no-excel")
+FOOT = find_cell("rows", "foot_anchor")  # of the one row
+UNTESTED = 4  # line of the type that it has
 
 
 @pytest.fixture(scope="module")
@@ -19,7 +21,7 @@ def store(tmp_path_factory):
 @pytest.fixture
 def site(tmp_path, monkeypatch, store):
     monkeypatch.setenv("NETDESIGN_STORE", str(store))
-    write_short_example(tmp_path / "site.xlsx", ["R6"])
+    write_rows(tmp_path / "site.xlsx", ["R6"])
     return tmp_path
 
 
@@ -36,9 +38,9 @@ def test_sizing_writes_the_study_that_a_what_if_makes(site, call):
     assert (built["verdict"], built["what_if"]) == ("not_proven", [])
     assert sized["verdict"] == "pass"
     assert sized["what_if"] == [
-        {"cell": "Nets!P2", "was": "A25-untested", "now": "A28-tested"}
+        {"cell": FOOT, "was": "A25-untested", "now": "A28-tested"}
     ]
-    given = ("--what-if", "Nets.P2=A28-tested")
+    given = ("--what-if", f"{FOOT.replace('!', '.')}=A28-tested")
     ended = call("check", "site.xlsx", *QUICK, *given, "--out", "b", *BARE)
     assert ended.code == 4, ended.err  # it proves nothing of the site
     assert [path.name for path in (site / "b").glob("[!.]*")] == ["what-if-study.json"]
@@ -50,7 +52,7 @@ def test_sizing_writes_the_study_that_a_what_if_makes(site, call):
 
 
 def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
-    options = ("--what-if", "Nets.P2=A32-tested", *BARE)
+    options = ("--what-if", f"{FOOT.replace('!', '.')}=A32-tested", *BARE)
     assert call("check", "site.xlsx", *QUICK, *options, "--out", "a").code == 4
     place = site / "a/what-if-study.json"
     study = read_study(place)
@@ -62,19 +64,14 @@ def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
 
 
 def test_cells_that_need_each_other_are_read_together(site, call):
-    """A basis means nothing without its pull-out resistance.
-
-    No test may pull more than 0.8 of the tendon, 384 kN of 480 kN.
-    """
-    cells = ("Anchors.C6=373.7", "Anchors.D6=tested", "Anchors.B6=480")
-    options = [part for cell in cells for part in ("--what-if", cell)]
+    """How it is proven means nothing without the pull-out resistance."""
+    typed = {"pull_out": "373.7", "proven": "tests", "test_count": "5"}
+    cells = {find_cell("anchor_types", key, UNTESTED): typed[key] for key in typed}
+    given = [f"{cell.replace('!', '.')}={value}" for cell, value in cells.items()]
+    options = [part for one in given for part in ("--what-if", one)]
     alone = call("check", "site.xlsx", *QUICK, *options[2:4], "--out", "a", *BARE)
     assert alone.code == 2
     both = call("check", "site.xlsx", *QUICK, *options, "--out", "b", *BARE)
     assert both.code == 4, both.err
     changed = read_study(site / "b/what-if-study.json")["what_if"]
-    assert sorted(one["cell"] for one in changed) == [
-        "Anchors!B6",
-        "Anchors!C6",
-        "Anchors!D6",
-    ]
+    assert {one["cell"]: one["now"] for one in changed} == cells

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from netdesign.edge.progress import Phase, RunProgress, Wave
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 solve_once = lru_cache(maxsize=None)(solve_scene)
 
@@ -77,7 +77,7 @@ QUICK = ("--accuracy", "0.1", "--jobs", "1", "--no-cache")
 
 
 def test_a_quiet_run_says_nothing(call, tmp_path, solves):
-    write_short_example(tmp_path / "site.xlsx", ["R7"])
+    write_rows(tmp_path / "site.xlsx", ["R7"])
     ended = call("check", "site.xlsx", *QUICK, "--json", "--quiet")
     assert (ended.code, ended.err) == (1, "")
     assert solves

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 PROGRAM = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n\
 from netdesign.cli import main; main()"
@@ -16,7 +16,7 @@ from netdesign.cli import main; main()"
 def site(tmp_path_factory):
     """Two net rows of the example, four cases each; the second row fails."""
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    write_short_example(path, ["R1", "R7"])
+    write_rows(path, ["R1", "R7"])
     return path
 
 

@@ -11,7 +11,8 @@ from netdesign.files.cases import resolve_support, write_support
 from netdesign.files.scene import SceneSupport
 from netdesign.files.solution import write_solution_document
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.solve import compute_end_forces, solve_panel
+from netdesign.panel.row_end import compute_end_forces
+from netdesign.panel.solve import solve_panel
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 

@@ -38,6 +38,7 @@ from netdesign.edge.input_files import find_resource
 from netdesign.files.scene import read_scene
 from netdesign.outcome import NetDesignError, Outcome, SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.office import TABLES, load_plan
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.example import write_site_workbook
@@ -150,7 +151,14 @@ WRITTEN = st.one_of(
 )
 TYPED = st.one_of(WRITTEN, SIGNS)
 KNOWN_WORDS = st.sampled_from(
-    sorted({name for plan in SHEETS for field in plan.fields for name in field.names})
+    sorted(
+        {
+            name
+            for plan in (*SHEETS, *map(load_plan, TABLES))
+            for field in plan.fields
+            for name in field.names
+        }
+    )
 )
 UNITS = st.sampled_from(
     [
@@ -244,28 +252,34 @@ scratch_holders: list[tempfile.TemporaryDirectory[str]] = []  # alive to the end
 def example_tables() -> dict[str, list[list[str]]]:
     """Cells of a small sound site, as a csv file would have them."""
     return {
-        "Nets": [
+        "Rows": [
             [
-                *("id", "slope angle [deg]", "snow thickness [m]"),
-                *("upslope length [m]", "ground law", "net height [m]"),
-                *("net stiffness [kN/m]", "post spacing [m]", "foot anchor"),
+                *("row", "slope ψ [deg]", "snow height [m normal]", "glide factor N"),
+                *("upslope length L [m]", "net type", "post spacing b [m]"),
+                "net anchor (foot)",
+            ],
+            ["R1", "40", "3.0", "free", "20", "N1", "3.5", "A1"],
+            ["R2", "35", "2.5", "1.7", "15", "N2", "4", "A2"],
+        ],
+        "Net types": [
+            [
+                *("net type", "effective height D_K [m]", "net stiffness [kN/m]"),
                 *("uphill guy", "post"),
             ],
-            ["R1", "40", "3.0", "20", "free", "3.5", "9000", "3.5", "A1", "G1", "P1"],
-            ["R2", "35", "2.5", "15", "no-slip", "3", "8000", "4", "A2", "", ""],
-        ],
-        "Ranges": [
-            ["quantity", "unit", "low", "high"],
-            ["density", "kg/m3", "270", "400"],
-            ["friction angle", "deg", "15", "45"],
+            ["N1", "3.5", "9000", "G1", "P1"],
+            ["N2", "3", "8000", "", ""],
         ],
         "Anchors": [
-            ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],
-            ["A1", "400", "300", "tested"],
+            ["anchor type", "tendon R_k [kN]", "pull-out [kN]", "how proven"],
+            ["A1", "400", "300", "report"],
             ["A2", "250", "", ""],
         ],
-        "Ropes": [["id", "minimum breaking force [kN]"], ["G1", "250"]],
-        "Posts": [["id", "compression resistance [kN]"], ["P1", "380"]],
+        "Parts": [
+            ["rope", "breaking force [kN]"],
+            ["G1", "250"],
+            ["post", "base R_k [kN]"],
+            ["P1", "380"],
+        ],
         "Project": [["item", "value"], ["name", "Combe"]],
     }
 
@@ -618,7 +632,7 @@ TARGETS = (
     ),
     Target(
         "bytes-csv",
-        spoilt_bytes(lambda: write_delimited(example_tables()["Nets"])),
+        spoilt_bytes(lambda: write_delimited(example_tables()["Rows"])),
         lambda content: read_content("site.csv", content),
         0.10,
     ),

@@ -21,8 +21,8 @@ from netdesign.guideline.floor import (
     SCAN_STEP,
     SPANS,
     NetRanges,
-    find_anchor_forces,
     find_floor,
+    find_floors,
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
@@ -483,7 +483,7 @@ def test_states_of_the_spans_bring_what_the_head_says():
 
 
 @each("seed", range(20))
-def test_anchors_on_several_layouts_have_the_forces_of_each_alone(seed):
+def test_floors_of_several_layouts_have_the_forces_of_each_alone(seed):
     draw = random.Random(7000 + seed)
     net = draw_net(draw)
     layouts = [net.layout]
@@ -497,12 +497,12 @@ def test_anchors_on_several_layouts_have_the_forces_of_each_alone(seed):
         )
         layouts.append(other)
     ranges = build_ranges(net, slacks=(0.02, 0.08), stiffnesses=(2e6, 3e7))
-    together = find_anchor_forces(MODEL, ranges, 1987.0, layouts)
+    together = find_floors(MODEL, ranges, 1987.0, layouts)
     for layout, found in zip(layouts, together, strict=True):
         alone = find_floor(
             MODEL, replace(ranges, net=replace(net, layout=layout)), 1987.0
         )
-        pull = found.pop("head_pull")
-        assert pull == pytest.approx(alone.head.pull, rel=3e-6)
-        for anchor, force in found.items():
-            assert force == pytest.approx(alone.find(anchor).force, rel=3e-6, abs=1.0)
+        assert found.head.pull == pytest.approx(alone.head.pull, rel=3e-6)
+        for one in found.forces:
+            force = alone.find(one.member).force
+            assert one.force == pytest.approx(force, rel=3e-6, abs=1.0)

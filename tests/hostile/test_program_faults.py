@@ -23,7 +23,7 @@ from netdesign.solving import solve as solve_module
 from netdesign.solving import workers as workers_module
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.workers import ProcessPool
-from tests.short_example import write_short_example
+from tests.make import write_rows
 from tests.small_scene import SMALL_SCENE
 
 QUICK = ("--accuracy", "0.1", "--jobs", "1", "--quiet")
@@ -52,7 +52,7 @@ def read_told(text, kind):
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    write_short_example(path, ROWS)
+    write_rows(path, ROWS)
     return path
 
 
@@ -184,7 +184,7 @@ def test_the_whole_way_to_a_fault_is_shown_on_demand(spoil, check, monkeypatch):
 def test_a_later_run_solves_what_a_fault_left(spoil, call, tmp_path):
     """Neither the case nor a search that had a fault is kept."""
     path, store = tmp_path / "one.xlsx", tmp_path / "cases.sqlite"
-    write_short_example(path, ["R1"], leans=True)
+    write_rows(path, ["R1"], leans=True)
     run = partial(call, "check", path, *QUICK, "--json")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("NETDESIGN_STORE", str(tmp_path / "sound.sqlite"))

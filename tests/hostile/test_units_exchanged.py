@@ -5,41 +5,54 @@ import math
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import convert_unit
+from netdesign.site.columns.office import load_plan
 from netdesign.site.reader import read_site
 from tests.fuzz.targets import example_tables
 from tests.site.csv_folder import write_csv_folder
 
-PLANS = {plan.name: plan for plan in SHEETS}
-# Sheet, label, and the unit that the example has.
+# Sheet, block of office.toml, label, and the unit that the example has.
 COLUMNS = [
-    *(("Nets", label, "m") for label in ("snow thickness", "upslope length")),
-    *(("Nets", label, "m") for label in ("net height", "post spacing")),
-    ("Nets", "net stiffness", "kN/m"),
-    ("Nets", "slope angle", "deg"),
-    *(("Anchors", f"{label} resistance", "kN") for label in ("tendon", "pull-out")),
-    ("Ropes", "minimum breaking force", "kN"),
-    ("Posts", "compression resistance", "kN"),
+    ("Rows", "rows", "slope ψ", "deg"),
+    ("Rows", "rows", "snow height", "m"),
+    ("Rows", "rows", "upslope length L", "m"),
+    ("Rows", "rows", "post spacing b", "m"),
+    ("Net types", "net_types", "effective height D_K", "m"),
+    ("Net types", "net_types", "net stiffness", "kN/m"),
+    ("Anchors", "anchor_types", "tendon R_k", "kN"),
+    ("Anchors", "anchor_types", "pull-out", "kN"),
+    ("Parts", "ropes", "breaking force", "kN"),
+    ("Parts", "posts", "base R_k", "kN"),
 ]
 CASES = [
     (sheet, label, unit, other)
-    for sheet, label, unit in COLUMNS
-    for field in PLANS[sheet].fields
-    if field.label == label
+    for sheet, block, label, unit in COLUMNS
+    for field in load_plan(block).fields
+    if field.label_in("en") == label
     for other in field.units
 ]
 
 
-def with_column(sheet, label, unit, change):
-    """The example with another unit in a heading and other numbers below it."""
-    tables = {
+def copy_tables():
+    return {
         name: [list(row) for row in rows] for name, rows in example_tables().items()
     }
-    head, *rows = tables[sheet]
-    place = next(k for k, heading in enumerate(head) if heading.startswith(label))
-    head[place] = f"{label} [{unit}]"
-    for row in rows:
+
+
+def with_column(sheet, label, unit, change):
+    """The example with another unit in a heading and other numbers below it."""
+    tables = copy_tables()
+    start, place = next(
+        (start, place)
+        for start, row in enumerate(tables[sheet])
+        for place, heading in enumerate(row)
+        if heading.startswith(label)
+    )
+    measure = " normal" if label == "snow height" else ""
+    tables[sheet][start][place] = f"{label} [{unit}{measure}]"
+    for row in tables[sheet][start + 1 :]:
+        if row[place].startswith("base"):  # heading of the next block
+            break
         if row[place]:
             row[place] = repr(change(float(row[place])))
     return tables
@@ -108,10 +121,8 @@ def test_a_number_under_a_unit_far_from_its_own_is_refused(
 
 
 def test_a_slope_without_a_unit_is_refused(tmp_path):
-    tables = {
-        name: [list(row) for row in rows] for name, rows in example_tables().items()
-    }
-    tables["Nets"][0][1] = "slope angle"
+    tables = copy_tables()
+    tables["Rows"][0][1] = "slope ψ"
     with pytest.raises(SiteDataError, match="slope"):
         read(tmp_path, tables)
 
@@ -119,15 +130,14 @@ def test_a_slope_without_a_unit_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("one", "other"),
     [
-        ("tendon resistance [kN]", "pull-out resistance [kN]"),
-        ("net height [m]", "snow thickness [m]"),
-        ("post spacing [m]", "upslope length [m]"),
+        ("tendon R_k [kN]", "pull-out [kN]"),
+        ("effective height D_K [m]", "net stiffness [kN/m]"),
+        ("slope ψ [deg]", "snow height [m normal]"),
+        ("post spacing b [m]", "upslope length L [m]"),
     ],
 )
 def test_columns_go_by_their_heading_not_by_their_place(tmp_path, one, other):
-    tables = {
-        name: [list(row) for row in rows] for name, rows in example_tables().items()
-    }
+    tables = copy_tables()
     rows = next(rows for rows in tables.values() if one in rows[0])
     left, right = rows[0].index(one), rows[0].index(other)
     for row in rows:

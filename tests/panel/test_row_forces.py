@@ -6,7 +6,8 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.solve import compute_end_forces, solve_panel
+from netdesign.panel.row_end import compute_end_forces
+from netdesign.panel.solve import solve_panel
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 

@@ -13,14 +13,16 @@ from netdesign.checks import load_standard
 from netdesign.report.blocks import Table
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.quality import build_bounds, build_cases
+from netdesign.report.sections.basis import build_profile
+from netdesign.report.sections.quality import build_cases, build_opinions
 from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
-from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import Message, say
 from tests.report.build_study import SCRIPT, build_study
+from tests.words.gaps import list_gaps
 
 SHIPPED = ("nf-p-95-304-style", "eurocode", "onr-24805-style", "swiss-guideline-2007")
 OTHERS = [language for language in LANGUAGES if language != "en"]
@@ -105,8 +107,8 @@ def test_the_same_study_is_told_with_the_same_numbers(language):
         tables = [
             one for one in show_schedule(study, words).blocks if isinstance(one, Table)
         ]
-        for row in study.rows:
-            tables += [build_bounds(row, words), build_cases(row, words)]
+        tables += [build_cases(row, words) for row in study.rows]
+        tables += [build_opinions(study, words), build_profile(study, words)]
         shown.append([c.number for one in tables for line in one.rows for c in line])
     assert shown[0] == shown[1]
     assert len(shown[0]) > 500

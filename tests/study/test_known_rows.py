@@ -26,7 +26,7 @@ from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import cut_site, name_rows
 from tests.grid import solve_site
-from tests.short_example import write_short_example
+from tests.make import find_cell, load_rows, write_rows
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
 from tests.study.test_member_force import RANGES as LIGHT_RANGES
 from tests.study.test_member_force import ROW as LIGHT_ROW
@@ -35,8 +35,13 @@ STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
 DRAWS = 14
 # Cells that no echo of a row names: types, a declaration, the project.
 BESIDE = [
-    *("Anchors!B2", "Anchors!C2", "Anchors!C3", "Ropes!B2", "Ropes!B4"),
-    *("Posts!B2", "Declared!D2", "Project!B2", "Project!B3"),
+    find_cell(table, key, line, tables=load_rows())
+    for table, key, line in (
+        *(("anchor_types", "tendon", 0), ("anchor_types", "pull_out", 0)),
+        *(("anchor_types", "pull_out", 1), ("ropes", "rope", 0), ("ropes", "rope", 2)),
+        *(("posts", "area", 0), ("declared", "author", 0)),
+        *(("project", "name", 0), ("project", "number", 0)),
+    )
 ]
 
 
@@ -102,7 +107,7 @@ def test_a_changed_cell_gives_what_a_run_without_known_rows_gives(
     The run beside it knows cases, but no rows.
     """
     path = tmp_path / "site.xlsx"
-    write_short_example(path, ["R2", "R5", "R7"])
+    write_rows(path, ["R2", "R5", "R7"])
     site = read_site(path)
     check(site, store)
     assert judged == ["R2", "R5", "R7"]
@@ -218,9 +223,9 @@ def alter_plain(value):
 
 def test_a_confirmed_number_is_in_the_part_and_in_the_name_of_a_row(tmp_path):
     """Where nobody confirms it, a check that rests on it is not proven."""
-    write_short_example(tmp_path / "site.xlsx", ["R5"])
+    write_rows(tmp_path / "site.xlsx", ["R5"])
     plain = replace(read_site(tmp_path / "site.xlsx"), confirmed=())
-    said = replace(plain, confirmed=("Posts!H2",))
+    said = replace(plain, confirmed=("Parts!H24",))
     assert cut_site(said, said.rows[0]).confirmed == said.confirmed
     names = [name_rows(one, STANDARDS, RUN)["R5"] for one in (plain, said)]
     assert names[0] != names[1]
@@ -228,7 +233,7 @@ def test_a_confirmed_number_is_in_the_part_and_in_the_name_of_a_row(tmp_path):
 
 def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     """60 drawn from all plain values of a row's part, two profiles and the settings."""
-    write_short_example(tmp_path / "site.xlsx", ["R5"])
+    write_rows(tmp_path / "site.xlsx", ["R5"])
     site = read_site(tmp_path / "site.xlsx")
     known = {"row_id": "R5", "name": "model", "variation": 0.11, "source": "tests"}
     scatter = UncertainQuantity(**known)

@@ -1,6 +1,5 @@
 """A type that is offered without a condition passes where the workbook has it."""
 
-import copy
 import random
 from collections import Counter
 from dataclasses import replace
@@ -9,18 +8,18 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
+from netdesign.site.columns.office import load_columns
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
-from netdesign.structure.members import EndMember, NetPart
+from netdesign.structure.members import NetPart
 from netdesign.study.check_site import solve_rows
 from netdesign.study.judge import judge_site
-from netdesign.words.message import say
-from tests.old_example import load_example
-from tests.site_lines import write_lines
+from tests.make import find_cell, load_rows, write_site
 from tests.small_site import RUN
 
 PROFILE = load_standard("nf-p-95-304-style")
-ROWS = ("R4", "R6", "R7")  # a bar; no test; a borehole that rises
+ROWS = ("R4", "R6", "R7")  # a bar; no test; free ground
+AT_END = dict.fromkeys(("lateral_anchor", "end_guy_anchor"), "end_anchor")
 
 
 class Nobody:
@@ -34,41 +33,38 @@ class Nobody:
 
 
 def write_example(path, dice=None):
-    """The example's three rows with few samples; dice draw types and grounds anew."""
-    lines = copy.deepcopy(load_example())
-    lines["Nets"] = [one for one in lines["Nets"] if one["id"] in ROWS]
-    lines["Ends"] = [one for one in lines["Ends"] if one["row"] in ROWS]
-    lines["Declared"] = []
-    lines["Nets"][1] |= {"row_end": "", "neighbour": "", "gap": 0.0}
-    lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
+    """Three rows; dice draw types and grounds anew."""
+    tables = load_rows(ROWS, leans=False)
+    tables["declared"] = []
     if dice:
-        draw_types(lines, dice)
-    write_lines(path, lines)
-    return read_site(path)
+        draw_types(tables, dice)
+    return read_site(write_site(path, tables))
 
 
-def draw_types(lines, dice):
-    """Strengths, grounds, bases and lives as an office may give them."""
-    built = {
-        str(value) for one in lines["Nets"] + lines["Ends"] for value in one.values()
-    }
-    for one in lines["Anchors"]:
+def draw_types(tables, dice):
+    """Strengths, grounds and proofs as an office may give them."""
+    lines = tables["rows"] + tables["net_types"]
+    built = {str(value) for one in lines for value in one.values()}
+    for one in tables["anchor_types"]:
         others = () if one["id"] in built else ("rock",)
         one["ground"] = dice.choice(("till", "till", "till", "", *others))
-        one["protected_years"] = dice.choice((100, 100, 57))
-        for key in ("tendon", "pull_out"):
+        one["protection"] = dice.choice(("cover", "cover", "none"))
+        share = dice.uniform(0.37, 1.9)
+        for key in ("pull_out", "test_mean"):
             if key in one:
-                one[key] = round(one[key] * dice.uniform(0.37, 1.9), 1)
-        if "pull_out" in one:
-            one["basis"] = dice.choice(("tested", "tested", "computed"))
-    for one in (*lines["Ropes"], *lines["Posts"]):
-        one["protected_years"] = dice.choice((80, 80, 41))
+                one[key] = round(one[key] * share, 1)
+        one["tendon"] = round(one["tendon"] * dice.uniform(0.37, 1.9), 1)
+        if "pull_out" in one and dice.random() < 0.4:
+            one["proven"] = "calculated"
+            for key in ("test_count", "test_mean"):
+                one.pop(key, None)
+    if dice.random() < 0.5:  # bores so flat that mortar may run out of them
+        for one in tables["anchor_types"]:
+            one["dip"] = 5.0
+    for one in (*tables["ropes"], *tables["posts"]):
         key = "rope" if "rope" in one else "second_moment"
         one[key] = round(one[key] * dice.uniform(0.23, 1.3), 1)
-    for one in lines["Nets"]:
-        if dice.random() < 0.5:  # a bore so flat that mortar may run out of it
-            one.pop("anchor_axes", None)
-            one |= {"foot_axis": 2.3, "uphill_axis": 1.7}
+    for one in tables["rows"]:
         one["ground"] = dice.choice(("till", "till", ""))
 
 
@@ -88,11 +84,14 @@ def list_offers(checks):
                 yield name, change.quantity.arguments["type"], change.note
 
 
-def find_cell(row, check):
-    """Cell that names the type of a member."""
-    sheet = "Ends" if check.member in tuple(EndMember) else "Nets"
-    labels = {echo.label: echo.cell for echo in row.inputs}
-    return labels[say(f"column.{sheet}.{check.member}")]
+def name_cell(site, row, check):
+    """Cell that names the type of a member, in the row or in its net type."""
+    place = [one.id for one in site.rows].index(row.id)
+    key = AT_END.get(check.member, check.member)
+    of_rows = {one.field.key for one in load_columns("rows")}
+    if key in of_rows:
+        return find_cell("rows", key, place)
+    return find_cell("net_types", key, int(row.id[1:]) - 1)
 
 
 def list_outcomes(path, site, rows):
@@ -105,7 +104,7 @@ def list_outcomes(path, site, rows):
             if built[name].member in tuple(NetPart):
                 assert note is not None
                 continue
-            again = read_site(path, instead={find_cell(row, built[name]): kind})
+            again = read_site(path, instead={name_cell(site, row, built[name]): kind})
             verdict = judge(again, rows, row.id)[name].verdict
             yield note.key if note else "", verdict
 

@@ -1,6 +1,5 @@
 """Smallest types that pass, tried cell by cell; what-ifs that are solved again."""
 
-import copy
 from dataclasses import replace
 
 import numpy as np
@@ -16,12 +15,18 @@ from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
-from tests.old_example import load_example
-from tests.site_lines import write_lines
+from tests.make import find_cell, load_rows, write_rows, write_site
 from tests.small_site import ROWS, RUN, build_site
 
 PROFILE = load_standard("nf-p-95-304-style")
-LEAST, MEAN = "U", "V"  # columns of the tests on sheet Anchors
+FOOT, UPHILL = (find_cell("rows", f"{one}_anchor") for one in ("foot", "uphill"))
+# R7 with strong parts, of which only the foot anchor fails.
+STRONG = {
+    **{"snow": 2.0, "net_height": 2.1, "post_spacing": 2.3, "upslope_length": 14},
+    **{"uphill_anchor": "A63-tested", "downhill_anchor": "A40-tested"},
+    **{"end_anchor": "A63-tested", "end_guy": "E40", "uphill_guy": "B28"},
+    **{"ridge_rope": "B44", "lower_rope": "B44", "downhill_guy": "G28"},
+}
 
 
 class Nobody:
@@ -42,24 +47,12 @@ def solve(site, known=None):
 def example(tmp_path_factory):
     """Site, its workbook, and its rows solved; judged without what would turn it."""
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    lines = take_rows("R7")
-    lines["Nets"][0]["uphill_anchor"] = "A40-tested"
-    lines["Ends"][0] |= dict.fromkeys(
-        ("lateral_anchor", "end_guy_anchor"), "A63-tested"
-    )
-    lines["Ends"][0]["end_guy"] = "E40"
-    write_lines(path, lines)
-    site = read_site(path)
-    return path, solve(site)
+    return path, solve(read_site(write_rows(path, ["R7"], cells={"R7": STRONG})))
 
 
-def take_rows(*rows):
-    """Lines of the example with these net rows, of one inclination."""
-    lines = copy.deepcopy(load_example())
-    for sheet, key in (("Nets", "id"), ("Ends", "row"), ("Declared", "row")):
-        lines[sheet] = [one for one in lines[sheet] if one[key] in rows]
-    lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
-    return lines
+def name_type(key, line):
+    """Cell of an anchor type."""
+    return find_cell("anchor_types", key, line)
 
 
 def judge(solved):
@@ -86,7 +79,7 @@ def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
     study, cells, read = size(example)
     assert study.verdict is Verdict.FAIL
     assert [(one.row_id, one.column, one.cell) for one in cells] == [
-        ("R7", "foot_anchor", "Nets!P2")
+        ("R7", "foot_anchor", FOOT)
     ]
     for one in cells:
         uses = {}
@@ -107,11 +100,11 @@ def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
 def test_without_a_type_that_does_nothing_is_claimed(example):
     """Every type of the sheet too weak for the free ground of R7."""
     weak = {
-        f"Anchors!{column}{line}": str(21.5 + line)
-        for column in (LEAST, MEAN)
-        for line in (2, 3, 4, 7, 8, 9)
+        name_type(key, line): str(23.5 + line)
+        for key in ("pull_out", "test_mean")
+        for line in (0, 1, 2, 5, 6, 7)
     }
-    weak["Anchors!C5"] = "26.5"  # worked out, without tests
+    weak[name_type("pull_out", 3)] = "26.5"  # worked out, without tests
     _, cells, _ = size(example, **weak)
     (last,) = [
         one for one in cells if (one.row_id, one.column) == ("R7", "foot_anchor")
@@ -122,7 +115,7 @@ def test_without_a_type_that_does_nothing_is_claimed(example):
 
 # Cells of the grounds: of A28-computed, which is built, of A57-tested, the smallest
 # that passes, and of A63-tested, the next one.
-BUILT, A57, A63 = "Anchors!I5", "Anchors!I8", "Anchors!I9"
+BUILT, A57, A63 = (name_type("ground", line) for line in (3, 6, 7))
 
 
 @pytest.mark.parametrize(
@@ -153,52 +146,42 @@ def test_types_of_another_ground_are_told_as_not_tried(example, language):
     assert line.endswith(ends[language])
 
 
-def test_a_type_of_a_cell_for_all_rows_passes_in_all_of_them(tmp_path):
-    path = tmp_path / "site.xlsx"
-    lines = copy.deepcopy(load_example())
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in ("R3", "R5")]
-    lines["Declared"] = []
-    end = next(line for line in lines["Ends"] if line["row"] == "R5")
-    lines["Ends"] = [{**end, "row": "all", "lateral_anchor": "A28-tested"}]
-    lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
-    write_lines(path, lines)
+def test_a_type_of_a_cell_of_two_rows_passes_in_both_of_them(tmp_path):
+    """Rows of one net type: what its cell names, both have."""
+    tables = load_rows(["R1", "R2"], leans=False)
+    for row in tables["rows"]:
+        row["net_type"] = "N2"
+    (net,) = (one for one in tables["net_types"] if one["id"] == "N2")
+    net["end_guy"] = "G18"
+    path = write_site(tmp_path / "site.xlsx", tables)
     _, cells, read = size((path, solve(read_site(path))))
-    (found,) = [one for one in cells if one.column == "lateral_anchor"]
-    assert found.row_id == "R3, R5"
+    (found,) = [one for one in cells if one.column == "end_guy"]
+    assert found.row_id == "R1, R2"
     site = read({found.cell: found.now})
     again = judge(replace(solve(site), site=site))
     checks = [
-        one
-        for row in again.rows
-        for one in row.checks
-        if one.member == "lateral_anchor"
+        one for row in again.rows for one in row.checks if one.member == "end_guy"
     ]
     assert {one.verdict for one in checks} == {Verdict.PASS}
-    turned = [one for one in checks if one.mode == "direction"]  # at most 30 degrees
-    bands = [one.utilisation_band[1] for one in checks if one not in turned]
-    assert len(turned) == 2
-    assert found.used == max(bands)
+    assert found.used == max(one.utilisation_band[1] for one in checks)
 
 
 def test_no_type_takes_the_place_of_one_whose_ground_has_a_strength(tmp_path):
-    """A57-tested passes in R7, by a cover; the same ground is known to be weak."""
-    lines = take_rows("R7")
-    for one in lines["Anchors"]:
-        if one["id"] == "A28-computed":
-            del one["least_cover"]
-            one |= {"soil_cohesion": 21, "soil_friction": 36, "soil_weight": 19.3}
-    write_lines(tmp_path / "site.xlsx", lines)
-    solved = solve(read_site(tmp_path / "site.xlsx"))
-    _, cells, _ = size((tmp_path / "site.xlsx", solved))
+    """A57-tested passes in R7 where nobody gives it: the ground is known to be weak."""
+    tables = load_rows(["R7"], leans=False, cells={"R7": STRONG})
+    weak = {"soil_cohesion": 9, "soil_friction": 36, "soil_weight": 19.3}
+    tables["soils"] = [{"ground": "till", **weak}]
+    path = write_site(tmp_path / "site.xlsx", tables)
+    _, cells, _ = size((path, solve(read_site(path))))
     (foot,) = (one for one in cells if one.column == "foot_anchor")
     assert (foot.was, foot.now) == ("A28-computed", "")
 
 
 def test_a_site_that_passes_has_nothing_to_replace(example):
-    study, cells, _ = size(example, **{"Nets!P2": "A57-tested"})
+    study, cells, _ = size(example, **{FOOT: "A57-tested"})
     assert study.verdict is Verdict.PASS
     assert cells == []
-    assert [one.cell for one in study.what_if] == ["Nets!P2"]
+    assert [one.cell for one in study.what_if] == [FOOT]
 
 
 def test_only_rows_with_other_forces_are_solved_again():
@@ -241,7 +224,7 @@ def test_ranges_that_differ_are_solved_again():
 def two_open_cells(example):
     """Cells of foot and uphill anchor of R7, neither of which passes; both solved."""
     path, solved = example
-    changes = {"Nets!Q2": "A25-untested"}
+    changes = {UPHILL: "A25-untested"}
     read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
     solved = replace(solved, site=read({}))
     study = judge(solved)

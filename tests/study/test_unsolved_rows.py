@@ -16,7 +16,7 @@ from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
-from tests.old_example import write_old_example
+from tests.make import write_rows
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.001))
 LOST = Outcome.NO_EQUILIBRIUM
@@ -59,8 +59,7 @@ SOLVED = {
 @pytest.fixture(scope="module")
 def example(tmp_path_factory):
     path = tmp_path_factory.mktemp("example") / "site.xlsx"
-    write_old_example(path)
-    return read_site(path)
+    return read_site(write_rows(path, leans=True))
 
 
 @pytest.mark.parametrize("solved", SOLVED)

@@ -25,7 +25,7 @@ from netdesign.study.records import RowStudy, Study
 from netdesign.study.row_to_check import CheckRun
 from tests.alter_study import alter_leaf, list_leaves
 from tests.each import each
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 NOISE = 1e-4  # shares and differences are compared no closer, for other processors
 
@@ -34,7 +34,7 @@ NOISE = 1e-4  # shares and differences are compared no closer, for other process
 def solved(tmp_path_factory):
     """Site of two net rows that pass, and its study: solved once."""
     path = tmp_path_factory.mktemp("verified") / "site.xlsx"
-    write_short_example(path, ["R1", "R2"])
+    write_rows(path, ["R1", "R2"])
     site = read_site(path)
     run = CheckRun(
         settings=SolverSettings(accuracy=0.05), started="2026-01-02T03:04:05+00:00"

@@ -22,7 +22,7 @@ from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES
-from tests.old_example import write_old_example
+from tests.make import write_rows
 from tests.report.printing import (
     PAPER_PX,
     PHONE_PX,
@@ -45,7 +45,7 @@ SEED = 7
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory):
     folder = tmp_path_factory.mktemp("alone")
-    write_old_example(folder / "example.xlsx")
+    write_rows(folder / "example.xlsx", leans=True)
     write_untidy_site(folder / "untidy.xlsx", SEED)
     return {
         name: judge(folder / f"{name}.xlsx", profile)
@@ -174,7 +174,7 @@ def test_twelve_rows_have_few_pages(twelve, tmp_path, language):
 def seven_rows(tmp_path_factory):
     """The seven rows with numbers worked out by hand, under their own profile."""
     path = tmp_path_factory.mktemp("own") / "example.xlsx"
-    write_old_example(path)
+    write_rows(path, leans=True)
     return judge(path, "nf-p-95-304-style")
 
 

@@ -16,7 +16,7 @@ from netdesign.addons.evidence.verification.winters import (
     read_weissfluhjoch,
 )
 from netdesign.addons.winter.command import snowpack
-from netdesign.addons.winter.settling.models import HS2SWE, MODELS, follow_heights
+from netdesign.addons.winter.settling import HS2SWE, MODELS, follow_heights
 from netdesign.snow.heights import name_winter
 
 FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series

@@ -2,47 +2,55 @@
 
 import random
 
-from tests.old_example import write_old_example
+from tests.make import write_site
 
 PROFILE = "eurocode"
-_END_OF_U1 = {
-    "row": "U1",
-    "foot_anchor": "strong",
-    "uphill_anchor": "drilled",
-    "downhill_anchor": "drilled",
-    "uphill_guy": "guy",
-    "downhill_guy": "number",
-    "post": "slim",
-}
+_GROUND = "sandstone"
 
 
 def write_untidy_site(path, seed):
     """Three net rows: floor and bent bar, shared anchor, loaded downhill guy."""
-    write_old_example(path, lines=draw_site(random.Random(seed)))
+    write_site(path, draw_site(random.Random(seed)), measures=VERTICAL)
+
+
+VERTICAL = {("rows", "snow"): "vertical"}
 
 
 def draw_site(draw):
     def vary(value, digits=3):
         return float(f"{value * draw.uniform(0.97, 1.03):.{digits}g}")
 
-    lines = {
-        "Project": [
-            {"item": "name", "value": "Drawn slope"},
-            {"item": "author", "value": "A. Nobody"},
-            {"item": "extrapolated creep law accepted", "value": "boutillier-2004"},
+    def span(low, high):
+        return vary(low), vary(high)
+
+    return {
+        "project": [
+            {
+                "name": "Drawn slope",
+                "author": "A. Nobody",
+                "density": span(212.0, 277.0),
+                "friction_angle": span(17.3, 38.9),
+                "inclination": span(26.7, 32.6),
+                "design_life": 67,
+                "soil": "fill",
+                "base_friction": vary(0.57),
+            }
         ],
-        "Ranges": [
-            _range("density", "kg/m3", vary(212.0), vary(277.0)),
-            _range("friction angle", "deg", vary(17.3), vary(38.9)),
-            _range("net inclination", "deg", vary(26.7), vary(32.6)),
-            _range("slack", "-", vary(0.034), vary(0.061)),
+        "rows": list(_list_rows(vary)),
+        "net_types": list(_list_nets(vary, span(3.4, 6.1))),
+        "anchor_types": list(_list_anchors(vary)),
+        "ropes": list(_list_ropes(vary)),
+        "posts": list(_list_posts(vary)),
+        "links": list(_list_links(vary)),
+        "soils": [
+            {
+                "ground": _GROUND,
+                "soil_cohesion": vary(23.0),
+                "soil_friction": vary(34.0),
+                "soil_weight": vary(20.7),
+            }
         ],
-        "Anchors": list(_list_anchors(vary)),
-        "Ropes": list(_list_ropes(vary)),
-        "Posts": list(_list_posts(vary)),
-        "Nets": list(_list_nets(vary)),
-        "Ends": [_END_OF_U1, {"row": "U2", "support_types": "as inside"}],
-        "Declared": [
+        "declared": [
             {
                 "row": "U1",
                 "check": "Post base, sliding",
@@ -52,199 +60,209 @@ def draw_site(draw):
             }
         ],
     }
-    _complete_chain(lines, vary)
-    return lines
 
 
-def _complete_chain(lines, vary):
-    """Mesh, links, steel over its life, and ground around the anchors."""
-    for number, net in enumerate(lines["Nets"]):
-        net["ground"] = "sandstone"
-        net["mesh_strength"] = vary(231.0)
-        net["design_life"] = 67
-        net["edge_distance"] = vary(17.3)
-        if net["guy_count"] == 2:
-            net["guy_anchors"] = ("shared", "own")[number % 2]
-    for kind in lines["Anchors"]:
-        kind.setdefault("ground", "sandstone")
-        kind["drilled_length"] = vary(7.3)
-        kind["least_edge"] = vary(2.7)
-        if kind["kind"] == "bar":
-            kind |= {"soil_cohesion": vary(23.0), "soil_friction": vary(34.0)}
-            kind["soil_weight"] = vary(20.7)
-        else:
-            kind["least_cover"] = vary(0.9)
-        if kind["kind"] == "rope anchor":
-            kind |= {"protection": "sheath", "protected_years": 83}
-        else:
-            kind |= {"protection": "sacrificial", "soil": "fill"}
-    for rope in lines["Ropes"]:
-        rope["protected_years"] = 71
-    lines["Links"] = [
-        {"type": "drilled", "link": "eye", "strength": vary(371.0)},
-        {"type": "bent", "link": "shackle", "working_limit": vary(133.0), "count": 2},
-        {"type": "guy", "link": "shackle", "strength": vary(310.0)},
-        {"type": "guy", "link": "thimble", "working_limit": vary(97.0)},
-        {"type": "number", "link": "turnbuckle", "strength": vary(287.0)},
-        {"type": "strong", "link": "plate", "strength": vary(613.0)},
-    ]
-    for link in lines["Links"]:
-        link["chain"] = "complete"
+def _list_rows(vary):
+    yield {
+        "id": "U1",
+        "gap": vary(1.97, 3),
+        "slope_angle": vary(44.1),
+        "snow": vary(5.1),
+        "upslope_length": vary(6.3),
+        "glide_factor": vary(2.37),
+        "altitude": vary(2130.0),
+        "net_type": "tall",
+        "post_spacing": vary(3.43),
+        "foot_anchor": "bent",
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "end_anchor": "strong",
+        "ground": _GROUND,
+    }
+    yield {
+        "id": "U2",
+        "slope_angle": vary(37.3),
+        "snow": vary(3.03),
+        "upslope_length": vary(17.9),
+        "glide_factor": 1.0,
+        "net_type": "single guys",
+        "post_spacing": vary(3.71),
+        "foot_anchor": "drilled",
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "end_anchor": "bent",
+        "ground": _GROUND,
+    }
+    yield {
+        "id": "U3",
+        "gap": 0.0,
+        "slope_angle": vary(33.1),
+        "snow": vary(3.38),
+        "upslope_length": vary(14.3),
+        "glide_factor": "free",
+        "net_type": "leaning posts",
+        "post_spacing": vary(2.71),
+        "foot_anchor": "strong",
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "end_anchor": "strong",
+        "ground": _GROUND,
+    }
 
 
-def _range(quantity, unit, low, high):
-    return {"quantity": quantity, "unit": unit, "low": low, "high": high}
+def _list_nets(vary, slack):
+    ropes = {"ridge_rope": "border", "lower_rope": "border", "end_guy": "border"}
+    yield {
+        "id": "tall",
+        "net_height": vary(4.3),
+        "net_stiffness": vary(17300.0),
+        "slack": slack,
+        "post_tilt": vary(14.7),
+        "uphill_anchor_distance": vary(4.71),
+        "downhill_anchor_distance": vary(3.57),
+        "guy_count": 2,
+        "guy_splay": vary(23.7),
+        "guy_anchors": "shared",
+        "ridge_sag": vary(11.7),
+        "lower_sag": vary(9.3),
+        "end_guy_angle": vary(33.0),
+        "mesh_strength": vary(231.0),
+        "uphill_guy": "guy",
+        "downhill_guy": "number",
+        "post": "slim",
+        **ropes,
+    }
+    yield {
+        "id": "single guys",
+        "net_height": vary(2.93),
+        "net_stiffness": vary(9170.0),
+        "slack": slack,
+        "post_tilt": vary(11.3),
+        "uphill_anchor_distance": 0.0,
+        "downhill_anchor_distance": vary(2.89),
+        "guy_count": 1,
+        "ridge_sag": vary(13.1),
+        "mesh_strength": vary(231.0),
+        "uphill_guy": "number",
+        "downhill_guy": "guy",
+        "post": "stout",
+        **ropes,
+    }
+    yield {
+        "id": "leaning posts",
+        "net_height": vary(3.07),
+        "net_stiffness": vary(7430.0),
+        "slack": slack,
+        "post_tilt": vary(38.0),
+        "uphill_anchor_distance": vary(3.31),
+        "downhill_anchor_distance": vary(4.13),
+        "guy_count": 2,
+        "guy_splay": vary(31.0),
+        "guy_anchors": "own",
+        "ropes_at_supports": "slide",
+        "mesh_strength": vary(231.0),
+        "uphill_guy": "guy",
+        "downhill_guy": "guy",
+        "post": "slim",
+        **ropes,
+    }
 
 
 def _list_anchors(vary):
     yield {
         "id": "bent",
         "kind": "micropile",
+        "tendon": vary(811.0),
         "bar_diameter": vary(51.0),
-        "inner_diameter": vary(28.0),
-        "bar_strength": vary(540.0),
-        "lever_arm": vary(23.0),
+        "ground": _GROUND,
+        "pull_out": vary(690.0),
+        "proven": "tests",
         "test_count": 3,
-        "test_least": vary(690.0),
         "test_mean": vary(780.0),
+        "dip": vary(22.0),
+        "drilled_length": vary(7.3),
+        "lever_arm": vary(23.0),
+        "protection": "sacrificial",
     }
     yield {
         "id": "strong",
         "kind": "bar",
+        "tendon": vary(1290.0),
         "bar_diameter": vary(57.0),
-        "bar_strength": vary(510.0),
-        "lever_arm": vary(2.3),
+        "ground": _GROUND,
+        "pull_out": vary(770.0),
+        "proven": "tests",
         "test_count": 2,
-        "test_least": vary(770.0),
         "test_mean": vary(910.0),
+        "dip": vary(19.0),
+        "drilled_length": vary(7.3),
+        "tube_diameter": vary(89.0),
+        "tube_wall": vary(8.8),
+        "lever_arm": vary(2.3),
+        "protection": "sacrificial",
+        "at_end": "bent",
     }
     yield {
         "id": "drilled",
         "kind": "rope anchor",
         "tendon": vary(433.0),
+        "ground": _GROUND,
+        "pull_out": vary(347.0),
+        "proven": "calculated",
+        "dip": vary(27.0),
         "drill_diameter": vary(91.0),
-        "sleeve": "no",
+        "drilled_length": vary(7.3),
         "bond_length": vary(4.3),
-        "ground": "sandstone",
+        "head_across": vary(211.0),
+        "protection": "sheath",
     }
 
 
 def _list_ropes(vary):
+    yield {"id": "guy", "rope": vary(301.0), "termination": "ferrule"}
+    yield {"id": "number", "rope": vary(287.0), "termination": "wedge"}
     yield {
-        "id": "guy",
-        "rope_diameter": 22.0,
-        "construction": "6x36-IWRC",
-        "grade": 1770,
-        "termination": "ferrule",
+        "id": "border",
+        "rope": vary(611.0),
+        "termination": "included",
+        "axial_stiffness": vary(41300.0),
     }
-    yield {"id": "number", "rope": vary(287.0)}
 
 
 def _list_posts(vary):
     yield {
         "id": "slim",
+        "yield_strength": 355,
         "area": vary(54.3),
         "second_moment": vary(889.0),
-        "buckling_length": vary(4.9),
-        "yield_strength": 355,
-        "buckling_curve": "b",
-        "post_width": vary(160.0),
         "section_modulus": vary(311.0),
-        "base_friction": vary(0.57),
-        "plate_length": vary(0.61),
-        "plate_width": vary(0.47),
-        "bearing_stress": vary(1130.0),
+        "post_width": vary(160.0),
+        "buckling_curve": "b",
+        "buckling_length": vary(4.9),
+        "bearing": vary(324.0),
     }
     yield {
         "id": "stout",
+        "yield_strength": 235,
         "area": vary(78.1),
         "second_moment": vary(2003.0),
-        "buckling_length": vary(3.9),
-        "yield_strength": 235,
-        "post_width": vary(200.0),
         "section_modulus": vary(570.0),
-        "sliding": vary(171.0),
+        "post_width": vary(200.0),
+        "buckling_length": vary(3.9),
+        "head_eccentricity": vary(21.0),
         "bearing": vary(611.0),
     }
 
 
-def _list_nets(vary):
-    yield {
-        "id": "U1",
-        "gap": vary(1.97, 3),
-        "slope_angle": vary(44.1),
-        "snow_height": vary(5.1),
-        "upslope_length": vary(6.3),
-        "ground_law": "sliding",
-        "glide_factor": vary(2.37),
-        "net_height": vary(4.3),
-        "net_stiffness": vary(17300.0),
-        "post_spacing": vary(3.43),
-        "post_base_distance": vary(1.37),
-        "uphill_anchor_distance": vary(4.71),
-        "downhill_anchor_distance": vary(3.57),
-        "foot_anchor": "bent",
-        "foot_axis": vary(27.0),
-        "uphill_axis": vary(31.0),
-        "downhill_axis": vary(47.0),
-        "uphill_anchor": "drilled",
-        "downhill_anchor": "drilled",
-        "uphill_guy": "guy",
-        "downhill_guy": "number",
-        "post": "slim",
-        "panel_system": "none",
-        "snow_layers": "uniform",
-        "altitude": vary(2130.0),
-        "guy_count": 2,
-        "guy_splay": vary(23.7),
-    }
-    yield {
-        "id": "U2",
-        "slope_angle": vary(37.3),
-        "snow_thickness": vary(2.41),
-        "upslope_length": vary(17.9),
-        "ground_law": "no-slip",
-        "net_height": vary(2.93),
-        "net_stiffness": vary(9170.0),
-        "post_spacing": vary(3.71),
-        "post_tilt": vary(11.3),
-        "uphill_anchor_distance": 0.0,
-        "downhill_anchor_distance": vary(2.89),
-        "foot_anchor": "drilled",
-        "uphill_anchor": "drilled",
-        "downhill_anchor": "drilled",
-        "uphill_guy": "number",
-        "downhill_guy": "guy",
-        "post": "stout",
-        "panel_system": "none",
-        "snow_layers": "uniform",
-        "anchor_axes": "along the pull",
-        "guy_count": 1,
-    }
-    yield {
-        "id": "U3",
-        "gap": 0.0,
-        "slope_angle": vary(33.1),
-        "snow_thickness": vary(2.83),
-        "upslope_length": vary(14.3),
-        "ground_law": "free",
-        "net_height": vary(3.07),
-        "net_stiffness": vary(7430.0),
-        "post_spacing": vary(2.71),
-        "post_tilt": vary(38.0),
-        "uphill_anchor_distance": vary(3.31),
-        "downhill_anchor_distance": vary(4.13),
-        "foot_anchor": "strong",
-        "foot_axis": vary(3.1),
-        "uphill_anchor": "drilled",
-        "uphill_axis": vary(29.0),
-        "downhill_anchor": "drilled",
-        "downhill_axis": vary(41.0),
-        "uphill_guy": "guy",
-        "downhill_guy": "guy",
-        "post": "slim",
-        "panel_system": "none",
-        "snow_layers": "uniform",
-        "guy_count": 2,
-        "guy_splay": vary(31.0),
-    }
+def _list_links(vary):
+    for name, kind, force, meaning, more in (
+        ("drilled", "eye", 371.0, "strength", {}),
+        ("bent", "shackle", 133.0, "limit", {"count": 2}),
+        ("guy", "shackle", 310.0, "strength", {}),
+        ("guy", "thimble", 97.0, "limit", {}),
+        ("number", "turnbuckle", 287.0, "strength", {}),
+        ("strong", "plate", 613.0, "strength", {}),
+        ("border", "shackle", 190.0, "limit", {"angle": vary(31.0)}),
+    ):
+        link = {"type": name, "link": kind, "force": vary(force), "meaning": meaning}
+        yield link | more

@@ -8,9 +8,10 @@ import tomllib
 import pytest
 
 from netdesign.edge.input_files import find_resource
-from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
 from tests.sources import PACKAGE, walk_package
+from tests.words.gaps import list_gaps
 
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
@@ -23,7 +24,13 @@ FAMILIES: tuple[str, ...] = (
     *("creep_law.", "of_scope."),
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
-    *("product_source.", "plausible.source_", "opinion.", "schedule."),
+    *(
+        "product_source.",
+        "resistance_source.",
+        "plausible.source_",
+        "opinion.",
+        "schedule.",
+    ),
     *("scope.", "todo.", "who.", "condition.", "quantities.", "diff_part."),
     *("decision.", "matrix.", "anchors.", "row_page.", "worked.", "tests."),
     *("assumed_range.", "rated.", "documents.", "panel_view.", "rewrite.of_"),

@@ -83,7 +83,7 @@ def _show(document: dict[str, Any], *, is_named: bool) -> None:
 
 def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
     """Document of a run over random scenes."""
-    from netdesign.addons.evidence.benchmark.attempts import (
+    from netdesign.addons.evidence.benchmark.random_scenes import (
         attempt_scenes,
         write_errors,
         write_stress,
@@ -104,7 +104,7 @@ def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:
-    from netdesign.addons.evidence.benchmark.against import (
+    from netdesign.addons.evidence.benchmark.versions import (
         QUICK,
         Size,
         compare_versions,

@@ -21,7 +21,7 @@ from netdesign.addons.history.incremental import (
 )
 from netdesign.addons.history.instant import Instant, advance_under
 from netdesign.addons.history.moments import HistoryPoint, find_plateau, judge_plateau
-from netdesign.addons.history.response import (
+from netdesign.addons.history.net_pulls import (
     NetResponse,
     keep_lengths,
     measure_arcs,

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from netdesign.addons.history.body import Settling, SnowBody, build_body
-from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.settings import Start
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings

@@ -20,7 +20,7 @@ from netdesign.addons.history.moments import (
     find_plateau,
     judge_plateau,
 )
-from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.run import (
     Run,
     build_solution,

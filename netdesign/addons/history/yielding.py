@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.addons.history.response import (
+from netdesign.addons.history.net_pulls import (
     LARGEST_BEND,
     NetResponse,
     average_at_segments,

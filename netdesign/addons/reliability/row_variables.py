@@ -56,7 +56,7 @@ class Assumed:
     mean_ratio: float | None = None
 
     @property
-    def told(self) -> Message:
+    def source_in_words(self) -> Message:
         """Its source in words."""
         return say(f"source.{self.source}")
 
@@ -149,7 +149,7 @@ def _find_height(find: _Find, row: NetRow) -> RowVariable:
     else:
         period = (typed.period if typed else None) or assumed.period or math.nan
         variable = build_annual_maximum(HEIGHT, height, period, variation, cap)
-    return _tell(variable, typed, assumed.told)
+    return _tell(variable, typed, assumed.source_in_words)
 
 
 def _tell(
@@ -171,7 +171,7 @@ def _find_single(find: _Find, name: str, value: float) -> RowVariable:
         refusal = say("reliability.no_distribution", name=PARAMETERS[name].label)
         raise ModelError(refusal)
     variable = _build(name, assumed.distribution, value, assumed.variation)
-    return _tell(variable, None, assumed.told)
+    return _tell(variable, None, assumed.source_in_words)
 
 
 def _build_typed(typed: UncertainQuantity, name: str, value: float) -> Variable:
@@ -220,7 +220,7 @@ def _find_resistance(find: _Find, check: Check) -> RowVariable:
     else:
         kind = typed.distribution if typed else ""
         variable = _build(RESISTANCE, kind, ratio, variation)
-    return _tell(variable, typed, assumed.told)
+    return _tell(variable, typed, assumed.source_in_words)
 
 
 def list_lines(check: CheckByCase, variables: tuple[RowVariable, ...]) -> list[Line]:

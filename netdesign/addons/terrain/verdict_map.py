@@ -171,8 +171,10 @@ def list_checks_at(row: RowStudy, position: Position) -> list[Check]:
         return [*(at_end or inside).values()]
     if position == "intermediate":
         return [*inside.values()]
-    said = {name: _take_more(check, at_end.get(name)) for name, check in inside.items()}
-    return [*(said | second).values()]
+    larger = {
+        name: _take_more(check, at_end.get(name)) for name, check in inside.items()
+    }
+    return [*(larger | second).values()]
 
 
 def _take_more(inside: Check, at_end: Check | None) -> Check:

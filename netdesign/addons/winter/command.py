@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.addons.winter.document import WinterRun
-    from netdesign.addons.winter.settling.models import DayPack
+    from netdesign.addons.winter.settling import DayPack
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.message import Message
@@ -152,7 +152,7 @@ def _solve(
         name_measured_winters,
     )
     from netdesign.addons.winter.season import follow_station, follow_winters
-    from netdesign.addons.winter.settling.models import MODELS as KNOWN
+    from netdesign.addons.winter.settling import MODELS as KNOWN
     from netdesign.coupling.scene import SolverSettings
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
@@ -259,8 +259,8 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     """
     from netdesign.addons.winter.height_file import build_columns, read_height_file
     from netdesign.addons.winter.season import FIRST_DENSITY
-    from netdesign.addons.winter.settling.models import MODELS as KNOWN
-    from netdesign.addons.winter.settling.models import follow_heights
+    from netdesign.addons.winter.settling import MODELS as KNOWN
+    from netdesign.addons.winter.settling import follow_heights
     from netdesign.snow.heights import smooth
 
     refuse_delimiter(height_file)

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from netdesign.addons.winter.settling.models import DayPack
+from netdesign.addons.winter.settling import DayPack
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.panel_forces import spread_out

@@ -20,7 +20,7 @@ from netdesign.addons.winter.season import (
     StationPacks,
     list_complete,
 )
-from netdesign.addons.winter.settling.models import DayPack
+from netdesign.addons.winter.settling import DayPack
 from netdesign.addons.winter.statistics import (
     RETURN_PERIODS,
     TAILS,

@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from datetime import date, datetime, time, timedelta
 from typing import Any
 
-from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
-from netdesign.report.drawing.plain_svg import shade
+from netdesign.addons.charts import Line, Mark, Panel, draw_panels, shade
 from netdesign.report.words import Words, show_member
 
 _FORCES, _MEMBERS, _SNOW, _AIR = 118.0, 96.0, 104.0, 52.0  # heights of the panels [pt]

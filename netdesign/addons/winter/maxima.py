@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from netdesign.addons.winter.day import LEAST_DENSITY, DaySolver, RowDay
-from netdesign.addons.winter.settling.models import DayPack
+from netdesign.addons.winter.settling import DayPack
 from netdesign.addons.winter.uniform_table import UniformTable, build_table
 from netdesign.numerics.arrays import Floats
 from netdesign.words.message import Message

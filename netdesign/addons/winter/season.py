@@ -21,7 +21,7 @@ from netdesign.addons.winter.maxima import (
     find_many_maxima,
     find_maximum_alone,
 )
-from netdesign.addons.winter.settling.models import (
+from netdesign.addons.winter.settling import (
     DayPack,
     SettlingModel,
     follow_heights,

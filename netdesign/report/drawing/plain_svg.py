@@ -38,22 +38,6 @@ def _measure_letter(letter: str) -> float:
     return _UPPER_EM if letter.isupper() else _LOWER_EM
 
 
-def wrap_words(text: str, size_pt: float, width: float) -> list[str]:
-    """Lines of a text, each within ``width`` [pt] where its words allow.
-
-    >>> wrap_words("along the row", 10.0, 40.0)
-    ['along', 'the row']
-    """
-    lines: list[str] = []
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and measure_words(longer, size_pt) <= width:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
-
-
 Point = tuple[float, float]
 
 INK = "#1b1e22"
@@ -68,13 +52,8 @@ WIDTH = 72.0 * 6.9  # of every chart: the print area of A4 [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _SHORTEST = 0.4  # of loose lines [pt]
 _HEAD_LENGTH, _HEAD_HALF = 6.5, 2.3  # of an arrow [pt]
-_TICK = 2.5  # length of a tick [pt]
+TICK = 2.5  # length of a tick [pt]
 _APART = 3.0  # least space between the numbers of two ticks [pt]
-_RAISED = str.maketrans("-0123456789", "\u207b⁰¹²³⁴⁵⁶⁷⁸⁹")
-_PLAIN = 3  # powers of ten up to which a number is written out
-SHADES = 16  # greys from white to the darkest: as many as a print tells apart
-_GREYS = tuple(f"#{250 - 11 * level:02x}" + 2 * f"{250 - 11 * level:02x}"
-               for level in range(SHADES))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,18 +150,6 @@ class Chart:
             f'<polygon points="{path}" fill="{fill}"{line if edge else ""}/>'
         )
 
-    def ticks(self, places: Iterable[tuple[float, float]]) -> None:
-        """Short lines to the right of some places, in one path [pt]."""
-        path = "".join(f"M{show_place(x)} {show_place(y)}h{_TICK}" for x, y in places)
-        self.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
-
-    def ring(self, x: float, y: float, stroke: str) -> None:
-        """Mark of a point [pt]."""
-        self.shapes.append(
-            f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" fill="#fff" '
-            f'stroke="{stroke}" stroke-width="1.2"/>'
-        )
-
     def text(
         self,
         x: float,
@@ -257,19 +224,19 @@ class Chart:
         path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
         for value in list_loose_ticks(frame) if x_ticks else ():
             x = frame.x(value)
-            path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
+            path += f"M{show_place(x)} {show_place(bottom)}v{TICK}"
             self.text(
                 x,
-                bottom + _TICK + TEXT_PT + 1.5,
+                bottom + TICK + TEXT_PT + 1.5,
                 self.write_tick(value),
                 anchor="middle",
             )
         most = max(2, min(5, int(frame.height / (1.4 * TEXT_PT))))
         for value in list_ticks(frame.y_low, frame.y_high, most) if y_ticks else ():
             y = frame.y(value)
-            path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
+            path += f"M{show_place(left)} {show_place(y)}h-{TICK}"
             self.text(
-                left - _TICK - 3.5,
+                left - TICK - 3.5,
                 y + TEXT_PT / 3,
                 self.write_tick(value),
                 anchor="end",
@@ -277,27 +244,6 @@ class Chart:
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
-
-    def decades(self, frame: Frame, *, across: bool) -> None:
-        """Ticks across the page or up it, where the frame has logarithms to base 10."""
-        ends = (frame.x_low, frame.x_high) if across else (frame.y_low, frame.y_high)
-        bottom, path = frame.top + frame.height, ""
-        for power, factor in list_decades(min(ends), max(ends)):
-            place, word = power + math.log10(factor), self._write_power(power, factor)
-            if across:
-                x, y = frame.x(place), bottom + _TICK + TEXT_PT + 1.5
-                path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
-                self.text(x, y, word, anchor="middle")
-            else:
-                x, y = frame.left - _TICK - 3.5, frame.y(place)
-                path += f"M{show_place(frame.left)} {show_place(y)}h-{_TICK}"
-                self.text(x, y + TEXT_PT / 3, word, anchor="end")
-        self.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
-
-    def _write_power(self, power: int, factor: int) -> str:
-        if abs(power) <= _PLAIN or factor > 1:
-            return self.write_tick(factor * 10.0**power)
-        return f"10{str(power).translate(_RAISED)}"
 
     def write(self, height: float, title: str, width: float = WIDTH) -> str:
         """SVG element of the chart, the same bytes each time."""
@@ -382,28 +328,6 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
     return [round(k * step, 12) for k in range(first, last + 1)]
 
 
-def list_decades(low: float, high: float) -> list[tuple[int, int]]:
-    """Powers of ten between two logarithms, each with a factor: 2 and 5 of few.
-
-    Examples
-    --------
-    >>> list_decades(-0.1, 1.1)
-    [(0, 1), (0, 2), (0, 5), (1, 1)]
-    >>> list_decades(0.0, 14.0)[:3]
-    [(0, 1), (2, 1), (4, 1)]
-    """
-    first, last = math.floor(low), math.ceil(high)
-    factors = (1, 2, 5) if high - low < 2.0 else (1,)
-    step = max(1, (last - first) // 6)
-    powers = [power for power in range(first, last + 1) if power % step == 0]
-    every = [(power, factor) for power in powers for factor in factors]
-    return [
-        (power, factor)
-        for power, factor in every
-        if low - 1e-9 <= power + math.log10(factor) <= high + 1e-9
-    ]
-
-
 def list_loose_ticks(frame: Frame) -> list[float]:
     """Round numbers along the page, as many as stand apart; the first at least."""
     for most in (5, 4, 3, 2):
@@ -413,14 +337,6 @@ def list_loose_ticks(frame: Frame) -> list[float]:
         if not gaps or min(gaps) > wide + _APART:
             return ticks
     return ticks[:1]
-
-
-def shade(value: float, low: float, high: float) -> str:
-    """Grey for a value, white at the low end and for none; prints without colour."""
-    if math.isnan(value):
-        return "#fff"
-    share = (value - low) / (high - low) if high > low else 0.0
-    return _GREYS[round((SHADES - 1) * min(1.0, max(0.0, share)))]
 
 
 def bounds_of(values: Iterable[Sequence[float]]) -> tuple[float, float]:

@@ -22,7 +22,6 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.assumed import ALTITUDE, DEFAULT
 from netdesign.report.sections.tested import show_tests
 from netdesign.report.words import (
     MISSING,
@@ -168,7 +167,6 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
 
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
-_READING = ("reading.checks", "reading.search", "reading.directions")
 _NAME, _ENDS = say("column.Nets.id"), "column.Ends."
 # Net rows of which each is named; of more, those that are left out may be fewer.
 _FEW_ROWS, _TWO = 8, 2
@@ -339,11 +337,6 @@ def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
     return {note: ids for note, ids in rows.items() if len(ids) > 1}
 
 
-def list_reading(study: Study, words: Words) -> tuple[str, ...]:
-    """Sentences that hold of the drawings and tables of every row."""
-    return name_cases(study, words), *(words(key) for key in _READING)
-
-
 def name_cases(study: Study, words: Words) -> str:
     """Legend of the numbers of a case, in their order."""
     points = [case.case for row in study.rows for case in row.cases[:1]]
@@ -354,35 +347,6 @@ def name_cases(study: Study, words: Words) -> str:
     if not names:
         return legend
     return words("show.legend_further", legend=legend, names=" / ".join(names))
-
-
-def list_defaults(study: Study, words: Words) -> list[str]:
-    """Values that nobody typed, what they were taken as, and where.
-
-    A range without a number of samples is searched: that is no value.
-    """
-    found: dict[tuple[str, str], list[str]] = {}
-    numbers = [one for one in study.range_inputs if isinstance(one.value, float)]
-    places = [(words("heading.ranges"), numbers)]
-    places += [(row.id, row.inputs) for row in study.rows]
-    for place, inputs in places:
-        for echo in inputs:
-            label = words.show(echo.label)
-            if echo.cell == DEFAULT and echo.value != "":
-                shown = words.show_quantity(understand(echo, words), echo.unit)
-                found.setdefault((label, shown), []).append(place)
-            elif echo.label == ALTITUDE and echo.value == "":
-                shown = words("show.largest_altitude_factor")
-                found.setdefault((label, shown), []).append(place)
-    return [
-        words(
-            "show.default_taken",
-            what=what,
-            value=value,
-            who=show_text(name_rows(who, study, words)),
-        )
-        for (what, value), who in found.items()
-    ]
 
 
 def anchor_rows(study: Study) -> dict[str, str]:

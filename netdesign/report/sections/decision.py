@@ -34,7 +34,6 @@ from netdesign.report.sections.basis import (
     describe_floor,
     has_other_floor,
     list_limits,
-    name_profile,
     name_rows,
 )
 from netdesign.report.sections.checks import describe_briefly, describe_cause
@@ -283,19 +282,6 @@ def _show_assumed(study: Study, words: Words) -> Part:
     )
     heading = Heading(text=words("assumed_range.heading"), level=3)
     return Part(kind="div", blocks=(heading, table))
-
-
-def identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
-    """Subject of the report: names with what stands beside them."""
-    project = study.project
-    pairs = (
-        ("number", project.number),
-        ("revision", project.revision),
-        ("site_file", study.provenance.site_file),
-        ("date", study.provenance.started[:10]),
-        ("limit_profile", name_profile(study, words)),
-    )
-    return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
 
 
 def _sign(study: Study, words: Words) -> Part:

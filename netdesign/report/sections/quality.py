@@ -13,11 +13,9 @@ from netdesign.report.blocks import (
     Items,
     Part,
     Table,
-    fixed_cell,
     key_columns,
     name_columns,
     number_cell,
-    number_column,
     quantity_column,
     section,
     text_cell,
@@ -30,21 +28,19 @@ from netdesign.report.words import (
     show_member,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.case_records import CaseRecord, LargestForce
+from netdesign.study.case_records import CaseRecord
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 
 _QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
 
 def show_quality(study: Study, words: Words) -> Part:
-    """Annex with the forces by other models, and the bounds of the largest ones."""
-    bounds = stack_rows(words("caption.bounds"), study, build_bounds, words)
+    """Annex with the forces by other models."""
     return section(
         "annex-quality",
         words("heading.annex_quality"),
         build_opinions(study, words).shown("extremes"),
         *_list_refused(study, words),
-        bounds.shown("extremes"),
     )
 
 
@@ -93,58 +89,6 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
 
 def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
     return tuple(number_cell(words, *one) for one in case.values.items())
-
-
-def build_bounds(row: RowStudy, words: Words) -> Table:
-    """Largest force, what may hide above it, and its confirmation."""
-    gap = add_unit(words("heading.gap"), "%")
-    difference = add_unit(words("heading.difference"), "%")
-    above = add_unit(words("heading.nowhere_above"), "kN")
-    again = add_unit(words("heading.solved_again"), "kN")
-    return Table(
-        caption=words("caption.bounds"),
-        columns=(
-            Column(heading=words("heading.member")),
-            quantity_column(words, "max_kN"),
-            number_column("max_kN", above),
-            *name_columns((gap,), numbers=(gap,)),
-            number_column("max_kN", again),
-            *name_columns((difference,), numbers=(difference,)),
-            *key_columns(words, "heading.", ("solved_again_by", "case")),
-        ),
-        rows=tuple(_bound_row(bound, words) for bound in _list_bounds(row)),
-        empty=words("show.none"),
-    )
-
-
-def _list_bounds(row: RowStudy) -> list[LargestForce]:
-    """Bounds of the members that carry something."""
-    return [one for one in row.member_forces if one.bound_kN]
-
-
-def _bound_row(force: LargestForce, words: Words) -> tuple[Cell, ...]:
-    again, bound = force.confirmed, force.bound_kN
-    gap = bound / force.value_kN - 1.0 if force.value_kN > 0.0 else 0.0
-    by = MISSING
-    if again is not None:
-        by = words.show(again.reason)
-        if again.reason is None:
-            by = words("show.solved_again_by", count=again.elements or 0)
-    difference = again.difference_percent if again else None
-    case = words.join(words.show_number(*one) for one in force.case.values.items())
-    return (
-        text_cell(show_member(words, force.quantity)),
-        number_cell(words, "max_kN", force.value_kN),
-        number_cell(words, "max_kN", bound),
-        fixed_cell(words, 100.0 * gap, 2),
-        number_cell(words, "max_kN", again.confirmed_kN if again else None),
-        Cell(
-            text=MISSING if difference is None else words.write(f"{difference:+.2f}"),
-            number=difference,
-        ),
-        text_cell(by),
-        text_cell(case),
-    )
 
 
 def _list_refused(study: Study, words: Words) -> Iterator[Block]:

@@ -33,7 +33,6 @@ from netdesign.report.sections.basis import (
 )
 from netdesign.report.sections.decision import (
     build_matrix,
-    identify,
     list_to_confirm,
     name_verification,
 )
@@ -127,14 +126,12 @@ def _link_rows(book: Book, sheet: Any, study: Study) -> None:
 
 
 def _list_signing(study: Study, words: Words) -> Iterator[Block]:
-    """What the report is of, how it is verified, and room for signatures."""
+    """How the report is verified, and room for signatures."""
     project = study.project
     pairs = (
-        *identify(study, words),
         (words("heading.verify_report"), name_verification(study)),
         (words("heading.study_hash"), compute_digest(study)),
     )
-    yield Heading(text=words("heading.identification"), level=3)
     yield Pairs(pairs=tuple(Pair(name=name, text=text) for name, text in pairs))
     people = (
         ("heading.prepared", project.author),

@@ -42,16 +42,6 @@ def count_lines(
     )
 
 
-def fit_headings(
-    columns: Sequence[Column], widths: Sequence[float], turned: Sequence[int] = ()
-) -> list[float]:
-    """Widths of columns, wider where a word of a level heading has no room."""
-    return [
-        width if index in turned else max(width, measure_longest(column.heading))
-        for index, (column, width) in enumerate(zip(columns, widths, strict=True))
-    ]
-
-
 def measure_longest(heading: str) -> float:
     """Width that the longest word of a heading needs."""
     return max(BOLD * _measure(word) + _INDENT for word in ("", *heading.split()))

@@ -6,8 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from netdesign.addons.evidence.bench_command import bench
-from netdesign.addons.evidence.benchmark import attempts, precision
-from netdesign.addons.evidence.benchmark.attempts import Attempt
+from netdesign.addons.evidence.benchmark import precision, random_scenes
+from netdesign.addons.evidence.benchmark.random_scenes import Attempt
 from netdesign.outcome import OutputError
 
 
@@ -32,7 +32,7 @@ def test_rows_and_plot(monkeypatch, tmp_path):
 )
 def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     monkeypatch.setattr(
-        attempts,
+        random_scenes,
         "attempt_scenes",
         lambda *_, **__: [Attempt(number=0, kind=kind, reason="why", balance=0.0)],
     )

@@ -13,7 +13,7 @@ from netdesign import cli
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from netdesign.study.document import hash_text, read_document, write_document
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
 solve_once = lru_cache(maxsize=None)(solve_scene)
@@ -24,7 +24,7 @@ PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 def home(tmp_path_factory):
     """Folder with a site of one net row, and its study."""
     folder = tmp_path_factory.mktemp("stored")
-    write_short_example(folder / "site.xlsx", ["R7"])
+    write_rows(folder / "site.xlsx", ["R7"])
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         options = ["--accuracy", "0.0512345678", "--jobs", "1", "--no-html"]
@@ -212,7 +212,7 @@ def test_verify_refuses_reports_of_another_study(verify, call, home):
 
 def test_a_row_left_out_by_hand_is_found(home, call, tmp_path, monkeypatch):
     """Also where it stands among those left out: notes of all rows tell of it still."""
-    write_short_example(tmp_path / "two.xlsx", ["R7", "R1"])
+    write_rows(tmp_path / "two.xlsx", ["R7", "R1"])
     solving = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-html", "--no-excel")
     monkeypatch.setattr(workers, "solve_scene", solve_once)
     assert call("check", "two.xlsx", *solving).code == DIFFERS

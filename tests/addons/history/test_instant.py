@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.addons.history import instant as instant_module
 from netdesign.addons.history.instant import advance, advance_under
-from netdesign.addons.history.response import hold_net, respond
+from netdesign.addons.history.net_pulls import hold_net, respond
 from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.addons.history.sliding import compute_node_forces
 from netdesign.addons.history.state import build_problem, build_start

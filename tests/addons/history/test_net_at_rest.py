@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history import state
-from netdesign.addons.history.response import measure_arcs
+from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import (
     build_problem,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.response import measure_arcs, respond
+from netdesign.addons.history.net_pulls import measure_arcs, respond
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import build_problem, build_start
 from netdesign.coupling.steady.net import guess_pressure

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 from netdesign.addons.history import yielding
-from netdesign.addons.history.response import measure_arcs, respond
+from netdesign.addons.history.net_pulls import measure_arcs, respond
 from netdesign.addons.history.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.outcome import Outcome, SolveError

@@ -78,4 +78,4 @@ def test_every_assumed_distribution_says_where_it_is_from():
     for name, one in load_assumed().items():
         assert read_kind(one.distribution) == one.distribution
         assert 0.0 < one.variation < 0.5, name
-        assert "assumed" in render(one.told, "en")
+        assert "assumed" in render(one.source_in_words, "en")

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import write_rows
 
 QUICK = ("--jobs", "1", "--no-cache", "--quiet", "--no-excel")
 
@@ -12,7 +12,7 @@ QUICK = ("--jobs", "1", "--no-cache", "--quiet", "--no-excel")
 @pytest.fixture
 def site(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    write_short_example(tmp_path / "site.xlsx", ["R2"], leans=True)
+    write_rows(tmp_path / "site.xlsx", ["R2"], leans=True)
     return tmp_path
 
 

@@ -15,6 +15,7 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
+from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import compare_densities
 from netdesign.structure.members import ROPE_OF, RopeForce
 from netdesign.study import worst_checks
@@ -29,7 +30,7 @@ from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.scopes import find_worst
 from netdesign.study.side_by_side import name_rows
 from tests.each import each
-from tests.short_example import write_short_example
+from tests.make import load_rows, write_site
 from tests.small_site import RUN
 from tests.turn import turn
 
@@ -51,9 +52,15 @@ def searched(tmp_path_factory):
     Both are proven; the second support governs one, the end the other.
     """
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    cells = {"R4": {"foot_anchor": "A40-tested"}}
-    write_short_example(path, ["R2", "R4"], leans=True, cells=cells)
-    site = read_site(path)
+    own = {"foot_anchor": "A57-tested", "end_anchor": "A40-tested", "end_guy": "E40"}
+    ropes = {"ridge_rope": "B44", "lower_rope": "B44"}
+    tables = load_rows(["R2", "R4"], cells={"R4": own | ropes})
+    types = {one["id"]: one for one in tables["anchor_types"]}
+    types["A40-tested"] |= {"tendon": 1500, "pull_out": 420, "test_mean": 420}
+    site = read_site(write_site(path, tables))
+    held, gliding = site.rows
+    held = replace(held, ground=GroundLaw(kind="no-slip"), glide_factor=None)
+    site = replace(site, rows=(held, gliding))
     return site, search_site(site, RUN)
 
 

@@ -12,7 +12,7 @@ from netdesign.addons.winter.maxima import (
     find_bound,
     find_maximum_alone,
 )
-from netdesign.addons.winter.settling.models import DELTA_SNOW, follow_heights
+from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.snow.ground import GroundLaw
 from netdesign.words.message import say
 from tests.addons.winter.made_up_row import SLOPE, FormulaSolver, a_solver, slides

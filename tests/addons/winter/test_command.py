@@ -5,7 +5,7 @@ import json
 import openpyxl
 import pytest
 
-from tests.short_example import write_short_example
+from tests.make import load_rows, write_rows, write_site
 
 HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
 QUICK = ("--accuracy", "0.05", "--jobs", "1", "--every", "5", "--quiet")
@@ -21,7 +21,7 @@ def write_heights(path, heights=HEIGHTS, year=2003):
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     path = tmp_path_factory.mktemp("winter") / "site.xlsx"
-    write_short_example(path, ["R2"])
+    write_rows(path, ["R2"])
     return path
 
 
@@ -75,13 +75,12 @@ def test_governing_day_solved_as_uniform_snow_says_so(call, site, tmp_path):
 def test_heights_of_a_file_keep_the_factor_of_the_sheet(call, tmp_path):
     """Station, altitude and height factor belong to the rows, not to the series."""
     site, folder = tmp_path / "site.xlsx", tmp_path / "out"
-    write_short_example(site, ["R2"])
-    book = openpyxl.load_workbook(site)
-    lines = ["2003-02-01", 0, None, "Alp Sura", 2137, 1.27], ["2003-02-02", 0.4]
-    for number, line in enumerate(lines, start=2):
-        for column, value in enumerate(line, start=1):
-            book["Winter"].cell(number, column, value)
-    book.save(site)
+    station = {"station": "Alp Sura", "altitude": 2137, "height_factor": 1.27}
+    heights = [
+        {"date": "2003-02-01", "snow_height": 0, **station},
+        {"date": "2003-02-02", "snow_height": 0.4},
+    ]
+    write_site(site, load_rows(["R2"], leans=False) | {"Winter": heights})
     path = write_heights(tmp_path / "other.csv", [0, 60, 80, 70, 0])
     ended = call("winter", site, "--heights", path, "--out", folder, *QUICK)
     document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
@@ -118,7 +117,7 @@ def write_monitoring(path, lines):
 
 def test_measured_forces_stand_beside_the_chain(call, heights, tmp_path):
     path, folder = tmp_path / "site.xlsx", tmp_path / "out"
-    write_short_example(path, ["R2"])
+    write_rows(path, ["R2"])
     hours = [
         f"2003-02-{day:02d} {hour:02d}:00"
         for day in range(4, 14)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.winter.day import RowDay, build_day_scene
-from netdesign.addons.winter.settling.models import DayPack
+from netdesign.addons.winter.settling import DayPack
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.snowpack import Layer

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.settling.models import (
+from netdesign.addons.winter.settling import (
     DELTA_SNOW,
     DELTA_SNOW_AGEING,
     Ageing,

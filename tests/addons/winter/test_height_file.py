@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.addons.winter.height_file import HeightColumns, read_height_file
 from netdesign.addons.winter.season import follow_station, list_complete
-from netdesign.addons.winter.settling.models import MODELS
+from netdesign.addons.winter.settling import MODELS
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
 from netdesign.snow.heights import smooth, split_winters

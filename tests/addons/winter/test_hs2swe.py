@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.settling.models import HS2SWE, DayPack, follow_heights
+from netdesign.addons.winter.settling import HS2SWE, DayPack, follow_heights
 
 G, DAY = 9.81, 86400.0
 

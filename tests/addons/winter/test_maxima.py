@@ -12,7 +12,7 @@ from netdesign.addons.winter.maxima import (
     find_equivalent,
     find_many_maxima,
 )
-from netdesign.addons.winter.settling.models import DELTA_SNOW, follow_heights
+from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.addons.winter.uniform_table import build_table
 from tests.addons.winter.made_up_row import FormulaSolver, a_solver
 from tests.each import each

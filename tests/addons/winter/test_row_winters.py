@@ -10,7 +10,7 @@ from netdesign.addons.winter.season import (
     list_complete,
     split_packs,
 )
-from netdesign.addons.winter.settling.models import HS2SWE, MODELS
+from netdesign.addons.winter.settling import HS2SWE, MODELS
 from netdesign.snow.heights import HeightSeries
 from tests.addons.winter.made_up_row import a_formula_solver
 

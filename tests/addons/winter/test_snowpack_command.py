@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from netdesign.addons.winter.settling.models import MODELS, follow_heights
+from netdesign.addons.winter.settling import MODELS, follow_heights
 from tests.addons.winter.test_command import HEIGHTS, write_heights
 
 

@@ -5,29 +5,20 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
+from netdesign.report.sections.assumed import ALTITUDE, list_assumed
 from netdesign.report.sections.basis import (
     anchor_rows,
-    list_defaults,
     name_rows,
 )
 from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
-from netdesign.words.message import say
 from tests.report.build_study import build_study
 from tests.turn import turn_row
-
-TOLD = {
-    "en": "altitude not given, the largest altitude factor of the guideline",
-    "de": "Meereshöhe nicht angegeben, der größte Höhenfaktor der Richtlinie",
-    "fr": "altitude non donnée, le plus grand facteur d'altitude de la directive",
-}
 
 
 def with_altitude(value, text=""):
     study = build_study()
-    echo = InputEcho(
-        label=say("column.Nets.altitude"), unit="m", text=text, value=value, cell=""
-    )
+    echo = InputEcho(label=ALTITUDE, unit="m", text=text, value=value, cell="")
     rows = [replace(row, inputs=[*row.inputs, echo]) for row in study.rows]
     return replace(study, rows=rows)
 
@@ -35,11 +26,12 @@ def with_altitude(value, text=""):
 @pytest.mark.parametrize("language", ["en", "de", "fr"])
 def test_altitude_that_is_not_given_is_an_assumption(language):
     words, study = Words(language), with_altitude("")
-    (told,) = [one for one in list_defaults(study, words) if TOLD[language] in one]
-    ids = [row.id for row in study.rows]
-    assert name_rows(ids, study, words) in told
-    given = list_defaults(with_altitude(1873.0, "1873"), words)
-    assert not any(TOLD[language] in one for one in given)
+    altitude = words.show(ALTITUDE)
+    (line,) = [one for one in list_assumed(study, words) if one.name == altitude]
+    assert line.value == words("show.largest_altitude_factor")
+    assert line.rows == ()  # all of them
+    given = list_assumed(with_altitude(1873.0, "1873"), words)
+    assert not any(one.name == altitude for one in given)
 
 
 def name_of(missing, language, rows=23):

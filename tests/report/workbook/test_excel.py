@@ -18,11 +18,10 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.calculation.evaluate import evaluate
 from tests.golden.drawn import RUN
 from tests.grid import solve_site
+from tests.make import write_rows, write_site
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_checks, read_rows, read_workbook, recalculate
-from tests.short_example import write_short_example
-from tests.site_lines import write_lines
-from tests.study.knowing_less.drawn_site import draw_lines
+from tests.study.knowing_less.drawn_tables import draw_tables
 
 LIMIT = 1e-12  # relative: one rounding of a product, with room
 STUDY = build_study()
@@ -44,8 +43,8 @@ def judge(path):
 def studies(tmp_path_factory):
     """A built study; a drawn site with splayed guys and ends; rows of the example."""
     folder = tmp_path_factory.mktemp("sites")
-    write_lines(folder / "drawn.xlsx", draw_lines(SEED))
-    write_short_example(folder / "example.xlsx", ["R6", "R7"])
+    write_site(folder / "drawn.xlsx", draw_tables(SEED))
+    write_rows(folder / "example.xlsx", ["R6", "R7"])
     judged = {name: judge(folder / f"{name}.xlsx") for name in ("drawn", "example")}
     return {"built": STUDY, **judged}
 

@@ -11,43 +11,41 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.row_to_check import CheckRun
-from tests.site_lines import write_lines
-from tests.study.knowing_less.drawn_site import draw_lines, empty
+from tests.make import write_site
+from tests.study.knowing_less.drawn_tables import draw_tables, empty
 
 RUN = CheckRun(settings=SolverSettings())
-OF_NETS = ("slack", "net_stiffness", "upslope_length", "altitude")
-OF_GROUND = ("ground_law", "glide_factor", "slip_length")
-QUANTITIES = ("density", "friction angle", "net inclination")
+CELLS = (
+    *(("net_types", 0, "slack"), ("net_types", 0, "net_stiffness")),
+    *(("rows", 0, "upslope_length"), ("rows", 0, "altitude")),
+)
+QUANTITIES = ("density", "friction_angle", "inclination")
 SITES_IN_SUITE, SITES = 3, 3000
 OF_OPEN_GROUND = 15  # a site whose downhill guy is loaded most by a smaller N
 IN_SUITE = (*range(SITES_IN_SUITE), OF_OPEN_GROUND)
 
 
-def draw_empty(draw, lines):
+def draw_empty(draw, tables):
     """Cells of snow, net and ground to empty, one at least."""
-    net = lines["Nets"][0]
-    is_free = net["ground_law"] == "free"
-    cells = [("Nets", 0, key) for key in OF_NETS if key in net]
-    if is_free:
-        cells.remove(("Nets", 0, "upslope_length"))
+    is_free = tables["rows"][0]["glide_factor"] == "free"
+    cells = [one for one in CELLS if not (is_free and one[2] == "upslope_length")]
     found = [one for one in cells if draw.random() < 0.5]
-    found += [("quantity", one) for one in QUANTITIES if draw.random() < 0.4]
+    found += [("project", 0, one) for one in QUANTITIES if draw.random() < 0.4]
     if not is_free and draw.random() < 0.4:
-        found += [("Nets", 0, key) for key in OF_GROUND if key in net]
-    return found or [("Nets", 0, "slack")]
+        found.append(("rows", 0, "glide_factor"))
+    return found or [("net_types", 0, "slack")]
 
 
 def assert_no_harder(path, seed):
     """No force of what is typed exceeds the demand over what is assumed."""
-    lines = draw_lines(seed)
-    lines["Nets"] = lines["Nets"][:1]
-    for name in ("row_end", "neighbour"):
-        lines["Nets"][0].pop(name, None)
-    lines["Snow"] = [one for one in lines["Snow"] if one["row"] == "R1"]
-    cells = draw_empty(random.Random(f"assumed {seed}"), lines)
+    tables = draw_tables(seed)
+    tables["rows"] = tables["rows"][:1]
+    tables["rows"][0].pop("gap", None)
+    tables["layers"] = [one for one in tables["layers"] if one["row"] == "R1"]
+    cells = draw_empty(random.Random(f"assumed {seed}"), tables)
     solved = []
-    for one in (lines, empty(lines, cells)):
-        write_lines(path, one)
+    for one in (tables, empty(tables, cells)):
+        write_site(path, one)
         solved += search_site(read_site(path), RUN)
     typed, assumed = solved
     for member, extreme in typed.extremes.items():

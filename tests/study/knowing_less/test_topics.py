@@ -12,8 +12,8 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.judge import judge_site
 from tests.grid import solve_site
-from tests.site_lines import write_lines
-from tests.study.knowing_less.drawn_site import DEFAULT, draw_lines, give_strength
+from tests.make import write_site
+from tests.study.knowing_less.drawn_tables import DEFAULT, draw_tables, give_strength
 from tests.study.knowing_less.test_knowing_less import RUN, list_alike
 
 TOPICS = tuple(ScopeTable.model_fields)
@@ -29,9 +29,9 @@ SITES_IN_SUITE, SITES = 6, 200
     ],
 )
 def test_a_topic_more_never_makes_anything_better(tmp_path, seed):
-    lines = draw_lines(4000 + seed, is_placed=True)
-    give_strength(random.Random(f"ground {seed}"), lines)
-    write_lines(tmp_path / "site.xlsx", lines)
+    tables = draw_tables(4000 + seed, is_placed=True)
+    give_strength(random.Random(f"ground {seed}"), tables)
+    write_site(tmp_path / "site.xlsx", tables)
     site = read_site(tmp_path / "site.xlsx")
     solved = solve_site(site, RUN, Runner())
     standard = load_standard(site.project.standard or DEFAULT)

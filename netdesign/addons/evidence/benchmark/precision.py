@@ -22,7 +22,8 @@ from statistics import median
 from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign import __version__
-from netdesign.addons.evidence.benchmark.truth import (
+from netdesign.addons.charts import draw_decades
+from netdesign.addons.evidence.benchmark.fine_mesh import (
     Truth,
     build_truth,
     refine_size,
@@ -274,7 +275,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
             chart.text(x + 22.0, 9.5, ENGLISH(f"bench_plot.{method}"))
     chart.axes(frame, x_ticks=False, y_ticks=False)
     for across in (True, False):
-        chart.decades(frame, across=across)
+        draw_decades(chart, frame, across=across)
     chart.text(2.0, _ABOVE - 5.0, ENGLISH("bench_plot.time"))
     bottom = _ABOVE + _TALL + _BELOW
     middle = frame.left + frame.width / 2.0

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign import __version__
+from netdesign.addons.charts import GREYS, Line, Mark, Panel, draw_panels, shade
 from netdesign.addons.evidence.paper.runs import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -38,15 +39,12 @@ from netdesign.report.blocks import (
     masthead,
     section,
 )
-from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.plain_svg import (
     ACCENT,
-    SHADES,
     TEXT_PT,
     WIDTH,
     Chart,
     Point,
-    shade,
     show_place,
 )
 from netdesign.report.page.render import render_page
@@ -156,9 +154,9 @@ def _draw_scale(sketch: Chart, limits: tuple[float, float], height: float) -> No
         text = ENGLISH("net_drawing.one_density", density=low)
         sketch.text(6.0, height - 9.0, text)
         return
-    step = _SCALE_PT / SHADES
-    for place in range(SHADES):
-        fill = _shade(low + (place + 0.5) / SHADES * (high - low), limits)
+    step = _SCALE_PT / len(GREYS)
+    for place in range(len(GREYS)):
+        fill = _shade(low + (place + 0.5) / len(GREYS) * (high - low), limits)
         sketch.rectangle(10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill)
     for share in (0.0, 0.5, 1.0):
         at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"

@@ -9,6 +9,7 @@ from dataclasses import asdict
 from typing import Any
 
 from netdesign import __version__
+from netdesign.addons.charts import draw_decades
 from netdesign.addons.evidence.table import NUMBER_TEXTS, RANGES, TEXTS, tabulate_items
 from netdesign.addons.evidence.validation.structure import (
     Measurement,
@@ -87,7 +88,7 @@ def _draw_bar(
 
 def _end(chart: Chart, frame: Frame) -> str:
     chart.axes(frame, x_ticks=False, y_ticks=False)
-    chart.decades(frame, across=True)
+    draw_decades(chart, frame, across=True)
     bottom = frame.top + frame.height
     middle, axis = frame.left + frame.width / 2.0, ENGLISH("validation.bands_axis")
     chart.text(middle, bottom + _BELOW - 6.0, axis, anchor="middle")

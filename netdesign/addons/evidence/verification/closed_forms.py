@@ -20,7 +20,7 @@ from netdesign.addons.evidence.verification.manufactured import (
 )
 from netdesign.addons.history.incremental import advance_increment, build_cable_state
 from netdesign.addons.history.sliding import compute_segment_lengths, solve_sliding
-from netdesign.addons.winter.settling.models import Hs2swe
+from netdesign.addons.winter.settling import Hs2swe
 from netdesign.cable.funicular import (
     Funicular,
     share_uniform_load,

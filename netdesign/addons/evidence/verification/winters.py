@@ -18,7 +18,7 @@ from netdesign.addons.evidence.verification.case import (
 )
 from netdesign.addons.winter.day import DaySolver, RowDay, WinterRow
 from netdesign.addons.winter.season import Season, follow_season
-from netdesign.addons.winter.settling.models import (
+from netdesign.addons.winter.settling import (
     DELTA_SNOW,
     HS2SWE,
     MODELS,

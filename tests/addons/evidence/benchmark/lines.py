@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from netdesign.addons.evidence.benchmark.fine_mesh import solve_fine
 from netdesign.addons.evidence.benchmark.scenes import (
     DENSITY_KG_M3,
     FRICTION_DEG,
@@ -31,7 +32,6 @@ from netdesign.addons.evidence.benchmark.scenes import (
     build_tables,
     draw_scene,
 )
-from netdesign.addons.evidence.benchmark.truth import solve_fine
 from netdesign.addons.evidence.runner import spread
 from netdesign.addons.evidence.scene import solve
 from netdesign.coupling.scene import Scene, SolverSettings

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.benchmark import attempts
-from netdesign.addons.evidence.benchmark.attempts import (
+from netdesign.addons.evidence.benchmark import random_scenes
+from netdesign.addons.evidence.benchmark.fine_mesh import Truth
+from netdesign.addons.evidence.benchmark.random_scenes import (
     Attempt,
     attempt_scene,
     list_accepted,
     write_errors,
 )
-from netdesign.addons.evidence.benchmark.truth import Truth
 
 ACCEPTED = next(list_accepted(1))
 
@@ -31,8 +31,8 @@ def test_each_end_has_to_lie_inside_its_own_error(
     size = float(np.hypot(*pulls[end]))
     # true pull in the same direction, off by a share of the stated relative error
     pulls[end] *= 1.0 / (1.0 + share * error / size)
-    monkeypatch.setattr(attempts, "solve_steady", lambda *_: solution)
-    monkeypatch.setattr(attempts, "solve_truth", lambda *_: Truth(**pulls))
+    monkeypatch.setattr(random_scenes, "solve_steady", lambda *_: solution)
+    monkeypatch.setattr(random_scenes, "solve_truth", lambda *_: Truth(**pulls))
     attempt = attempt_scene(ACCEPTED, seed=1, is_compared=True)
     assert attempt.is_inside is is_inside
     assert attempt.true_error == pytest.approx(share * error / size)

@@ -5,8 +5,8 @@ import warnings
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.benchmark import attempts
-from netdesign.addons.evidence.benchmark.attempts import (
+from netdesign.addons.evidence.benchmark import random_scenes
+from netdesign.addons.evidence.benchmark.random_scenes import (
     Attempt,
     attempt_scene,
     list_accepted,
@@ -20,7 +20,7 @@ ACCEPTED = next(list_accepted(SEED))
 
 
 def attempt_with(monkeypatch, solve) -> Attempt:
-    monkeypatch.setattr(attempts, "solve_steady", solve)
+    monkeypatch.setattr(random_scenes, "solve_steady", solve)
     return attempt_scene(ACCEPTED, seed=SEED)
 
 

@@ -21,12 +21,12 @@ from functools import partial
 from itertools import islice
 from typing import Any, Literal
 
-from netdesign.addons.evidence.benchmark.scenes import Tables, build_tables, draw_scene
-from netdesign.addons.evidence.benchmark.truth import (
+from netdesign.addons.evidence.benchmark.fine_mesh import (
     find_level,
     solve_truth,
     state_error,
 )
+from netdesign.addons.evidence.benchmark.scenes import Tables, build_tables, draw_scene
 from netdesign.addons.evidence.runner import Clock, share, spread, summarise_times
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution

@@ -1,4 +1,4 @@
-"""Line charts against time: few ticks, thin lines, close names."""
+"""Charts of add-ons: lines against time, few ticks, close names; decades; greys."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from netdesign.report.drawing.plain_svg import (
     PALE,
     SOFT,
     TEXT_PT,
+    TICK,
     WIDTH,
     Chart,
     Frame,
     bounds_of,
     drop_straight,
     measure_words,
+    show_place,
 )
 from netdesign.words.catalogue import Language
 
@@ -40,6 +42,10 @@ _REACH = 20.0  # names beginning that close may overlap [pt]
 _TICK = 3.0
 _DOT, _MOST_DOTS = 1.2, 150  # half the width of a dot [pt]; more of them are a band
 _SAMPLE = 12.0  # of a line, before its name at the side [pt]
+_RAISED = str.maketrans("-0123456789", "\u207b⁰¹²³⁴⁵⁶⁷⁸⁹")
+_PLAIN = 3  # powers of ten up to which a number is written out
+# From white to the darkest: as many as a print tells apart.
+GREYS = tuple(f"#{3 * f'{250 - 11 * level:02x}'}" for level in range(16))
 _MONTHS_FROM = 45.0  # days from which on months are named, not days
 
 
@@ -375,4 +381,54 @@ def _reach(group: Sequence[float], gap: float) -> float:
     return _begin(group, gap) + gap * len(group)
 
 
-_TALL = 84.0  # of a panel [pt]
+def draw_decades(chart: Chart, frame: Frame, *, across: bool) -> None:
+    """Ticks across the page or up it, where the frame has logarithms to base 10."""
+    ends = (frame.x_low, frame.x_high) if across else (frame.y_low, frame.y_high)
+    bottom, path = frame.top + frame.height, ""
+    for power, factor in list_decades(min(ends), max(ends)):
+        place, word = power + math.log10(factor), _write_power(chart, power, factor)
+        if across:
+            x, y = frame.x(place), bottom + TICK + TEXT_PT + 1.5
+            path += f"M{show_place(x)} {show_place(bottom)}v{TICK}"
+            chart.text(x, y, word, anchor="middle")
+        else:
+            x, y = frame.left - TICK - 3.5, frame.y(place)
+            path += f"M{show_place(frame.left)} {show_place(y)}h-{TICK}"
+            chart.text(x, y + TEXT_PT / 3, word, anchor="end")
+    chart.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
+
+
+def _write_power(chart: Chart, power: int, factor: int) -> str:
+    if abs(power) <= _PLAIN or factor > 1:
+        return chart.write_tick(factor * 10.0**power)
+    return f"10{str(power).translate(_RAISED)}"
+
+
+def list_decades(low: float, high: float) -> list[tuple[int, int]]:
+    """Powers of ten between two logarithms, each with a factor: 2 and 5 of few.
+
+    Examples
+    --------
+    >>> list_decades(-0.1, 1.1)
+    [(0, 1), (0, 2), (0, 5), (1, 1)]
+    >>> list_decades(0.0, 14.0)[:3]
+    [(0, 1), (2, 1), (4, 1)]
+    """
+    first, last = math.floor(low), math.ceil(high)
+    factors = (1, 2, 5) if high - low < 2.0 else (1,)
+    step = max(1, (last - first) // 6)
+    powers = [power for power in range(first, last + 1) if power % step == 0]
+    every = [(power, factor) for power in powers for factor in factors]
+    return [
+        (power, factor)
+        for power, factor in every
+        if low - 1e-9 <= power + math.log10(factor) <= high + 1e-9
+    ]
+
+
+def shade(value: float, low: float, high: float) -> str:
+    """Grey for a value, white at the low end and for none; prints without colour."""
+    if math.isnan(value):
+        return "#fff"
+    share = (value - low) / (high - low) if high > low else 0.0
+    return GREYS[round((len(GREYS) - 1) * min(1.0, max(0.0, share)))]

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history import response
-from netdesign.addons.history.response import hold_net, measure_arcs, respond
+from netdesign.addons.history import net_pulls
+from netdesign.addons.history.net_pulls import hold_net, measure_arcs, respond
 from netdesign.outcome import Outcome, SolveError
 from tests.each import each
 
@@ -135,9 +135,9 @@ def test_slack_segment_draws_net_in_from_its_neighbours():
 
 def test_unsolved_friction_is_an_error_and_no_force(monkeypatch):
     points = arc_points(3)
-    solve = response.solve_sliding
+    solve = net_pulls.solve_sliding
     monkeypatch.setattr(
-        response,
+        net_pulls,
         "solve_sliding",
         lambda *given, **named: solve(*given, **named, max_iterations=0),
     )

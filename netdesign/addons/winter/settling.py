@@ -1,6 +1,6 @@
 """Settling models delta-snow and HS2SWE: a snowpack from its daily heights.
 
-Theory: addons/winter/settling/THEORY.md. Constants of published fits.
+Theory: addons/winter/THEORY.md. Constants of published fits.
 """
 
 from __future__ import annotations
@@ -427,7 +427,7 @@ class SettlingModel(Protocol):
         """
 
 
-# The first is the default: addons/winter/settling/THEORY.md, section 3.
+# The first is the default: addons/winter/THEORY.md, section 15.
 MODELS: dict[str, SettlingModel] = {
     model.name: model for model in (DELTA_SNOW_AGEING, HS2SWE, DELTA_SNOW)
 }

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.addons.evidence.benchmark import against
-from netdesign.addons.evidence.benchmark.against import (
+from netdesign.addons.evidence.benchmark import versions
+from netdesign.addons.evidence.benchmark.versions import (
     CHANGED,
     Size,
     compare_versions,
@@ -33,8 +33,8 @@ def runs(monkeypatch):
         taken = 2.0 if python == THIS else next(others)
         return {"cpu_s": taken, "wall_s": 2.0 * taken}
 
-    monkeypatch.setattr(against, "time_figure", measure)
-    monkeypatch.setattr(against, "read_version", lambda python: f"of {python.name}")
+    monkeypatch.setattr(versions, "time_figure", measure)
+    monkeypatch.setattr(versions, "read_version", lambda python: f"of {python.name}")
     return order
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.benchmark import truth as truths
-from netdesign.addons.evidence.benchmark.truth import (
+from netdesign.addons.evidence.benchmark import fine_mesh as truths
+from netdesign.addons.evidence.benchmark.fine_mesh import (
     HALVINGS,
     Truth,
     refine_size,

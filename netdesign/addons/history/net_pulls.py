@@ -74,7 +74,7 @@ def respond(
 
     Verified by
     -----------
-    tests/addons/history/test_response.py
+    tests/addons/history/test_net_pulls.py
     """
     bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
     sliding = solve_sliding(

@@ -1,7 +1,5 @@
 from netdesign.report.blocks import write_csv
 
-TEXT = "{http://www.w3.org/2000/svg}text"
-
 
 def test_csv_keeps_every_digit_and_leaves_gaps_empty():
     content = write_csv(["a", "b"], [[0.1 + 0.2, None]])

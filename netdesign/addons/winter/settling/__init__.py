@@ -1,1 +1,0 @@
-"""Settling of snow: layers, masses and densities from daily snow heights."""
