@@ -119,7 +119,7 @@ def lay_out(tables, language="en", measures=None):
         parts.append([])
     sheets[load_plan(PARTS[0]).name_in(language)] = parts
     for plan in (one for one in _OF_ADDONS if one.name in tables):
-        fields = [one for one in plan.fields if one.is_offered]
+        fields = plan.fields
         sheets[plan.name] = [
             [one.heading_for(language) for one in fields],
             *_say_lines(fields, tables[plan.name], language),

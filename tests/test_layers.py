@@ -130,7 +130,7 @@ THIRD_PARTY = {
         "coupling.solution",  # plots itself
     ),
     "pandas": ("study.records", "study.frames"),
-    "rapidfuzz": ("site.questions",),
+    "rapidfuzz": ("site.lists.guess",),
     "click": ("cli", "commands.*", "addons.*command"),
     "rich": (
         *("edge.progress", "report.terminal", "report.console"),

@@ -82,12 +82,14 @@ def find_bar(name: str) -> Product | None:
     'GEWI 32'
     >>> find_bar("GEWI 35") is None
     True
+    >>> find_bar("R25N") is None  # its maker gives no diameter
+    True
     """
     product = find_product(name)
     if product is None or not product.family.endswith("bar"):
         return None
-    least, largest = product.values["outer_diameter"]
-    return product if largest < _ONE_SIZE * least else None
+    ends = product.values.get("outer_diameter")
+    return product if ends and ends[1] < _ONE_SIZE * ends[0] else None
 
 
 def _simplify(name: str) -> str:

@@ -4,10 +4,12 @@ import ast
 
 import pytest
 
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
+from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import normalise
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import dump, restore, say
+from tests.site.columns.fields import FIELDS as BY_TABLE
+from tests.site.columns.fields import QUANTITIES
 from tests.sources import walk_package
 
 GUARDS = ("require_positive", "require_count", "require_within", "require_one_of")
@@ -37,9 +39,7 @@ def test_every_guarded_quantity_has_a_name():
 
 
 FIELDS = [
-    *(field for plan in SHEETS for field in plan.fields),
-    *PROJECT_ITEMS,
-    *RANGE_QUANTITIES,
+    field for table in (*BY_TABLE.values(), *QUANTITIES.values()) for field in table
 ]
 
 
