@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -33,9 +32,9 @@ from netdesign.report.sections.rated import (
     list_anchor,
     rate,
 )
+from netdesign.report.sections.tested import cap_proof_load
 from netdesign.report.words import MISSING, Words, append_unit, show_member, show_text
 from netdesign.study.records import RowStudy, Study
-from netdesign.words.catalogue import round_force_up
 
 _FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
 _UPRIGHT_DEG = 90.0
@@ -223,13 +222,8 @@ def show_dips(dips_deg: Sequence[float], words: Words) -> str:
 
 def _proof_cell(line: AnchorLine, words: Words) -> Cell:
     """Load of its test; none of an anchor that fails, and no more than a tendon has."""
-    if line.rated.verdict is Verdict.FAIL or line.proof_kN is None:
-        return text_cell(MISSING)
-    limit = line.proof_limit_kN
-    load = line.proof_kN if limit is None else min(line.proof_kN, limit)
-    if load < line.proof_kN:
-        return fixed_cell(words, math.floor(load), 0)
-    return Cell(text=words.show_minimum(load), number=round_force_up(load))
+    fails = line.rated.verdict is Verdict.FAIL
+    return cap_proof_load(None if fails else line.proof_kN, line.proof_limit_kN, words)
 
 
 def _tell_tests(check: Check | None, words: Words) -> str:

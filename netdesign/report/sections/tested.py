@@ -9,12 +9,14 @@ from netdesign.checks.check import Check, SingleTest
 from netdesign.report.blocks import (
     Cell,
     Table,
+    fixed_cell,
     force_cell,
     key_columns,
     text_cell,
 )
-from netdesign.report.words import Words
+from netdesign.report.words import MISSING, Words
 from netdesign.study.records import Study
+from netdesign.words.catalogue import round_force_up
 
 _OUTCOMES = {True: "held", False: "pulled", None: "not_said"}
 
@@ -57,6 +59,7 @@ def _list_lines(study: Study, words: Words) -> Iterator[tuple[Cell, ...]]:
 def _show_single(
     checks: Sequence[Check], one: SingleTest, wanted: float | None, words: Words
 ) -> tuple[Cell, ...]:
+    limits = [x.proof_limit_kN for x in checks if x.proof_limit_kN is not None]
     return (
         text_cell(checks[0].resistance_type),
         text_cell(one.cell),
@@ -64,7 +67,7 @@ def _show_single(
         force_cell(words, one.proof_load_kN),
         text_cell(words.show_fixed(one.displacement_mm, 1)),
         text_cell(words(f"tests.{_OUTCOMES[one.is_held]}")),
-        show_proof_load(wanted, checks, words),
+        cap_proof_load(wanted, min(limits, default=None), words),
         text_cell(words(f"tests.{_judge(one, wanted)}")),
     )
 
@@ -79,12 +82,10 @@ def _judge(one: SingleTest, wanted: float | None) -> str:
     return "yes" if one.is_held and wanted is not None else "open"
 
 
-def show_proof_load(load: float | None, pulled: Sequence[Check], words: Words) -> Cell:
-    """Load of a test [kN]; no more than the tendon allows, and what it would take."""
-    known = [one.proof_limit_kN for one in pulled if one.proof_limit_kN is not None]
-    wanted = words.show_minimum(load)
-    if load is None or not known or load <= min(known):
-        return Cell(text=wanted, number=load)
-    limit = math.floor(min(known))
-    told = words("quantities.proof_limited", limit=f"{limit}", load=wanted)
-    return Cell(text=told, number=float(limit))
+def cap_proof_load(load: float | None, limit: float | None, words: Words) -> Cell:
+    """Load of a test, rounded up [kN]; rounded down where its tendon limits it."""
+    if load is None:
+        return text_cell(MISSING)
+    if limit is not None and load > limit:
+        return fixed_cell(words, math.floor(limit), 0)
+    return Cell(text=words.show_minimum(load), number=round_force_up(load))
