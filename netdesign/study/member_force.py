@@ -196,7 +196,7 @@ def _find_end_force(
     """
     rope = forces.largest.get(ROPE_OF[member])
     is_endless = forces.row.row_end is None and member in tuple(EndMember)
-    if is_endless or rope is None or forces.effects.end_lack is not None:
+    if is_endless or rope is None or forces.effects.open_end is not None:
         return None
     symbol = "T_b" if member in _ROPES else "T_r"
     leaves = [*_list_support_leaves(forces.row, width, member), solve_for(rope, symbol)]

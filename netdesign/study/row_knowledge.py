@@ -182,8 +182,8 @@ def know_cases(cases: RowCases) -> RowForces:
         tilt=find_tilt(
             row, (result.case.inclination for result in results if result.is_converged)
         ),
-        gap=task.solved.gap,
-        panel_gap=_find_failed_panel(row, results),
+        open_cases=task.solved.gap,
+        open_panel=_find_failed_panel(row, results),
     )
 
 

@@ -51,14 +51,14 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
         *_place_second(forces, of_supports),
         *_judge_at(variants, at_end, (*parts, *held)),
     ]
-    gap = find_open(row, judged)
+    open_cases = find_open(row, judged)
     turned: dict[str, list[MemberCheck]] = {
         width.position: _judge_directions(
-            variants, row.resistances_at(width.position), width, gap
+            variants, row.resistances_at(width.position), width, open_cases
         )
         for width in effects.supports
     }
-    of_end = _judge_directions(variants, held, at_end, gap)
+    of_end = _judge_directions(variants, held, at_end, open_cases)
     return [*judged, *_place_second(forces, turned), *of_end]
 
 
@@ -205,7 +205,7 @@ def _judge_directions(
     variants: Sequence[RowForces],
     resistances: Iterable[Resistance],
     width: LoadedWidth,
-    gap: Message | None,
+    open_cases: Message | None,
 ) -> list[MemberCheck]:
     """Checks of the angles of rope anchors of one support, and of blocks that hold."""
     members = []
@@ -215,7 +215,7 @@ def _judge_directions(
             def judge(
                 forces: RowForces, resistance: Resistance = resistance
             ) -> MemberCheck:
-                return _judge_direction(forces, resistance, width, gap)
+                return _judge_direction(forces, resistance, width, open_cases)
 
             apart = list_apart(variants, resistance.member, width)
             judged = [(judge(forces), forces) for forces in apart]
@@ -227,11 +227,14 @@ def _judge_directions(
 
 
 def _judge_direction(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth, gap: Message | None
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    open_cases: Message | None,
 ) -> MemberCheck:
     """Check of a rope anchor's angle; beyond what it turns by, of its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
-    check = check_direction(pull, forces.standard, gap) if pull else None
+    check = check_direction(pull, forces.standard, open_cases) if pull else None
     if check is None:
         return judge_member(forces, resistance, width)
     check = replace(
