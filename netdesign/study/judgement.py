@@ -9,7 +9,7 @@ from netdesign.checks import Check, Open, OpenKind, Standard, check_member
 from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
 from netdesign.checks.comparison import find_missing_force, find_proof_factor
 from netdesign.checks.schema import BY_REPORT
-from netdesign.outcome import ModelError, Verdict
+from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
@@ -109,9 +109,16 @@ class MemberCheck:
 
 
 def judge_member(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    *,
+    is_size: bool = False,
 ) -> MemberCheck:
-    """Check of a member of one support, on one variant of the row."""
+    """Check of a member of one support, on one variant of the row.
+
+    With ``is_size`` its numbers and verdict alone: its steps begin at E_k.
+    """
     open_force = _find_open_force(forces, resistance, width)
     if open_force:  # whatever else is missing
         points = [Open(kind=OpenKind.UNSOLVED, message=open_force)]
@@ -121,7 +128,7 @@ def judge_member(
         return MemberCheck(
             forces=forces, resistance=resistance, width=width, check=check
         )
-    force = find_force(forces, resistance, width)
+    force = find_force(forces, resistance, width, is_size=is_size)
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, points = _resist_and_ask(forces, resistance, width, force)
     check = judge_force(forces, resistance, force, width, points)
@@ -161,60 +168,6 @@ def _resist_and_ask(
     if open_lasting:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=open_lasting))
     return resistance, points
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rating:
-    """What decides how grave a member's check is, before its calculation is made.
-
-    Attributes
-    ----------
-    group : tuple
-        What is open of it: of two checks with the same that of the larger use is the
-        graver one.
-    low, high : float
-        Force over resistance, ends of its band [kN/N]; over 1 without a resistance.
-    """
-
-    group: tuple[object, ...]
-    low: float
-    high: float
-
-
-def rate_member(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> Rating | None:
-    """Rating of a member's check; None where only the check itself tells it."""
-    if _find_open_force(forces, resistance, width):
-        return Rating(group=(), low=0.0, high=0.0)
-    try:
-        force = find_force(forces, resistance, width, is_size=True)
-    except ModelError:  # outside the range of an operation
-        return None
-    if force is None:
-        return None
-    lasting, points = _resist_and_ask(forces, resistance, width, force)
-    least, most = _find_resistance_ends(lasting, force)
-    action, short = force.action, find_short_post(lasting, forces)
-    if action.low is None or action.high is None:
-        return None
-    lack = lasting.lack.key if lasting.lack else ""
-    kinds = [(point.kind, point.message.key) for point in points]
-    is_known = (lasting.value is None, lasting.open is None, lasting.best is None)
-    group = (*kinds, lack, short is None, *is_known, action.low > 0.0)
-    return Rating(group=group, low=action.low / most, high=action.high / least)
-
-
-def _find_resistance_ends(
-    resistance: Resistance, force: MemberForce
-) -> tuple[float, float]:
-    """Least and largest resistance to a force, [N] or of any unit; 1 where unknown."""
-    pressing = force.on.pressing
-    if isinstance(resistance.dimensions, float) and pressing is not None:
-        friction = resistance.dimensions * (pressing.value or 0.0)
-        return friction or 1.0, friction or 1.0
-    least = resistance.value or 1.0
-    return least, max(least, resistance.best or 0.0)
 
 
 def _list_open(

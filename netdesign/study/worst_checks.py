@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.checks import Check
 from netdesign.outcome import Verdict
@@ -20,10 +20,8 @@ from netdesign.study.judgement import (
     AT_SUPPORT,
     WORSE,
     MemberCheck,
-    Rating,
     find_open,
     judge_member,
-    rate_member,
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
 from netdesign.study.pulls import check_direction, find_pull
@@ -120,35 +118,25 @@ def _judge_worst(
 ) -> MemberCheck:
     """Check of a member where it is worst; ``find`` its resistance on a variant."""
 
-    def judge(forces: RowForces) -> MemberCheck:
-        return judge_member(forces, find(forces, resistance, width), width)
+    def judge(forces: RowForces, *, is_size: bool = False) -> MemberCheck:
+        used = find(forces, resistance, width)
+        return judge_member(forces, used, width, is_size=is_size)
 
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
         return replace(judge(apart[0]), again=judge)
-    groups: dict[object, _Group] = {}
-    for forces in apart:
-        rating = rate_member(forces, find(forces, resistance, width), width)
-        key = rating.group if rating else id(forces)
-        alone = _Group(forces=forces, best=forces, rating=rating)
-        groups[key] = groups[key].add(alone) if key in groups else alone
-    judged = [
-        (group.ease(judge(group.forces)), group.best) for group in groups.values()
-    ]
-    return _compare(judged, judge)
+    return _compare([judge(forces, is_size=True) for forces in apart], judge)
 
 
-def _compare(
-    judged: Sequence[tuple[MemberCheck, RowForces]], judge: _Judge
-) -> MemberCheck:
-    """Worst of some checks, each with its best variant; eased to the best of all."""
-    worst = take_worst(member_check for member_check, _ in judged)
-    least, best = min(
-        ((_find_least(member_check.check), forces) for member_check, forces in judged),
-        key=lambda each: each[0],
+def _compare(judged: Sequence[MemberCheck], judge: _Judge) -> MemberCheck:
+    """Worst of a member's checks on several variants, eased to the best of them."""
+    best = min(judged, key=lambda each: _find_least(each.check))
+    worst = judge(take_worst(judged).forces)
+    check = replace(
+        worst.check.ease(_find_least(best.check)),
+        assumed=describe_variant(worst.forces.row),
     )
-    check = replace(worst.check.ease(least), assumed=describe_variant(worst.forces.row))
-    return replace(worst, check=check, best=best, again=judge)
+    return replace(worst, check=check, best=best.forces, again=judge)
 
 
 def _find_least(check: Check) -> float:
@@ -156,38 +144,6 @@ def _find_least(check: Check) -> float:
     if check.is_unbounded:
         return math.inf
     return check.utilisation_band[0] or 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Group:
-    """Variants of which the same is open in a check: the most and the least used one.
-
-    ``low`` is the least force over resistance of any of them.
-    """
-
-    forces: RowForces
-    best: RowForces
-    rating: Rating | None
-    low: float = math.inf
-
-    def add(self, other: _Group) -> _Group:
-        """The group with another variant."""
-        if self.rating is None or other.rating is None:
-            return self
-        most = max(
-            self, other, key=lambda each: each.rating.high if each.rating else 0.0
-        )
-        low = min(self.low, self.rating.low)
-        best = other.forces if other.rating.low < low else self.best
-        return replace(most, best=best, low=min(low, other.rating.low))
-
-    def ease(self, judged: MemberCheck) -> MemberCheck:
-        """Check of the most used variant, with the utilisation on the least used."""
-        low = judged.check.utilisation_band[0]
-        if low is None or self.rating is None or not self.rating.low:
-            return judged
-        least = low * min(self.low / self.rating.low, 1.0)
-        return replace(judged, check=judged.check.ease(least))
 
 
 def take_worst(judged: Iterable[MemberCheck]) -> MemberCheck:
@@ -218,9 +174,9 @@ def _judge_directions(
                 return _judge_direction(forces, resistance, width, open_cases)
 
             apart = list_apart(variants, resistance.member, width)
-            judged = [(judge(forces), forces) for forces in apart]
+            judged = [judge(forces) for forces in apart]
             if may_bend(resistance):  # where its block does not hold, it bends
-                judged = [x for x in judged if x[0].check.verdict is Verdict.PASS]
+                judged = [x for x in judged if x.check.verdict is Verdict.PASS]
             if judged:
                 members.append(_compare(judged, judge))
     return members
