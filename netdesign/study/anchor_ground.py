@@ -30,11 +30,11 @@ from netdesign.structure.row_position import (
     find_least_distance,
     measure_distance,
 )
+from netdesign.study.anchor_pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member

@@ -32,12 +32,12 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.anchor_pulls import GUY_ANCHORS, may_share
 from netdesign.study.case_records import (
     FloorRecord,
     HeldSidewaysRecord,
     LargestForce,
 )
-from netdesign.study.pulls import GUY_ANCHORS, may_share
 from netdesign.study.row_forces import MemberForce as MemberForce
 from netdesign.study.row_forces import RowForces as RowForces
 from netdesign.study.row_forces import high_of

@@ -41,8 +41,8 @@ from netdesign.study.guideline_load import (
     list_corners,
     load_glide_limits,
 )
+from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 

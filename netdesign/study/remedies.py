@@ -29,9 +29,9 @@ from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import PullRecord
-from netdesign.study.dependent import corrode, shorten_bond
-from netdesign.study.judgement import MemberCheck, find_lasting
+from netdesign.study.member_checks import MemberCheck, find_lasting
 from netdesign.study.posts import find_short_post
+from netdesign.study.row_resistances import corrode, shorten_bond
 from netdesign.study.row_to_check import Basis
 from netdesign.study.scopes import CLOSE
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known

@@ -22,7 +22,6 @@ from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
 from netdesign.study.anchor_ground import check_anchor_distance, check_cover
 from netdesign.study.best_ends import settle
-from netdesign.study.dependent import CONNECTION
 from netdesign.study.guideline_load import (
     check_ends,
     find_altitude_factor,
@@ -30,13 +29,14 @@ from netdesign.study.guideline_load import (
     find_row_glide_factor,
     list_corners,
 )
-from netdesign.study.judgement import (
+from netdesign.study.member_checks import (
     WORSE,
     MemberCheck,
     find_open,
 )
 from netdesign.study.member_force import RowForces
 from netdesign.study.remedies import list_remedies
+from netdesign.study.row_resistances import CONNECTION
 from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.study.worst_checks import judge_members

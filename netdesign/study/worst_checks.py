@@ -15,8 +15,8 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import Resistance
 from netdesign.structure.members import CONNECTED, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.dependent import connect, may_bend
-from netdesign.study.judgement import (
+from netdesign.study.anchor_pulls import check_direction, find_pull
+from netdesign.study.member_checks import (
     AT_SUPPORT,
     WORSE,
     MemberCheck,
@@ -24,7 +24,7 @@ from netdesign.study.judgement import (
     judge_member,
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
-from netdesign.study.pulls import check_direction, find_pull
+from netdesign.study.row_resistances import connect, may_bend
 from netdesign.study.row_to_check import describe_variant
 from netdesign.words.message import Message
 

@@ -19,14 +19,12 @@ from netdesign.structure.members import (
     NetPart,
 )
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.case_records import PullRecord
-from netdesign.study.dependent import (
-    corrode,
-    find_resistance_for_force,
-    resist,
-    settle_basis,
-    shorten_bond,
+from netdesign.study.anchor_pulls import (
+    find_open_dip,
+    find_pull,
 )
+from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import ask_end_guy
 from netdesign.study.member_force import (
     PUSHED,
     MemberForce,
@@ -34,12 +32,14 @@ from netdesign.study.member_force import (
     find_force,
 )
 from netdesign.study.posts import ask_efficiency, find_short_post
-from netdesign.study.pulls import (
-    find_open_dip,
-    find_pull,
+from netdesign.study.row_resistances import (
+    corrode,
+    find_resistance_for_force,
+    resist,
+    settle_basis,
+    shorten_bond,
 )
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import ask_end_guy
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 

@@ -35,8 +35,8 @@ from netdesign.structure.row_position import (
 )
 from netdesign.structure.splay import Guys
 from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
