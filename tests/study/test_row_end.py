@@ -13,6 +13,7 @@ from netdesign.checks.forces import place_end_support, pull_at_end
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study import load_along_row
 from netdesign.study.guideline_load import find_effects, find_row_floor
 from netdesign.study.load_along_row import find_rope_factors
 from netdesign.study.row_to_check import CaseSolver
