@@ -18,7 +18,7 @@ from netdesign.structure.members import (
     NET_MODES,
 )
 from netdesign.structure.splay import Guys
-from netdesign.study.pulls import ANCHORS
+from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.message import say
 from netdesign.words.names import as_given

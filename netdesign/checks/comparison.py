@@ -179,10 +179,12 @@ def compare(
     )
 
 
-def leave_open(mode: str, kind: OpenKind, *lacks: Message, member: str = _NET) -> Check:
+def leave_open(
+    mode: str, kind: OpenKind, *reasons: Message, member: str = _NET
+) -> Check:
     """Check of which something is missing, so that nothing is compared."""
     return compare(mode, Verdict.NOT_PROVEN, None, member=member).with_open(
-        kind, *lacks
+        kind, *reasons
     )
 
 

@@ -102,8 +102,8 @@ def check_inclination(low: float, high: float, standard: Standard) -> Check:
     """
     least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
     if least is None or most is None:
-        lack = say("geometry.no_inclination_limits")
-        return leave_open("inclination", OpenKind.RESISTANCE_MISSING, lack)
+        reason = say("geometry.no_inclination_limits")
+        return leave_open("inclination", OpenKind.RESISTANCE_MISSING, reason)
     verdict = judge(low, high, least=least.value_si, most=most.value_si)
     reason = say(
         _INCLINATIONS[verdict],
@@ -129,8 +129,8 @@ def check_slope(slope_angle: float, standard: Standard) -> Check:
     most = standard.find(MOST_PLAUSIBLE_SLOPE)
     plausible = _judge_slope(slope_angle, least, most)
     if least is None or most is None or plausible is None:
-        lack = say("geometry.no_plausible_slope")
-        return leave_open("slope", OpenKind.RESISTANCE_MISSING, lack)
+        reason = say("geometry.no_plausible_slope")
+        return leave_open("slope", OpenKind.RESISTANCE_MISSING, reason)
     if plausible.verdict is Verdict.PASS:
         return limits or plausible
     number = degree_from_radian(slope_angle)
@@ -241,8 +241,8 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
     if length <= proven:
         return check
     capped = say("geometry.spacing_capped", length=length, most=proven)
-    lack = capped if cap else say("geometry.no_cap")
-    return check.with_open(OpenKind.UNSOLVED, lack)
+    reason = capped if cap else say("geometry.no_cap")
+    return check.with_open(OpenKind.UNSOLVED, reason)
 
 
 def check_gap(gap: float, standard: Standard) -> Check | None:

@@ -61,14 +61,15 @@ def check(site_file: Path | None, **asked: Any) -> None:
     if asked["floor"]:
         profiles = [one.overrule_floor(asked["floor"]) for one in profiles]
     _describe_other_profile(asked["standards"], site)
+    if asked["dry_run"]:
+        announce(site, as_json=asked["as_json"])
+        return
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
         jobs=asked["jobs"] or os.cpu_count() or 1,
         started=format_time(),
         has_reliability=asked["reliability"],
     )
-    if asked["dry_run"]:
-        sys.exit(announce(site, run, len(profiles), as_json=asked["as_json"]))
     if not asked["quiet"]:
         for question in site.questions:
             tell(say("cli.question", text=question), err=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -16,7 +15,7 @@ from netdesign.commands.running import (
     open_run,
     print_document,
     print_faults,
-    print_next_steps,
+    print_next_step,
     report_places,
 )
 from netdesign.commands.usage import speak, tell
@@ -32,7 +31,7 @@ from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
-    from netdesign.edge.progress import Phase, RunProgress
+    from netdesign.edge.progress import RunProgress
     from netdesign.report.files import ReportStyle
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
@@ -101,11 +100,11 @@ def carry_out(
         return failed or find_exit_code(studies, asked["scopes"])
     _print_sizes(sized, studies)
     report_places(files, asked)
-    if not asked["quiet"]:
+    if not asked["quiet"] and not is_sized:
         verdicts = frozenset(
             row.find_verdict(asked["scopes"]) for study in studies for row in study.rows
         )
-        print_next_steps(verdicts, site_name, is_sized=is_sized)
+        print_next_step(verdicts, site_name)
     return failed or find_exit_code(studies, asked["scopes"])
 
 
@@ -308,62 +307,27 @@ def _check_and_size(
     return studies, sized
 
 
-_TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
+def announce(site: Site, *, as_json: bool) -> None:
+    """Print what would be checked, and what is lacking or asked."""
+    from netdesign.study.cases import count_cases
 
-
-def announce(site: Site, run: CheckRun, profiles: int, *, as_json: bool) -> int:
-    """Print net rows, solves of every phase and the predicted time; the exit code."""
-    from netdesign.solving.runner import Runner
-    from netdesign.study.cases import list_phases
-
-    runner, phases = Runner(), list_phases(site, run, profiles)
-    of_case = _measure_case(site, run, runner)
-    seconds = sum(one.cases * one.cost * of_case + one.seconds for one in phases)
+    rows, cases, missing = len(site.rows), count_cases(site), _list_missing(site)
     if as_json:
         plan = {
-            "schema": "netdesign.plan/1",
-            "net_rows": len(site.rows),
-            "cases": phases[0].cases,  # about
-            "further_solves": _count_further(phases),  # about
-            "jobs": run.jobs,
-            "predicted_s": seconds,
-            "phases": [
-                {
-                    "phase": one.key,
-                    "does": render(one.words, speak()),
-                    "cases": one.cases,
-                    "cases_most": one.most,
-                }
-                for one in phases
-            ],
-            "missing": [render(one, speak()) for one in _list_missing(site)],
-            "notes": [render(one, speak()) for one in site.notes],
-            "questions": [render(one, speak()) for one in site.questions],
+            "schema": "netdesign.plan/2",
+            "net_rows": rows,
+            "cases": cases,  # about
+            "missing": [render(text, speak()) for text in missing],
+            "notes": [render(note, speak()) for note in site.notes],
+            "questions": [render(question, speak()) for question in site.questions],
         }
         print_document(plan)
-    else:
-        _show(site, run, phases, seconds)
-    return print_faults(runner.faults)
-
-
-def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) -> None:
-    summary = say(
-        "plan.summary",
-        file=site.file_name,
-        rows=len(site.rows),
-        cases=phases[0].cases,
-        further=_count_further(phases),
-        seconds=max(seconds, 1.0),
-        jobs=run.jobs,
-    )
-    tell(summary)
-    for phase in phases:
-        if phase.cases:
-            tell(_name_phase(phase))
+        return
+    tell(say("plan.summary", file=site.file_name, rows=rows, cases=cases))
     for note in site.notes:
         tell(say("cli.note", text=note))
-    for missing in _list_missing(site):
-        tell(missing)
+    for text in missing:
+        tell(text)
     for question in site.questions:
         tell(say("cli.question", text=question))
 
@@ -378,31 +342,3 @@ def _list_missing(site: Site) -> list[Message]:
         say("plan.missing", rows=tuple(rows), names=names)
         for names, rows in by_lack.items()
     ]
-
-
-def _name_phase(phase: Phase) -> Message:
-    if phase.most <= phase.cases:
-        return say("plan.phase", cases=phase.cases, phase=phase.words)
-    return say("plan.phase_most", cases=phase.cases, most=phase.most, phase=phase.words)
-
-
-def _count_further(phases: Sequence[Phase]) -> int:
-    """Solves beside the cases of the envelope."""
-    return sum(phase.cases for phase in phases[1:])
-
-
-def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
-    """Seconds of one case on this machine: the middle of the ranges, for some rows."""
-    from netdesign.envelope.ranges import Case
-    from netdesign.envelope.run import run_cases
-    from netdesign.study.row_to_check import build_row_task
-
-    spans = site.ranges.intervals
-    case = Case.of({name: (span.low + span.high) / 2 for name, span in spans})
-    rows = site.rows[:: max(1, len(site.rows) // _TIMED_ROWS)]
-    tasks = [build_row_task(row, case, run.creep_law, run.settings) for row in rows]
-    # the first solve also loads what the solver needs, which happens only once
-    run_cases(tasks[:1], runner)
-    start = time.perf_counter()
-    run_cases(tasks, runner)
-    return (time.perf_counter() - start) / len(rows)

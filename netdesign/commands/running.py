@@ -230,23 +230,12 @@ def _name_case(rows: tuple[str, ...], case: str) -> Message:
     return say(key, rows=rows, case=case)
 
 
-def print_next_steps(verdicts: Set[Verdict], site: str, *, is_sized: bool) -> None:
-    """Tell what to do about rows that do not pass; nothing where all do.
+def print_next_step(verdicts: Set[Verdict], site: str) -> None:
+    """Tell how smaller or stronger types are found, where a row fails.
 
     ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
     line.
     """
-    for message in list_next_steps(verdicts, site, is_sized=is_sized):
-        tell(message, err=True)
-
-
-def list_next_steps(
-    verdicts: Set[Verdict], site: str, *, is_sized: bool
-) -> list[Message]:
-    """Sentences for rows of these verdicts."""
-    fails, is_open = Verdict.FAIL in verdicts, Verdict.NOT_PROVEN in verdicts
-    if not (fails or is_open):
-        return []
-    size = shlex.join(["netdesign", "check", site, "--size"])
-    sized = [say("next.size", command=size)] if fails and not is_sized else []
-    return [say("next.inputs"), *sized, say("next.again")]
+    if Verdict.FAIL in verdicts:
+        size = shlex.join(["netdesign", "check", site, "--size"])
+        tell(say("next.size", command=size), err=True)

@@ -39,8 +39,8 @@ class Phase:
         Its name, for programs.
     words : Message
         Its name, for people.
-    cases, most : int
-        About so many solves; ``most`` has room for the largest number seen.
+    cases : int
+        About so many solves.
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
@@ -52,7 +52,6 @@ class Phase:
     key: str
     words: Message | str
     cases: int
-    most: int = 0
     cost: float = 1.0
     pieces: int = 0
     seconds: float = 0.0

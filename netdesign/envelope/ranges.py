@@ -292,7 +292,7 @@ NO_RANGES = Ranges(intervals=())
 class Case:
     """One point of the ranges. SI units; angles in radians.
 
-    ``others`` names further quantities that range, as in ``parameters.PARAMETERS``.
+    ``others`` names further quantities that range, as in ``PARAMETERS``.
     """
 
     density: float

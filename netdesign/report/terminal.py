@@ -16,8 +16,10 @@ from netdesign.report.sections.basis import (
     describe_cases,
     describe_floor,
     has_other_floor,
+    list_conditions,
     list_notes,
     name_cases,
+    show_line,
 )
 from netdesign.report.sections.checks import (
     describe_briefly,
@@ -26,7 +28,6 @@ from netdesign.report.sections.checks import (
     name_case,
 )
 from netdesign.report.sections.decision import show_structure
-from netdesign.report.sections.open_points import list_conditions, show_line
 from netdesign.report.sections.rated import ANCHORS, find_shown, list_anchor, rate
 from netdesign.report.sections.scopes import describe_study_scopes, list_exceeding
 from netdesign.report.what_if import mark_verdict, title_pages

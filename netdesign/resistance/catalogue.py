@@ -268,7 +268,7 @@ def load_products() -> dict[str, Any]:
 
 
 def join(name: str, family: str, fitting: list[Product]) -> Product:
-    """All that a name may mean: what each of them has, with its least and largest."""
+    """Product of all that a name may mean: least and largest of shared values."""
     shared = set.intersection(*(set(product.values) for product in fitting))
     recalled = set().union(*(product.assumed for product in fitting))
     spans = {

@@ -397,7 +397,7 @@ BENDING = ("bar", "micropile")  # kinds of anchors that bend; others turn to the
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorType:
-    """What an anchor is, beside its resistances along its axis.
+    """Steel, grout and ground of an anchor, beside its resistances along its axis.
 
     Attributes
     ----------
@@ -409,7 +409,7 @@ class AnchorType:
     lever : float or None
         Free length over which it bends [m]; None where none is given.
     is_lever_assumed : bool
-        Nobody gives that length: any shorter one is better.
+        No input gives that length: any shorter one is better.
     ground_lever : float
         Lever that the ground's yielding adds to it, e_0 of (R9a) [m].
     has_tube : bool

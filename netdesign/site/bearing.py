@@ -30,7 +30,7 @@ class Resistance(GivenResistance):
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
     # told where what is assumed decides: between value and best, or without a best
-    doubt: Message | None = None
+    open: Message | None = None
     bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
     may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve

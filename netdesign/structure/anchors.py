@@ -354,7 +354,7 @@ def compute_forces_of_layouts(
     head_pull_per_m: Vector[Floats],
     post_spacing: float,
 ) -> tuple[dict[str, Floats], Mask]:
-    """The same of several supports, each under all of the pulls.
+    """Member forces of several supports, each under all of the pulls.
 
     Parameters
     ----------

@@ -304,7 +304,7 @@ class _Pair(Generic[Number]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeldHead(MemberSizes[Number]):
-    """The same with what they follow from; of use only where the head is held.
+    """Member forces at a head, and what they follow from; valid where it is held.
 
     Attributes
     ----------

@@ -30,11 +30,11 @@ from netdesign.structure.row_position import (
     find_least_distance,
     measure_distance,
 )
+from netdesign.study.anchor_pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
@@ -42,7 +42,9 @@ from netdesign.words.names import name_member
 _POSTS = 3  # beside each other: whatever comes near does so among them
 
 
-def check_anchor_distance(forces: RowForces, gap: Message | None) -> Check | None:
+def check_anchor_distance(
+    forces: RowForces, open_cases: Message | None
+) -> Check | None:
     """Check how near the anchors of a row come to each other in the ground.
 
     Nearer than the profile says is not proven: a test of the group may show it. None
@@ -53,8 +55,8 @@ def check_anchor_distance(forces: RowForces, gap: Message | None) -> Check | Non
     if not pulls:
         return None
     if limit is None:
-        lack = say("check.no_limit", limit=ANCHOR_DISTANCE)
-        return leave_open("anchors", OpenKind.RESISTANCE_MISSING, lack)
+        reason = say("check.no_limit", limit=ANCHOR_DISTANCE)
+        return leave_open("anchors", OpenKind.RESISTANCE_MISSING, reason)
     ends = ranges["inclination"]
     places = [place_row(row, inclination) for inclination in (ends.low, ends.high)]
     pairs = (
@@ -67,10 +69,10 @@ def check_anchor_distance(forces: RowForces, gap: Message | None) -> Check | Non
     is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
     reason = say(key, least=least, limit=limit.value, anchors=anchors)
-    if gap is None and is_apart:
+    if open_cases is None and is_apart:
         return compare("anchors", Verdict.PASS, reason, limit)
     near = compare("anchors", Verdict.NOT_PROVEN, None, limit)
-    return near.with_open(OpenKind.UNSOLVED, gap or reason)
+    return near.with_open(OpenKind.UNSOLVED, open_cases or reason)
 
 
 def _list_sharings(row: NetRow) -> list[NetRow]:
@@ -140,7 +142,7 @@ def place_end_anchors(
             yield member, Bore(start=start, direction=pull.way, length=length)
 
 
-def check_cover(forces: RowForces, gap: Message | None) -> Check | None:
+def check_cover(forces: RowForces, open_cases: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
     What nobody gives is a condition, `study/conditions.py`. None where the profile
@@ -152,14 +154,14 @@ def check_cover(forces: RowForces, gap: Message | None) -> Check | None:
     bonds = list_bonds(row, pulls)
     if not any(bond.is_checked for bond in bonds):
         return None
-    short = next((lack for bond in bonds for lack in bond.list_short()), None)
+    short = next((text for bond in bonds for text in bond.list_short()), None)
     if short is not None:
         return compare("cover", Verdict.FAIL, short)
     asked = next(filter(None, (bond.ask_edge() for bond in bonds)), None)
     if asked is not None:
         return leave_open("cover", OpenKind.VALUE_ASKED, asked)
-    if gap is not None:
-        return leave_open("cover", OpenKind.UNSOLVED, gap)
+    if open_cases is not None:
+        return leave_open("cover", OpenKind.UNSOLVED, open_cases)
     return compare("cover", Verdict.PASS, say("bores.covered"))
 
 

@@ -22,15 +22,19 @@ from netdesign.outcome import Verdict
 from netdesign.site.assumed import Assumed
 from netdesign.site.model import NetRow
 from netdesign.structure.members import ROPE_OF
-from netdesign.study.judgement import MemberCheck
+from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
-from netdesign.study.row_knowledge import know_alone, know_least, take_off_truss
 from netdesign.study.row_to_check import (
     RowToCheck,
     list_layouts,
     place_variant,
     read_values,
+)
+from netdesign.study.row_variants import (
+    find_forces_alone,
+    find_least_forces,
+    take_off_truss,
 )
 from netdesign.study.scopes import is_of_structure
 from netdesign.words.message import Message, say
@@ -40,7 +44,7 @@ SEARCHED = ("slack", "net_stiffness", "glide_factor")
 _SAGS = ("ridge_sag", "lower_sag")
 _PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a check
 _PARTS = 8  # of a range, among which is the value from which on a check passes
-_Know = Callable[[RowToCheck, NetRow, RowEnvelope], RowForces]
+_FindForces = Callable[[RowToCheck, NetRow, RowEnvelope], RowForces]
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
 
 
@@ -192,20 +196,22 @@ class _BestEnds:
         """
         row = (member_check.best or member_check.forces).row
         if not self.searched:
-            return _find_low(self._judge(member_check, self._know_panels(row)))
+            return _find_low(self._judge(member_check, self._find_best_panels(row)))
         names = [each.key for each in self.searched]
         corners = product(*((each.low, each.high) for each in self.searched))
         at = (dict(zip(names, corner, strict=True)) for corner in corners)
-        at_corners = (self._know_at(row, member_check, x, know_least) for x in at)
+        at_corners = (
+            self._find_at(row, member_check, x, find_least_forces) for x in at
+        )
         return min(_find_low(self._judge(member_check, x)) for x in at_corners)
 
-    def _know_panels(self, row: NetRow) -> RowForces | None:
+    def _find_best_panels(self, row: NetRow) -> RowForces | None:
         """Knowledge of a corner by all cases, with the best of its assumed panels."""
-        key = (_name(row), know_least.__name__)
+        key = (_name(row), find_least_forces.__name__)
         if key not in self.forces_at:
             place = list_layouts(self.task.row).index(row.layout)
             solved = self.task.solved.at_layout(place)
-            self.forces_at[key] = know_least(self.task, row, solved)
+            self.forces_at[key] = find_least_forces(self.task, row, solved)
         return self.forces_at[key]
 
     def _judge(
@@ -283,7 +289,7 @@ class _BestEnds:
         if key == "guy_count" or member_check.force is None:
             return math.inf
         here, there = (
-            _rate(self._judge(member_check, self._know_alone(at, member_check.force)))
+            _rate(self._judge(member_check, self._find_alone(at, member_check.force)))
             for at in (member_check.forces.row, row)
         )
         return _scale(member_check.check, here, there)
@@ -320,12 +326,12 @@ class _BestEnds:
         row = member_check.forces.row
         at = {key: worst + share * (other - worst)}
         rated = (
-            _rate(self._judge(member_check, self._know_at(row, member_check, values)))
+            _rate(self._judge(member_check, self._find_at(row, member_check, values)))
             for values in ({key: worst}, at)
         )
         return _scale(member_check.check, *rated)
 
-    def _know_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
+    def _find_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
         """Knowledge of a variant of the row, by the case that governs a force alone."""
         task, point = self.task, force.largest.case
         key = (_name(row), point)
@@ -333,15 +339,15 @@ class _BestEnds:
             results = task.solved.results
             result = next(x for x in results if record_point(x.case) == point)
             solved = _wrap(task.solved, result).on_layout(row.layout)
-            self.forces_at[key] = know_alone(task, row, solved)
+            self.forces_at[key] = find_forces_alone(task, row, solved)
         return self.forces_at[key]
 
-    def _know_at(
+    def _find_at(
         self,
         row: NetRow,
         member_check: MemberCheck,
         values: Mapping[str, float],
-        know: _Know = know_alone,
+        find: _FindForces = find_forces_alone,
     ) -> RowForces | None:
         """Knowledge of a variant by the governing case of a check, at other values."""
         task = self.task
@@ -350,13 +356,13 @@ class _BestEnds:
         case = read_point(member_check.check.case)
         for name, value in values.items():
             case = case.with_value(name, value)
-        key = (_name(row), case, know.__name__)
+        key = (_name(row), case, find.__name__)
         if key not in self.forces_at:
-            self.forces_at[key] = self._know_case(row, case, values, know)
+            self.forces_at[key] = self._find_in_case(row, case, values, find)
         return self.forces_at[key]
 
-    def _know_case(
-        self, row: NetRow, case: Case, values: Mapping[str, float], know: _Know
+    def _find_in_case(
+        self, row: NetRow, case: Case, values: Mapping[str, float], find: _FindForces
     ) -> RowForces | None:
         task = self.task
         if task.solver is None:
@@ -373,7 +379,7 @@ class _BestEnds:
         at = replace(task, site=replace(task.site, ranges=ranges))
         solved = _wrap(task.solved, result)
         place = list_layouts(task.row).index(row.layout)
-        return know(at, row, solved.at_layout(place))
+        return find(at, row, solved.at_layout(place))
 
 
 def _name(row: NetRow) -> object:

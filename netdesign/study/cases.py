@@ -20,9 +20,9 @@ from netdesign.solving.runner import Runner
 from netdesign.study.row_to_check import CheckRun, build_scene, list_layouts
 from netdesign.words.message import Message, group_reasons, say
 
-# Solves of a row, usual and at most, as --dry-run and progress expect them. Beside the
-# envelope a row takes one for each other creep law.
-_SEARCH, _BESIDE = (55, 265), len(CREEP_LAWS) - 1
+# Solves of a row, as --dry-run and progress expect them. Beside the envelope a row
+# takes one for each other creep law.
+_SEARCH, _BESIDE = 55, len(CREEP_LAWS) - 1
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 _REPORTS_S = 1.5  # time that the reports of one profile take
 CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
@@ -38,19 +38,23 @@ def _count_row(ranges: Ranges) -> int:
     """About the number of cases of a row: its first cases, and some of its own."""
     if not ranges.axes:
         return 1
-    return max(_SEARCH[0], len(list_first_design(len(ranges.axes))) + _BEYOND_FIRST)
+    return max(_SEARCH, len(list_first_design(len(ranges.axes))) + _BEYOND_FIRST)
 
 
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
     phases = [
-        _plan_envelope(site, run),
+        Phase(
+            key="envelope",
+            words=say("phase.search_cases"),
+            cases=count_cases(site),
+            cost=1.0 / run.jobs,
+        ),
         Phase(
             key="checks",
             words=say("phase.checks"),
             cases=rows * _BESIDE,
-            most=profiles * rows * _BESIDE,
             cost=1.0 / min(run.jobs, rows),
             pieces=rows,
         ),
@@ -61,18 +65,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             seconds=_REPORTS_S * profiles,
         ),
     ]
-    return [phase for phase in phases if phase.most or phase.seconds]
-
-
-def _plan_envelope(site: Site, run: CheckRun) -> Phase:
-    """The search with its confirmations."""
-    return Phase(
-        key="envelope",
-        words=say("phase.search_cases"),
-        cases=count_cases(site),
-        most=sum(_SEARCH[1] if site.at_row(x).ranges.axes else 1 for x in site.rows),
-        cost=1.0 / run.jobs,
-    )
+    return [phase for phase in phases if phase.cases or phase.seconds]
 
 
 def search_site(

@@ -18,8 +18,8 @@ from netdesign.resistance.steel import Wear
 from netdesign.site.bearing import Resistance
 from netdesign.site.model import NetRow
 from netdesign.study.anchor_ground import list_bonds
+from netdesign.study.anchor_pulls import USUAL_DIP
 from netdesign.study.member_force import RowForces
-from netdesign.study.pulls import USUAL_DIP
 from netdesign.units import given_degree_from_radian
 from netdesign.words.message import Text, say
 

@@ -18,20 +18,20 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import weigh_splay
+from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.case_records import HeldSidewaysRecord
 from netdesign.study.guideline_load import (
     find_effects,
     find_row_floors,
     list_assumed,
 )
-from netdesign.study.member_force import RowForces, find_guideline_force
-from netdesign.study.pulls import ANCHORS
-from netdesign.study.row_to_check import list_layouts, list_variants
-from netdesign.study.sideways import (
+from netdesign.study.load_along_row import (
     find_splay,
     place_over,
     weigh_places,
 )
+from netdesign.study.member_force import RowForces, find_guideline_force
+from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 

@@ -98,14 +98,14 @@ class RowEffects:
         Share of the load along the row [-].
     missing : tuple of Message
         What the profile does not say.
-    end_lack : Message or None
+    open_end : Message or None
         Why nothing is known of the forces at an end that the row has.
     """
 
     supports: tuple[LoadedWidth, ...]
     lateral_share: float
     missing: tuple[Message, ...]
-    end_lack: Message | None = None
+    open_end: Message | None = None
 
     def find_support(self, position: str) -> LoadedWidth:
         """Support at a position; the one inside the row where it has no other."""
@@ -189,14 +189,14 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
             glide_factor=max(map(find_row_glide_factor, list_corners(row, ranges))),
         )
     lacks = [say("ends.no_end_effect")] if rule is None else []
-    end_lack = lacks[0] if lacks and row.has_end else None
+    open_end = lacks[0] if lacks and row.has_end else None
     if share is None:
         lacks.append(say("ends.no_lateral_load", value=LATERAL_SHARE))
     return RowEffects(
         supports=list_supports(spacing, edge, row.post_count),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
-        end_lack=end_lack,
+        open_end=open_end,
     )
 
 

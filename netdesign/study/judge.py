@@ -41,8 +41,8 @@ from netdesign.study.row_checks import (
     check_row,
     distrust,
 )
-from netdesign.study.row_knowledge import Variant, know_variants
 from netdesign.study.row_to_check import CaseSolver, CheckRun, RowToCheck
+from netdesign.study.row_variants import Variant, gather_variants
 from netdesign.study.scopes import find_worst, record_assumed
 
 
@@ -120,7 +120,7 @@ def judge_row(
 
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
-    row, variants = task.row, know_variants(task)
+    row, variants = task.row, gather_variants(task)
     row_checks = check_row(task, [variant.forces for variant in variants])
     worst = _find_worst_variant(row_checks, variants)
     row_checks, model_form = _ask_other_models(worst.task, row_checks)

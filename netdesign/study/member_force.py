@@ -7,6 +7,7 @@ forces, the guideline's, cells of the workbook, values of the profile.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf, strip
 from netdesign.checks import Standard
@@ -20,6 +21,7 @@ from netdesign.checks.forces import (
 )
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.result_reader import POST_PULLS
+from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
     ROPE_OF,
@@ -30,12 +32,12 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.anchor_pulls import GUY_ANCHORS, may_share
 from netdesign.study.case_records import (
     FloorRecord,
     HeldSidewaysRecord,
     LargestForce,
 )
-from netdesign.study.pulls import GUY_ANCHORS, may_share
 from netdesign.study.row_forces import MemberForce as MemberForce
 from netdesign.study.row_forces import RowForces as RowForces
 from netdesign.study.row_forces import high_of
@@ -98,7 +100,8 @@ def find_force(
 ) -> MemberForce | None:
     """Force on a member of the support of that width; None without a solved case.
 
-    With its way unless its size alone is asked for; each is calculated once.
+    It has its way, or its numbers alone where ``is_size`` asks for them; each is
+    calculated once.
 
     Raises
     ------
@@ -108,9 +111,39 @@ def find_force(
     mode = resistance.mode if resistance.mode in OWN_FORCES else ""
     key = (resistance.member, mode, width, is_size)
     if key not in forces.worked_out:
-        force = _work_out(forces, resistance, width, is_size=is_size)
+        if is_size:
+            force = _find_numbers(forces, resistance, width)
+        else:
+            force = _work_out(forces, resistance, width, is_size=False)
         forces.worked_out[key] = force
     return forces.worked_out[key]
+
+
+def _find_numbers(
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
+) -> MemberForce | None:
+    """Force on a member of which nothing is kept but what a check compares."""
+    try:
+        force = _work_out(forces, resistance, width, is_size=True)
+    except ModelError:  # outside the range of an operation: the way names it
+        force = _work_out(forces, resistance, width, is_size=False)
+    return force and replace(force, on=_take_numbers(force.on))
+
+
+def _take_numbers(on: SupportForce) -> SupportForce:
+    return SupportForce(
+        action=_begin_at("E_k", on.action),
+        coupled=_begin_at("E_c", on.coupled),
+        support=on.support,
+        pressing=on.pressing and _begin_at("N", on.pressing),
+    )
+
+
+def _begin_at(symbol: str, force: Quantity) -> Quantity:
+    """Force as a leaf [kN]; one that is missing stays itself."""
+    if force.low is None or force.high is None:
+        return force
+    return leaf(symbol, force.value, "kN", "", band=(force.low, force.high))
 
 
 def _calculate(
@@ -196,7 +229,7 @@ def _find_end_force(
     """
     rope = forces.largest.get(ROPE_OF[member])
     is_endless = forces.row.row_end is None and member in tuple(EndMember)
-    if is_endless or rope is None or forces.effects.end_lack is not None:
+    if is_endless or rope is None or forces.effects.open_end is not None:
         return None
     symbol = "T_b" if member in _ROPES else "T_r"
     leaves = [*_list_support_leaves(forces.row, width, member), solve_for(rope, symbol)]

@@ -11,8 +11,8 @@ from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member, NetPart
 from netdesign.structure.row_position import Position
+from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import is_shared
-from netdesign.study.sideways import place_row
 
 NET = "net"  # its size is an area
 _BESIDE_GUYS = (

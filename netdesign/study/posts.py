@@ -41,8 +41,8 @@ from netdesign.study.guideline_load import (
     list_corners,
     load_glide_limits,
 )
+from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -86,7 +86,7 @@ def find_plate_resistance(
     heads = [place_row(basis.row, inclination) for inclination in (span.low, span.high)]
     tilts = [(head.head[0] - head.post_base[0]) / head.head[1] for head in heads]
     if min(tilts) < 0.0:
-        return replace(resistance, doubt=say("bearing.downhill"))
+        return replace(resistance, open=say("bearing.downhill"))
     factor = find_inclination_factor(plate, max(tilts))
     derivation = say(
         "bearing.inclined",
@@ -135,17 +135,17 @@ def find_post_resistance(
     }
     if most.value is None:  # no load is left to it at the worse end
         derivation = say("post_bending.beside", **least.numbers)
-        doubt = say("post_bending.too_much_at_most", **span)
+        open_point = say("post_bending.too_much_at_most", **span)
         return replace(
-            resistance, value=least.value, derivation=derivation, doubt=doubt
+            resistance, value=least.value, derivation=derivation, open=open_point
         )
-    doubt = say("post_bending.assumed", **span)
+    open_point = say("post_bending.assumed", **span)
     return replace(
         resistance,
         value=most.value,
         best=least.value,
         derivation=derivation,
-        doubt=doubt,
+        open=open_point,
     )
 
 

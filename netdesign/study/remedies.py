@@ -29,9 +29,9 @@ from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import PullRecord
-from netdesign.study.dependent import corrode, shorten_bond
-from netdesign.study.judgement import MemberCheck, find_lasting
+from netdesign.study.member_checks import MemberCheck, find_lasting
 from netdesign.study.posts import find_short_post
+from netdesign.study.row_resistances import corrode, shorten_bond
 from netdesign.study.row_to_check import Basis
 from netdesign.study.scopes import CLOSE
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -188,8 +188,12 @@ def find_type_change(
         quantity = say("change.type_of_workbook", type=weakest.type_id)
         return _record(quantity, weakest.value, resistance, weakest.note)
     size = _find_enough_size(basis, resistance, demand)
-    _, unsure = find_lasting(basis, resistance, pull)
-    return _record(*size, resistance, _find_note(resistance, unsure)) if size else None
+    _, open_lasting = find_lasting(basis, resistance, pull)
+    return (
+        _record(*size, resistance, _find_note(resistance, open_lasting))
+        if size
+        else None
+    )
 
 
 def _find_enough_size(
@@ -202,9 +206,9 @@ def _find_enough_size(
     return find_size(resistance, needed * factor.value_si) if factor else None
 
 
-def _find_note(resistance: Resistance, unsure: Message | None) -> Message | None:
+def _find_note(resistance: Resistance, open_lasting: Message | None) -> Message | None:
     """Condition of another type; a border rope's stiffness changes its force."""
-    if unsure:
+    if open_lasting:
         return say("change.if_rest_proven")
     is_of_net = resistance.member in tuple(NetPart)
     return say("change.solve_again") if is_of_net else None
@@ -245,10 +249,10 @@ def _list_enough(
         factor = find_partial_factor(other, standard)
         if value is None or factor is None:
             continue
-        _, unsure = find_lasting(basis, other, pull)
+        _, open_lasting = find_lasting(basis, other, pull)
         design = value / factor.value_si
         if design >= demand:
-            yield _Enough(other.type_id, design, value, _find_note(other, unsure))
+            yield _Enough(other.type_id, design, value, _find_note(other, open_lasting))
 
 
 def _record(

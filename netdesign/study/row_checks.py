@@ -22,7 +22,6 @@ from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
 from netdesign.study.anchor_ground import check_anchor_distance, check_cover
 from netdesign.study.best_ends import settle
-from netdesign.study.dependent import CONNECTION
 from netdesign.study.guideline_load import (
     check_ends,
     find_altitude_factor,
@@ -30,13 +29,14 @@ from netdesign.study.guideline_load import (
     find_row_glide_factor,
     list_corners,
 )
-from netdesign.study.judgement import (
+from netdesign.study.member_checks import (
     WORSE,
     MemberCheck,
     find_open,
 )
 from netdesign.study.member_force import RowForces
 from netdesign.study.remedies import list_remedies
+from netdesign.study.row_resistances import CONNECTION
 from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.study.worst_checks import judge_members
@@ -122,9 +122,9 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
             return list(checks)
         line = _leave_structure_open("resistances", say("approval.nothing_given"))
         return _replace_structure(checks, _apply_declaration(basis, line))
-    approval, lack = basis.row.approval, _find_lack(basis.row, limits)
-    if approval is None or lack is not None:
-        return _replace_structure(checks, _leave_structure_open(MODE, lack))
+    approval, reason = basis.row.approval, _find_open_approval(basis.row, limits)
+    if approval is None or reason is not None:
+        return _replace_structure(checks, _leave_structure_open(MODE, reason))
     proof = approval.prove()
     point = Open(kind=OpenKind.PROVEN_ELSEWHERE, message=proof.describe(), proof=proof)
     line = replace(_leave_structure_open(MODE, None), open=[point])
@@ -134,16 +134,16 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
     ]
 
 
-def _find_lack(row: NetRow, limits: Check) -> Message | None:
+def _find_open_approval(row: NetRow, limits: Check) -> Message | None:
     """Reason why an approval does not hold for a row; None where it does."""
     if limits.verdict is not Verdict.PASS:
         return limits.reason
     return say("check.overtopped") if row.is_overtopped else None
 
 
-def _leave_structure_open(mode: str, lack: Message | None) -> Check:
-    lacks = () if lack is None else (lack,)
-    return leave_open(mode, OpenKind.RESISTANCE_MISSING, *lacks, member=STRUCTURE)
+def _leave_structure_open(mode: str, reason: Message | None) -> Check:
+    reasons = () if reason is None else (reason,)
+    return leave_open(mode, OpenKind.RESISTANCE_MISSING, *reasons, member=STRUCTURE)
 
 
 def _is_given(check: Check) -> bool:
@@ -204,15 +204,15 @@ def _leave_assumed_open(row: NetRow, check: Check) -> Check:
     length = row.find_assumed(_UPSLOPE)
     if check.mode != _SPACING or length is None:
         return check
-    lack = say("check.unsaid", names=(length.name,))
-    return leave_open(_SPACING, OpenKind.VALUE_ASKED, lack)
+    reason = say("check.unsaid", names=(length.name,))
+    return leave_open(_SPACING, OpenKind.VALUE_ASKED, reason)
 
 
 def _list_asked(row: NetRow, standard: Standard) -> Iterator[Check]:
     """Checks that are there only while something is asked about."""
     if standard.is_default:  # nobody has named the limit profile
-        lack = say("check.no_profile", profile=standard.id)
-        asked = leave_open("profile", OpenKind.VALUE_ASKED, lack)
+        reason = say("check.no_profile", profile=standard.id)
+        asked = leave_open("profile", OpenKind.VALUE_ASKED, reason)
         yield replace(asked, id="profile.named")
     if row.questions:
         sheet = say("sheet.Declared")
@@ -235,13 +235,13 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def _check_sideways(forces: RowForces, gap: Message | None) -> Check:
-    """Check of the load along the row; ``gap`` is that of the cases."""
+def _check_sideways(forces: RowForces, open_cases: Message | None) -> Check:
+    """Check of the load along the row; ``open_cases`` is that of the cases."""
     row, held = forces.row, forces.held
-    lack = held if isinstance(held, Message) else gap
+    reason = held if isinstance(held, Message) else open_cases
     share = forces.standard.find(LATERAL_SHARE)
-    if lack:
-        return leave_open("lateral", OpenKind.UNSOLVED, lack, member=Member.POST)
+    if reason:
+        return leave_open("lateral", OpenKind.UNSOLVED, reason, member=Member.POST)
     finding = say(
         "sideways.held",
         share=100.0 * (share.value if share else 0.0),
@@ -254,11 +254,11 @@ def _check_without_force(
     variants: Sequence[RowForces], judged: Sequence[MemberCheck]
 ) -> Iterator[Check]:
     """Checks that compare no force: load along the row, geometry; each at its worst."""
-    gap = find_open(variants[0].row, judged)
-    yield _take_gravest(_check_sideways(forces, gap) for forces in variants)
+    open_cases = find_open(variants[0].row, judged)
+    yield _take_gravest(_check_sideways(forces, open_cases) for forces in variants)
     apart = _list_anchor_places(variants)
     for check_ground in (check_anchor_distance, check_cover):
-        checks = [check_ground(forces, gap) for forces in apart]
+        checks = [check_ground(forces, open_cases) for forces in apart]
         if present := [check for check in checks if check is not None]:
             yield _take_gravest(present)
     yield from check_row_geometry(variants[0])

@@ -43,9 +43,9 @@ class RowForces(Basis):
         without a guy whose angle is given.
     pulls : tuple of PullRecord
         Directions at the anchors.
-    gap : Message or None
+    open_cases : Message or None
         Why the forces do not cover every case.
-    panel_gap : Message or None
+    open_panel : Message or None
         Why an assumed panel fails, so that a force may be larger than those known.
     """
 
@@ -56,8 +56,8 @@ class RowForces(Basis):
     tilt: float
     end_guy: EndGuyRecord | Message | None = None
     pulls: tuple[PullRecord, ...] = ()
-    gap: Message | None = None
-    panel_gap: Message | None = None
+    open_cases: Message | None = None
+    open_panel: Message | None = None
     # forces that were asked for, with their way or by their size alone
     worked_out: dict[tuple[str, str, LoadedWidth, bool], MemberForce | None] = field(
         default_factory=dict, init=False, compare=False, repr=False
@@ -74,7 +74,7 @@ class RowForces(Basis):
         return self.end_guy if isinstance(self.end_guy, EndGuyRecord) else None
 
     @property
-    def floor_gap(self) -> Message | None:
+    def open_floor(self) -> Message | None:
         """Reason why the guideline's load is not known."""
         return self.floor.reason if self.floor else None
 

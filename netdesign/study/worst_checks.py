@@ -8,25 +8,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.checks import Check
 from netdesign.outcome import Verdict
 from netdesign.site.model import Resistance
 from netdesign.structure.members import CONNECTED, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.dependent import connect, may_bend
-from netdesign.study.judgement import (
+from netdesign.study.anchor_pulls import check_direction, find_pull
+from netdesign.study.member_checks import (
     AT_SUPPORT,
     WORSE,
     MemberCheck,
-    Rating,
     find_open,
     judge_member,
-    rate_member,
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
-from netdesign.study.pulls import check_direction, find_pull
+from netdesign.study.row_resistances import connect, may_bend
 from netdesign.study.row_to_check import describe_variant
 from netdesign.words.message import Message
 
@@ -51,14 +49,14 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
         *_place_second(forces, of_supports),
         *_judge_at(variants, at_end, (*parts, *held)),
     ]
-    gap = find_open(row, judged)
+    open_cases = find_open(row, judged)
     turned: dict[str, list[MemberCheck]] = {
         width.position: _judge_directions(
-            variants, row.resistances_at(width.position), width, gap
+            variants, row.resistances_at(width.position), width, open_cases
         )
         for width in effects.supports
     }
-    of_end = _judge_directions(variants, held, at_end, gap)
+    of_end = _judge_directions(variants, held, at_end, open_cases)
     return [*judged, *_place_second(forces, turned), *of_end]
 
 
@@ -120,35 +118,25 @@ def _judge_worst(
 ) -> MemberCheck:
     """Check of a member where it is worst; ``find`` its resistance on a variant."""
 
-    def judge(forces: RowForces) -> MemberCheck:
-        return judge_member(forces, find(forces, resistance, width), width)
+    def judge(forces: RowForces, *, is_size: bool = False) -> MemberCheck:
+        used = find(forces, resistance, width)
+        return judge_member(forces, used, width, is_size=is_size)
 
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
         return replace(judge(apart[0]), again=judge)
-    groups: dict[object, _Group] = {}
-    for forces in apart:
-        rating = rate_member(forces, find(forces, resistance, width), width)
-        key = rating.group if rating else id(forces)
-        alone = _Group(forces=forces, best=forces, rating=rating)
-        groups[key] = groups[key].add(alone) if key in groups else alone
-    judged = [
-        (group.ease(judge(group.forces)), group.best) for group in groups.values()
-    ]
-    return _compare(judged, judge)
+    return _compare([judge(forces, is_size=True) for forces in apart], judge)
 
 
-def _compare(
-    judged: Sequence[tuple[MemberCheck, RowForces]], judge: _Judge
-) -> MemberCheck:
-    """Worst of some checks, each with its best variant; eased to the best of all."""
-    worst = take_worst(member_check for member_check, _ in judged)
-    least, best = min(
-        ((_find_least(member_check.check), forces) for member_check, forces in judged),
-        key=lambda each: each[0],
+def _compare(judged: Sequence[MemberCheck], judge: _Judge) -> MemberCheck:
+    """Worst of a member's checks on several variants, eased to the best of them."""
+    best = min(judged, key=lambda each: _find_least(each.check))
+    worst = judge(take_worst(judged).forces)
+    check = replace(
+        worst.check.ease(_find_least(best.check)),
+        assumed=describe_variant(worst.forces.row),
     )
-    check = replace(worst.check.ease(least), assumed=describe_variant(worst.forces.row))
-    return replace(worst, check=check, best=best, again=judge)
+    return replace(worst, check=check, best=best.forces, again=judge)
 
 
 def _find_least(check: Check) -> float:
@@ -156,38 +144,6 @@ def _find_least(check: Check) -> float:
     if check.is_unbounded:
         return math.inf
     return check.utilisation_band[0] or 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Group:
-    """Variants of which the same is open in a check: the most and the least used one.
-
-    ``low`` is the least force over resistance of any of them.
-    """
-
-    forces: RowForces
-    best: RowForces
-    rating: Rating | None
-    low: float = math.inf
-
-    def add(self, other: _Group) -> _Group:
-        """The group with another variant."""
-        if self.rating is None or other.rating is None:
-            return self
-        most = max(
-            self, other, key=lambda each: each.rating.high if each.rating else 0.0
-        )
-        low = min(self.low, self.rating.low)
-        best = other.forces if other.rating.low < low else self.best
-        return replace(most, best=best, low=min(low, other.rating.low))
-
-    def ease(self, judged: MemberCheck) -> MemberCheck:
-        """Check of the most used variant, with the utilisation on the least used."""
-        low = judged.check.utilisation_band[0]
-        if low is None or self.rating is None or not self.rating.low:
-            return judged
-        least = low * min(self.low / self.rating.low, 1.0)
-        return replace(judged, check=judged.check.ease(least))
 
 
 def take_worst(judged: Iterable[MemberCheck]) -> MemberCheck:
@@ -205,7 +161,7 @@ def _judge_directions(
     variants: Sequence[RowForces],
     resistances: Iterable[Resistance],
     width: LoadedWidth,
-    gap: Message | None,
+    open_cases: Message | None,
 ) -> list[MemberCheck]:
     """Checks of the angles of rope anchors of one support, and of blocks that hold."""
     members = []
@@ -215,23 +171,26 @@ def _judge_directions(
             def judge(
                 forces: RowForces, resistance: Resistance = resistance
             ) -> MemberCheck:
-                return _judge_direction(forces, resistance, width, gap)
+                return _judge_direction(forces, resistance, width, open_cases)
 
             apart = list_apart(variants, resistance.member, width)
-            judged = [(judge(forces), forces) for forces in apart]
+            judged = [judge(forces) for forces in apart]
             if may_bend(resistance):  # where its block does not hold, it bends
-                judged = [x for x in judged if x[0].check.verdict is Verdict.PASS]
+                judged = [x for x in judged if x.check.verdict is Verdict.PASS]
             if judged:
                 members.append(_compare(judged, judge))
     return members
 
 
 def _judge_direction(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth, gap: Message | None
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    open_cases: Message | None,
 ) -> MemberCheck:
     """Check of a rope anchor's angle; beyond what it turns by, of its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
-    check = check_direction(pull, forces.standard, gap) if pull else None
+    check = check_direction(pull, forces.standard, open_cases) if pull else None
     if check is None:
         return judge_member(forces, resistance, width)
     check = replace(

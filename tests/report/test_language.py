@@ -13,8 +13,8 @@ from netdesign.checks import load_standard
 from netdesign.report.blocks import Table
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
+from netdesign.report.sections.annexes import build_cases, build_opinions
 from netdesign.report.sections.basis import build_profile
-from netdesign.report.sections.quality import build_cases, build_opinions
 from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.words import Words, show_own, show_verdict
 from netdesign.report.workbook.excel import render_workbook

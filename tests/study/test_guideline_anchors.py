@@ -13,6 +13,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS
 from netdesign.structure.splay import Guys
+from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.document import load_study, write_document
 from netdesign.study.guideline_anchors import (
     add_coupled,
@@ -20,7 +21,6 @@ from netdesign.study.guideline_anchors import (
     list_guideline_forces,
 )
 from netdesign.study.judge import judge_site
-from netdesign.study.pulls import ANCHORS
 from netdesign.study.row_to_check import place_variant
 from tests.each import each
 from tests.grid import solve_site

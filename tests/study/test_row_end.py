@@ -13,10 +13,10 @@ from netdesign.checks.forces import place_end_support, pull_at_end
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study import sideways
+from netdesign.study import load_along_row
 from netdesign.study.guideline_load import find_effects, find_row_floor
+from netdesign.study.load_along_row import find_rope_factors
 from netdesign.study.row_to_check import CaseSolver
-from netdesign.study.sideways import find_rope_factors
 from netdesign.words.message import say
 from tests.each import each
 from tests.grid import solve_site
@@ -331,7 +331,7 @@ def test_an_end_guy_that_nothing_holds_proves_no_member_of_the_end(monkeypatch):
         reason = say("support.not_held_sideways")
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=reason)
 
-    monkeypatch.setattr(sideways, "hold_end_guy", fail)
+    monkeypatch.setattr(load_along_row, "hold_end_guy", fail)
     _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
     checks = checks_of(study)
     for name in ("post.compression", "uphill_guy.rope", "downhill_anchor.pull_out"):
@@ -341,7 +341,7 @@ def test_an_end_guy_that_nothing_holds_proves_no_member_of_the_end(monkeypatch):
 
 
 def test_a_truss_that_does_not_stand_proves_no_member_of_the_end(monkeypatch):
-    monkeypatch.setattr(sideways, "share_with_end_guy", lambda *_, **__: None)
+    monkeypatch.setattr(load_along_row, "share_with_end_guy", lambda *_, **__: None)
     _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
     assert checks_of(study)["uphill_guy.rope.end"].verdict is Verdict.NOT_PROVEN
 

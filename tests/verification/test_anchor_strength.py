@@ -16,7 +16,7 @@ from netdesign.resistance.ground import (
     compute_steel_bond,
     limit_proof_load,
 )
-from netdesign.study.dependent import shorten_bond
+from netdesign.study.row_resistances import shorten_bond
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 

@@ -31,7 +31,7 @@ FAMILIES: tuple[str, ...] = (
         "opinion.",
         "schedule.",
     ),
-    *("scope.", "todo.", "who.", "condition.", "quantities.", "diff_part."),
+    *("scope.", "todo.", "who.", "condition.", "diff_part."),
     *("decision.", "matrix.", "anchors.", "row_page.", "worked.", "tests."),
     *("assumed_range.", "rated.", "documents.", "panel_view.", "rewrite.of_"),
     *("assumed_word.", "assumed_source.", "assumed_effect."),

@@ -163,7 +163,7 @@ def _slacken(problem: _Problem) -> _Part:
 
 
 def _start_uniform(problem: _Problem) -> _Point:
-    """The same strain in all segments, the answer without friction."""
+    """Start of the iteration: equal strain in all segments, exact without friction."""
     shrunk = problem.old.sum() / problem.final.sum()
     elongations = problem.final - problem.final * shrunk
     slides = np.cumsum(problem.final - elongations - problem.old)[:-1]

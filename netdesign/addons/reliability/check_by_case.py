@@ -15,10 +15,10 @@ from netdesign.site.model import NetRow
 from netdesign.structure.members import Member, RopeForce
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects
-from netdesign.study.judgement import MemberCheck
+from netdesign.study.load_along_row import find_tilt
+from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces, find_force
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import find_tilt
 from netdesign.units import kilonewton_from_newton
 
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try

@@ -79,7 +79,7 @@ class Surface:
         return _RELIEF_SAFETY * own / abs(own - other)
 
     def reopen(self) -> Surface:
-        """The same ground by the next window: what relief hides shows in between."""
+        """Surface of the same grid by the other window: the difference shows relief."""
         return replace(self, window=5 if self.window != 5 else 3)
 
     def at(self, points: Floats) -> Ground:

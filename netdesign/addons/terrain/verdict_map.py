@@ -21,8 +21,8 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Bore, Position
 from netdesign.study.anchor_ground import place_anchors, place_end_anchors
+from netdesign.study.load_along_row import place_row
 from netdesign.study.records import RowStudy, Study
-from netdesign.study.sideways import place_row
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check, name_member

@@ -82,7 +82,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     chosen = choose_rows(site, asked["rows"])
     count = _PHASE * len(chosen.rows)
     words = say("phase.winters")
-    phase = Phase(key="winters", words=words, cases=count, most=4 * count)
+    phase = Phase(key="winters", words=words, cases=count)
     with open_phases([phase], asked) as (runner, progress):
         progress.enter("winters")
         run = _solve(chosen, station, runner, asked)

@@ -221,7 +221,7 @@ class RowDay:
 
     @property
     def is_open(self) -> bool:
-        """It waits for its solve."""
+        """The day waits for its solve."""
         return self.ending == "open"
 
     @property

@@ -35,7 +35,7 @@ from netdesign.words.message import Message, say
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeightColumns:
-    """What a command says of a station's file; all empty: columns of sheet Winter.
+    """Columns of a station's file by the options; all empty: those of sheet Winter.
 
     Attributes
     ----------

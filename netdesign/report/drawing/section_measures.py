@@ -177,7 +177,7 @@ def _draw_distances(
     for left, right in list_distances(paper):
         _draw_span(sketch, paper, ((left, y), (right, y)), board)
         at = paper.at(((left + right) / 2, y))
-        text = words.show_number("snow_thickness_m", right - left)
+        text = words.show_with_unit("snow_thickness_m", right - left)
         labels.append(write_label(text, at, _turn_down(paper), SOFT))
     return labels
 

@@ -18,6 +18,7 @@ from netdesign.report.sections.rated import Rated, show_need
 from netdesign.report.words import MISSING, Words, show_verdict
 
 _ONE, _END = 13.0, 17.0  # place of utilisation 1, and of the end of a bar
+_HAS_ROOM = 10.0  # utilisation from which no second number stands beside it
 
 
 def sign(verdict: Verdict, words: Words) -> Badge:
@@ -37,7 +38,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         shown = Piece(words.show_number("utilisation", rated.used), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
-        if rated.by_guideline is not None:
+        if rated.by_guideline is not None and rated.used < _HAS_ROOM:
             guide = words.show_number("utilisation", rated.by_guideline)
         return (first, shown, Piece(f" {guide}", "beside"), bar)
     demand = rated.check.demand_kN

@@ -1,4 +1,4 @@
-"""Basis of a report: scope, limit profile, ranges, inputs, default values, notes."""
+"""Basis of a report: scope, limit profile, inputs, notes, conditions, names of rows."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.tested import show_tests
+from netdesign.report.sections.schedule import show_tests
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -34,6 +34,7 @@ from netdesign.report.words import (
 )
 from netdesign.site.model import InputEcho
 from netdesign.study.records import ProfileRecord, RowStudy, Study
+from netdesign.study.to_do import ToDo
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -399,3 +400,26 @@ def describe_cases(study: Study, words: Words) -> str:
     cases = [case for row in study.rows for case in row.cases]
     failed = sum(case.outcome is not Outcome.CONVERGED for case in cases)
     return words("show.cases_solved", solved=len(cases) - failed, failed=failed)
+
+
+def show_line(line: ToDo, study: Study, words: Words) -> str:
+    """What is to be done, after the net rows that need it."""
+    rows = show_text(name_rows(list(line.rows), study, words))
+    return words("to_do.line", rows=rows, text=words.show(line.text))
+
+
+def list_conditions(study: Study, words: Words) -> list[str]:
+    """What has to hold beside the checks, by who sees to it and for which rows."""
+    shared: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for condition in study.conditions:
+        key = (condition.who, tuple(condition.rows))
+        shared.setdefault(key, []).append(words.show(condition.message))
+    return [
+        words(
+            "condition.line",
+            who=words.show(name("who", who)),
+            rows=show_text(name_rows(rows, study, words)),
+            text=words.join(texts),
+        )
+        for (who, rows), texts in shared.items()
+    ]

@@ -33,11 +33,12 @@ from netdesign.report.sections.basis import (
     count_assumed,
     describe_floor,
     has_other_floor,
+    list_conditions,
     list_limits,
     name_rows,
+    show_line,
 )
 from netdesign.report.sections.checks import describe_briefly, describe_cause
-from netdesign.report.sections.open_points import list_conditions, show_line
 from netdesign.report.sections.rated import (
     ANCHORS,
     find_deciding,

@@ -80,8 +80,12 @@ def rate(checks: Sequence[Check]) -> Rated | None:
 
 
 def _rank(check: Check) -> tuple[bool, float, float]:
-    """A check without a utilisation before all others: its force alone is known."""
-    return check.used is None, check.used or 0.0, check.demand_kN or 0.0
+    """A check without a utilisation before all others: its force alone is known.
+
+    Not that of a direction: the anchor's own resistances are known beside it.
+    """
+    is_alone = check.used is None and check.mode != "direction"
+    return is_alone, check.used or 0.0, check.demand_kN or 0.0
 
 
 def list_anchor(row: RowStudy, members: Sequence[str]) -> list[Check]:

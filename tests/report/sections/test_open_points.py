@@ -7,8 +7,7 @@ import pytest
 from netdesign.checks import Proof
 from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.basis import count_assumed
-from netdesign.report.sections.open_points import show_line
+from netdesign.report.sections.basis import count_assumed, show_line
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.to_do import list_to_do
 from netdesign.words.catalogue import LANGUAGES

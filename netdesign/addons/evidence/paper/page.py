@@ -1,4 +1,4 @@
-"""Page of `netdesign paper`: four plates with their meshes, tables, CSV files."""
+"""Page of `netdesign paper`: drawings with their meshes, and tables."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ _SETTLED = 1e-5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plate:
-    """One drawing of the page: name of its file, heading, what it shows."""
+    """One drawing of the page: its id there, heading, what it shows."""
 
     name: str
     heading: str

@@ -143,12 +143,12 @@ class Comparison:
 
     @property
     def is_inside(self) -> bool:
-        """The measured value lies in the band of one of them."""
+        """The measured value lies in a band."""
         return any(band.place(self.measured) == "inside" for band in self.bands)
 
     @property
     def is_in_the_middle(self) -> bool:
-        """It lies where four of five cases do, of one of them."""
+        """The measured value lies among the middle four fifths of a band's cases."""
         value, uncertainty = self.measured.value, self.measured.uncertainty
         return any(
             band.middle[0] <= value + uncertainty

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.quality import (
+from netdesign.report.sections.annexes import (
     build_cases,
     build_opinions,
     stack_tables,

@@ -9,7 +9,7 @@ from netdesign.checks import Check, Open, OpenKind, Standard, check_member
 from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
 from netdesign.checks.comparison import find_missing_force, find_proof_factor
 from netdesign.checks.schema import BY_REPORT
-from netdesign.outcome import ModelError, Verdict
+from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (
@@ -19,14 +19,12 @@ from netdesign.structure.members import (
     NetPart,
 )
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.case_records import PullRecord
-from netdesign.study.dependent import (
-    corrode,
-    find_resistance_for_force,
-    resist,
-    settle_basis,
-    shorten_bond,
+from netdesign.study.anchor_pulls import (
+    find_open_dip,
+    find_pull,
 )
+from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import ask_end_guy
 from netdesign.study.member_force import (
     PUSHED,
     MemberForce,
@@ -34,12 +32,14 @@ from netdesign.study.member_force import (
     find_force,
 )
 from netdesign.study.posts import ask_efficiency, find_short_post
-from netdesign.study.pulls import (
-    doubt_mortar,
-    find_pull,
+from netdesign.study.row_resistances import (
+    corrode,
+    find_resistance_for_force,
+    resist,
+    settle_basis,
+    shorten_bond,
 )
 from netdesign.study.row_to_check import Basis
-from netdesign.study.sideways import ask_end_guy
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 
@@ -109,19 +109,26 @@ class MemberCheck:
 
 
 def judge_member(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
+    forces: RowForces,
+    resistance: Resistance,
+    width: LoadedWidth,
+    *,
+    is_size: bool = False,
 ) -> MemberCheck:
-    """Check of a member of one support, on one variant of the row."""
-    unsaid = _find_unsaid(forces, resistance, width)
-    if unsaid:  # whatever else is missing
-        points = [Open(kind=OpenKind.UNSOLVED, message=unsaid)]
+    """Check of a member of one support, on one variant of the row.
+
+    With ``is_size`` its numbers and verdict alone: its steps begin at E_k.
+    """
+    open_force = _find_open_force(forces, resistance, width)
+    if open_force:  # whatever else is missing
+        points = [Open(kind=OpenKind.UNSOLVED, message=open_force)]
         check = replace(
             judge_force(forces, resistance, None, width, points), open=points
         )
         return MemberCheck(
             forces=forces, resistance=resistance, width=width, check=check
         )
-    force = find_force(forces, resistance, width)
+    force = find_force(forces, resistance, width, is_size=is_size)
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, points = _resist_and_ask(forces, resistance, width, force)
     check = judge_force(forces, resistance, force, width, points)
@@ -130,8 +137,8 @@ def judge_member(
         resistance = replace(resistance, value=None, lack=short)
         check = judge_force(forces, resistance, force, width, points)
     met = rate_utilisation(*check.utilisation_band)
-    if resistance.doubt and (resistance.best is None or met is Verdict.NOT_PROVEN):
-        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, resistance.doubt)
+    if resistance.open and (resistance.best is None or met is Verdict.NOT_PROVEN):
+        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, resistance.open)
     return MemberCheck(
         forces=forces,
         resistance=resistance,
@@ -150,7 +157,7 @@ def _resist_and_ask(
 ) -> tuple[Resistance, list[Open]]:
     """Resistance of a member to a force, and all that is open of both."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
-    resistance, unsure = find_lasting(forces, resistance, pull)
+    resistance, open_lasting = find_lasting(forces, resistance, pull)
     if force is not None:
         resistance = find_resistance_for_force(
             resistance, forces, pull, width, force.action
@@ -158,78 +165,24 @@ def _resist_and_ask(
     points = list(_list_open(forces, resistance, width))
     if asked := ask_efficiency(resistance, forces, width):
         points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
-    if unsure:
-        points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=unsure))
+    if open_lasting:
+        points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=open_lasting))
     return resistance, points
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rating:
-    """What decides how grave a member's check is, before its calculation is made.
-
-    Attributes
-    ----------
-    group : tuple
-        What is open of it: of two checks with the same that of the larger use is the
-        graver one.
-    low, high : float
-        Force over resistance, ends of its band [kN/N]; over 1 without a resistance.
-    """
-
-    group: tuple[object, ...]
-    low: float
-    high: float
-
-
-def rate_member(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> Rating | None:
-    """Rating of a member's check; None where only the check itself tells it."""
-    if _find_unsaid(forces, resistance, width):
-        return Rating(group=(), low=0.0, high=0.0)
-    try:
-        force = find_force(forces, resistance, width, is_size=True)
-    except ModelError:  # outside the range of an operation
-        return None
-    if force is None:
-        return None
-    lasting, points = _resist_and_ask(forces, resistance, width, force)
-    least, most = _find_resistance_ends(lasting, force)
-    action, short = force.action, find_short_post(lasting, forces)
-    if action.low is None or action.high is None:
-        return None
-    lack = lasting.lack.key if lasting.lack else ""
-    kinds = [(point.kind, point.message.key) for point in points]
-    is_known = (lasting.value is None, lasting.doubt is None, lasting.best is None)
-    group = (*kinds, lack, short is None, *is_known, action.low > 0.0)
-    return Rating(group=group, low=action.low / most, high=action.high / least)
-
-
-def _find_resistance_ends(
-    resistance: Resistance, force: MemberForce
-) -> tuple[float, float]:
-    """Least and largest resistance to a force, [N] or of any unit; 1 where unknown."""
-    pressing = force.on.pressing
-    if isinstance(resistance.dimensions, float) and pressing is not None:
-        friction = resistance.dimensions * (pressing.value or 0.0)
-        return friction or 1.0, friction or 1.0
-    least = resistance.value or 1.0
-    return least, max(least, resistance.best or 0.0)
 
 
 def _list_open(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Iterator[Open]:
     """What is open of a member's force: of its cases, of what pulls it."""
-    gaps = (
-        forces.gap,
-        forces.panel_gap,
-        None if resistance.member in ROPE_OF else forces.floor_gap,
+    open_forces = (
+        forces.open_cases,
+        forces.open_panel,
+        None if resistance.member in ROPE_OF else forces.open_floor,
         _find_other_panel(forces.row, resistance, width.position),
         _find_loose_end(forces, resistance.member, width.position),
     )
-    for gap in filter(None, gaps):
-        yield Open(kind=OpenKind.UNSOLVED, message=gap)
+    for message in filter(None, open_forces):
+        yield Open(kind=OpenKind.UNSOLVED, message=message)
     if width.position == "edge" and (asked := ask_end_guy(forces)):
         yield Open(kind=OpenKind.VALUE_ASKED, message=asked)
 
@@ -247,9 +200,9 @@ def judge_force(
     is with a loose foot that its post surely lifts.
     """
     standard = forces.standard
-    gap = points[0].message if points else say("check.no_case_solved")
+    reason = points[0].message if points else say("check.no_case_solved")
     check = check_member(
-        force.action if force else find_missing_force(gap),
+        force.action if force else find_missing_force(reason),
         resistance,
         standard,
         points,
@@ -257,7 +210,7 @@ def judge_force(
         beside=force.on.by_model if force and standard.is_by_guideline else (),
     )
     least = forces.find_least(resistance.member) if force else None
-    doubted = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
+    is_doubtful = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
     check = replace(
         check,
         id=check.id + AT_SUPPORT[width.position],
@@ -267,7 +220,7 @@ def judge_force(
         load_inclination_deg=least.inclination_deg if least else None,
         resistance_derivation=resistance.derivation,
         resistance_years=forces.row.design_life
-        if resistance.wear and not doubted
+        if resistance.wear and not is_doubtful
         else None,
         tests=_record_tests(resistance, standard),
         proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
@@ -307,26 +260,28 @@ def find_lasting(
     basis: Basis, resistance: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
-    resistance, unsaid = settle_basis(resistance, basis.standard)
+    resistance, open_basis = settle_basis(resistance, basis.standard)
     lasting, worn = corrode(shorten_bond(resistance, basis.standard), basis)
-    doubt = unsaid or worn
+    open_lasting = open_basis or worn
     if resistance.basis == BY_REPORT:
-        doubt = doubt or say("check.by_report", sheet=say("sheet.Declared"))
-    return lasting, doubt or doubt_mortar(resistance, pull, basis.standard)
+        open_lasting = open_lasting or say(
+            "check.by_report", sheet=say("sheet.Declared")
+        )
+    return lasting, open_lasting or find_open_dip(resistance, pull, basis.standard)
 
 
-def _find_unsaid(
+def _find_open_force(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Message | None:
     """Lack of what a force depends on, so that nothing is known of it."""
     row = forces.row
-    if resistance.member in ROPE_OF and forces.effects.end_lack is not None:
-        return forces.effects.end_lack
+    if resistance.member in ROPE_OF and forces.effects.open_end is not None:
+        return forces.effects.open_end
     is_inside = width.position != "edge" and resistance.member in tuple(Member)
-    return None if is_inside else _find_lack(row, resistance)
+    return None if is_inside else _find_open_input(row, resistance)
 
 
-def _find_lack(row: NetRow, resistance: Resistance) -> Message | None:
+def _find_open_input(row: NetRow, resistance: Resistance) -> Message | None:
     """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
     if resistance.member in _ROPES:
         return None if row.panels else row.panel_lack
@@ -358,13 +313,13 @@ def _find_other_panel(
 
 
 def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
-    """Gap of the forces, else a doubt about any of them; None if all is well.
+    """Reason why the forces of the row are not proven; None where they are.
 
     What is not known of the row's end alone leaves no other check open.
     """
     members = [member_check for member_check in judged if not member_check.is_of_end]
     of_end = [
-        _find_lack(row, member.resistance) or row.panel_lack for member in members
+        _find_open_input(row, member.resistance) or row.panel_lack for member in members
     ]
     points = (
         point.message

@@ -35,8 +35,8 @@ from netdesign.structure.row_position import (
 )
 from netdesign.structure.splay import Guys
 from netdesign.study.case_records import PullRecord
+from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import RowToCheck
-from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian
 from netdesign.words.message import Message, say
 
@@ -236,7 +236,7 @@ def build_pull(
     )
 
 
-def doubt_mortar(
+def find_open_dip(
     resistance: Resistance, pull: PullRecord | None, standard: Standard
 ) -> Message | None:
     """Doubt that mortar fills a borehole, of a bond that tests show in steeper ones.
@@ -259,7 +259,7 @@ def doubt_mortar(
 
 
 def check_direction(
-    pull: PullRecord, standard: Standard, gap: Message | None
+    pull: PullRecord, standard: Standard, open_cases: Message | None
 ) -> Check | None:
     """Check the angle of a rope anchor, or of an anchor whose kind is not given.
 
@@ -270,12 +270,14 @@ def check_direction(
         return None
     limit = standard.find(ROPE_ANGLE)
     if limit is None:
-        lack = say("check.no_limit", limit=ROPE_ANGLE)
+        reason = say("check.no_limit", limit=ROPE_ANGLE)
         kind = OpenKind.RESISTANCE_MISSING
-        return leave_open("direction", kind, lack, member=pull.anchor)
+        return leave_open("direction", kind, reason, member=pull.anchor)
     if pull.angle > limit.value_si:
         return None
     angle = round(pull.angle_deg, 9)  # less is rounding
     finding = say("direction.rope_within", angle=angle, most=limit.value)
     check = compare("direction", Verdict.PASS, finding, member=pull.anchor)
-    return check if gap is None else check.with_open(OpenKind.UNSOLVED, gap)
+    return (
+        check if open_cases is None else check.with_open(OpenKind.UNSOLVED, open_cases)
+    )

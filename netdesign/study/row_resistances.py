@@ -117,14 +117,14 @@ def _find_bent_resistance(
         ground=1e3 * yields,
         length=find_least_tube(yields),
     )
-    best = doubt = None
+    best = open_point = None
     if not anchor.kind:  # a rope turns to its pull
-        best, doubt = section.axial_resistance, say("bending.kind_assumed")
+        best, open_point = section.axial_resistance, say("bending.kind_assumed")
     elif anchor.is_lever_assumed:
         best = _bend(section, pull.angle, yields).value
-        doubt = say("bending.lever_assumed", free=1e3 * free)
+        open_point = say("bending.lever_assumed", free=1e3 * free)
     return replace(
-        resistance, value=worst.value, best=best, doubt=doubt, derivation=derivation
+        resistance, value=worst.value, best=best, open=open_point, derivation=derivation
     )
 
 
@@ -247,7 +247,7 @@ def settle_basis(
     )
     value, best = ends
     undecided = say("check.basis_decides", name=name)
-    return replace(worse, value=value, best=best, tests=None, doubt=undecided), None
+    return replace(worse, value=value, best=best, tests=None, open=undecided), None
 
 
 def shorten_bond(resistance: Resistance, standard: Standard) -> Resistance:
@@ -308,7 +308,7 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
     """Resistance with the steel that is left, and why it may not last so long.
 
     Bare steel whose diameter nobody gives has none that is known. As it is, and no
-    doubt, of what does not corrode, what has a condition in the place of its
+    open point, of what does not corrode, what has a condition in the place of its
     protection, and where the profile leaves corrosion to others.
     """
     wear, life = resistance.wear, basis.row.design_life
@@ -318,14 +318,14 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
         lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))
         return replace(resistance, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
-        return resistance, _doubt_protection(wear, life)
+        return resistance, _find_open_protection(wear, life)
     try:
         return _take_loss(resistance, wear, life), None
     except ModelError as error:
         return resistance, error.message
 
 
-def _doubt_protection(wear: Wear, life: int) -> Message | None:
+def _find_open_protection(wear: Wear, life: int) -> Message | None:
     if wear.protection in BARE:
         return say("corrosion.of_rope")
     years = wear.protected_years
@@ -435,11 +435,11 @@ def _add_usual_link(resistance: Resistance, strength: float | None) -> Resistanc
 
     It is a shackle as strong as the steel or rope of its type, pulled at a right angle.
     """
-    doubt = say(
+    open_point = say(
         "connection.incomplete", type=resistance.type_id, sheet=say("sheet.Links")
     )
     if strength is None:
-        return replace(resistance, doubt=doubt)
+        return replace(resistance, open=open_point)
     usual = Link(
         kind=SHACKLE,
         breaking=strength,
@@ -457,7 +457,7 @@ def _add_usual_link(resistance: Resistance, strength: float | None) -> Resistanc
         resistance,
         value=value,
         best=listed,
-        doubt=doubt,
+        open=open_point,
         derivation=say("connection.usual", of=derivation),
         dimensions=usual,
     )

@@ -16,23 +16,23 @@ from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import RopeForce
+from netdesign.study.anchor_pulls import FootPulls, list_pulls, measure_feet
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
-from netdesign.study.member_force import (
-    RowForces,
-    find_end_pull,
-    find_one_way_pull,
-)
-from netdesign.study.pulls import FootPulls, list_pulls, measure_feet
-from netdesign.study.record_envelope import record_largest
-from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
-from netdesign.study.sideways import (
+from netdesign.study.load_along_row import (
     EndShare,
     find_end_guy,
     find_held_sideways,
     find_rope_factors,
     find_tilt,
 )
+from netdesign.study.member_force import (
+    RowForces,
+    find_end_pull,
+    find_one_way_pull,
+)
+from netdesign.study.record_envelope import record_largest
+from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
@@ -45,7 +45,7 @@ class Variant:
     forces: RowForces
 
 
-def know_variants(task: RowToCheck) -> list[Variant]:
+def gather_variants(task: RowToCheck) -> list[Variant]:
     """All variants of a row; those of one layout share what its cases tell there."""
     variants: list[Variant] = []
     rows = groupby(list_variants(task.row), key=attrgetter("layout"))
@@ -53,36 +53,36 @@ def know_variants(task: RowToCheck) -> list[Variant]:
     for place, (_, of_layout) in enumerate(rows):
         solved, (first, *others) = task.solved.at_layout(place), of_layout
         cases = gather_cases(task, first, solved, cases)
-        base = know_cases(cases)
+        base = read_cases(cases)
         for row in (first, *others):
             of_row = replace(cases.task, row=row)
-            forces = know_row(replace(cases, task=of_row), base)
+            forces = place_forces(replace(cases, task=of_row), base)
             variants.append(Variant(task=of_row, forces=forces))
     return variants
 
 
-def know_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
+def find_forces_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     """Knowledge of a variant of a row by its envelope on that one's layout."""
     cases = gather_cases(task, row, solved)
-    return know_row(cases, know_cases(cases))
+    return place_forces(cases, read_cases(cases))
 
 
-def know_least(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
+def find_least_forces(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
     """Knowledge of a variant with what any panel that is assumed of it brings at least.
 
     That is what its section brings, and the pull of each rope in the panel that pulls
-    on it least. As `know_alone` where the panel is given.
+    on it least. As `find_forces_alone` where the panel is given.
     """
     cases = gather_cases(task, row, solved)
     if not row.panel_assumed:
-        return know_row(cases, know_cases(cases))
+        return place_forces(cases, read_cases(cases))
     heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
     cases = replace(cases, heads=heads, feet=feet)
-    base = know_cases(cases)
+    base = read_cases(cases)
     largest = _take_least(base.largest, solved.results)
     floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
-    forces = know_row(cases, replace(base, largest=largest, floor=floor))
+    forces = place_forces(cases, replace(base, largest=largest, floor=floor))
     return take_off_truss(forces)
 
 
@@ -162,7 +162,7 @@ def _find_floor(task: RowToCheck, layout: SupportLayout) -> Floor | None:
     return task.floors[layout, ranges]
 
 
-def know_cases(cases: RowCases) -> RowForces:
+def read_cases(cases: RowCases) -> RowForces:
     """Knowledge of a row by its cases, whatever guys hold its posts along the row."""
     task, floor = cases.task, cases.floor
     site, row, standard = task.site, task.row, task.standard
@@ -182,12 +182,12 @@ def know_cases(cases: RowCases) -> RowForces:
         tilt=find_tilt(
             row, (result.case.inclination for result in results if result.is_converged)
         ),
-        gap=task.solved.gap,
-        panel_gap=_find_failed_panel(row, results),
+        open_cases=task.solved.gap,
+        open_panel=_find_failed_panel(row, results),
     )
 
 
-def know_row(cases: RowCases, base: RowForces) -> RowForces:
+def place_forces(cases: RowCases, base: RowForces) -> RowForces:
     """Knowledge of a row with its guys; ``base`` is what its cases tell without."""
     task, floor = cases.task, cases.floor
     head = floor.head if floor else None
