@@ -103,6 +103,8 @@ def read_site(
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
     if found:
+        used = say("map.used", file=found.answers.file, sha256=found.answers.sha256)
+        findings.append(note_file(workbook.file, used))
         workbook = join_list(workbook, found, findings)
     else:
         findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
