@@ -150,7 +150,7 @@ def _find_least_tension(results: Sequence[CaseResult]) -> float:
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
     """Least tension of the guys at work under the guideline's load [N].
 
-    None where the altitude is not known: a lower row has less. Any without that load.
+    It is 0 where the altitude is not known, since a lower row has less snow.
     """
     if floor is None:
         return math.inf
@@ -305,9 +305,9 @@ def place_row(row: NetRow, inclination: float) -> SupportPoints:
 
 
 def ask_end_guy(task: Basis) -> Message | None:
-    """Question about an end guy whose anchor stands farther down than the post's head.
+    """Ask about an end guy's anchor that stands farther down than the post's head.
 
-    An empty cell has it abreast of the head: left empty, it would help.
+    An empty cell places it abreast of the head, which is more favourable.
     """
     row, span = task.row, task.site.ranges["inclination"]
     place = row.row_end.guy_from_base if row.row_end else None
@@ -334,7 +334,7 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
 
 
 def find_splay(row: NetRow) -> float | Message:
-    """Splay of the guys that hold a load along the row [rad], or why none is held."""
+    """Splay of the guys that hold a load along the row [rad], or why none holds it."""
     if row.guys.count < 2:
         return say("sideways.one_guy")
     if row.layout.is_foot_shared and row.guys.splay is not None:
