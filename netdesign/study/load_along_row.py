@@ -280,15 +280,17 @@ class RopeFactors(NamedTuple):
     head: float = 1.0
 
 
-def find_rope_factors(results: Sequence[CaseResult], floor: Floor) -> RopeFactors:
+def find_rope_factors(
+    results: Sequence[CaseResult], floor: Floor | None
+) -> RopeFactors:
     """Factors by which the guideline's load raises what pulls along the row.
 
     Of several panels that may be built each is raised by its own. Theory:
     panel/THEORY.md, (P12), (P13).
     """
     cases = [panels for result in results if (panels := list_panels(result))]
-    foot = floor.find(Member.FOOT_ANCHOR)
-    if not cases or floor.head is None or foot is None:
+    foot = floor.find(Member.FOOT_ANCHOR) if floor else None
+    if not cases or floor is None or floor.head is None or foot is None:
         return RopeFactors()
     heads, feet = [], []
     for variant in zip(*cases, strict=True):

@@ -15,7 +15,7 @@ from netdesign.guideline.floor import Floor
 from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import RopeForce
+from netdesign.structure.members import Member, RopeForce
 from netdesign.study.anchor_pulls import FootPulls, list_pulls, measure_feet
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
@@ -150,8 +150,22 @@ def gather_cases(
         heads=before.heads if before else read_heads(width, solved.results),
         feet=before.feet if before else measure_feet(solved.results),
         floor=floor,
-        factors=find_rope_factors(solved.results, floor) if floor else RopeFactors(),
+        factors=before.factors
+        if before and _pull_alike(before.floor, floor)
+        else find_rope_factors(solved.results, floor),
     )
+
+
+def _pull_alike(first: Floor | None, second: Floor | None) -> bool:
+    """Both loads pull as much on foot and head, so that they raise ropes alike."""
+    if first is None or second is None:
+        return first is second
+    pulls = [
+        (foot.force, floor.head.pull)
+        for floor in (first, second)
+        if floor.head and (foot := floor.find(Member.FOOT_ANCHOR))
+    ]
+    return len(pulls) == len({*pulls}) + 1
 
 
 def _find_floor(task: RowToCheck, layout: SupportLayout) -> Floor | None:
