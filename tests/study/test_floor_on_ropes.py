@@ -13,7 +13,7 @@ from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
 from netdesign.panel.solve import PanelSolution, solve_strips
 from netdesign.panel.strips import build_strip
 from netdesign.structure.members import Member, RopeForce
-from netdesign.study.sideways import find_rope_factors
+from netdesign.study.load_along_row import find_rope_factors
 from tests.each import each
 from tests.panel.test_assumed import assume_all, draw_case, list_ends
 
