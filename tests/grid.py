@@ -19,12 +19,6 @@ from netdesign.study.row_to_check import build_row_task, build_scene
 SAMPLES = 3  # of a quantity that ranges
 
 
-def drop_counts(lines):
-    """Lines of a workbook without the counts that sheet Ranges had once."""
-    kept = [{k: v for k, v in one.items() if k != "samples"} for one in lines["Ranges"]]
-    return lines | {"Ranges": kept}
-
-
 def build_cases(ranges, samples=SAMPLES):
     """All cases of a grid, the first quantity varying slowest."""
     names = [name for name, _ in ranges.intervals]

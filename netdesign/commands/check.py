@@ -59,7 +59,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
 
     profiles = find_profiles(asked["standards"], site)
     if asked["floor"]:
-        profiles = [one.overrule_floor(asked["floor"]) for one in profiles]
+        profiles = [profile.overrule_floor(asked["floor"]) for profile in profiles]
     _describe_other_profile(asked["standards"], site)
     if asked["dry_run"]:
         announce(site, as_json=asked["as_json"])

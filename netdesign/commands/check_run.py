@@ -297,7 +297,7 @@ def _check_and_size(
     sized: list[Sized] = []
     for study, profile in zip(studies, profiles, strict=True):
         cells = size_site(solved, study, profile, run, read)
-        instead = {one.cell: one.now for one in cells if one.now}
+        instead = {cell.cell: cell.now for cell in cells if cell.now}
         if not instead:
             sized.append((cells, None))
             continue

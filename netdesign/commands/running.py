@@ -23,6 +23,7 @@ from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.edge.input_files import make_printable
 from netdesign.edge.output import print_json
 from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
+from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
@@ -236,6 +237,9 @@ def print_next_step(verdicts: Set[Verdict], site: str) -> None:
     ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
     line.
     """
+    from netdesign.report.console import open_console, print_lines
+
     if Verdict.FAIL in verdicts:
-        size = shlex.join(["netdesign", "check", site, "--size"])
-        tell(say("next.size", command=size), err=True)
+        command = shlex.join(["netdesign", "check", site, "--size"])
+        hint = render(say("next.size", command=command), speak())
+        print_lines([make_printable(hint)], open_console(err=True), 2)

@@ -102,7 +102,7 @@ def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
 def choose_rows(site: Site, ids: Sequence[str]) -> Site:
     """Site with the net rows that are asked for; all of them where none is named."""
     given = tuple(row.id for row in site.rows)
-    strange = tuple(one for one in ids if one not in given)
+    strange = tuple(row_id for row_id in ids if row_id not in given)
     if strange:
         raise UsageRefusal(say("usage.no_row", rows=strange, given=given))
     return site.take_rows(ids) if ids else site

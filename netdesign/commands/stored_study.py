@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from netdesign.study.document import Difference
     from netdesign.study.records import Study
 
-_SHOWN = 20  # differences; more help nobody
+_SHOWN = 20  # differences; more are counted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,7 +91,7 @@ def _read_again(study: Study, path: Path) -> Site:
 
     library = Path(read_library_name(study.provenance)).name
     net_types = path.parent / library if library else None
-    instead = (split_replacement(f"{one.cell}={one.now}") for one in study.what_if)
+    instead = (split_replacement(f"{cell.cell}={cell.now}") for cell in study.what_if)
     cells = dict(filter(None, instead))
     form = read_text_format(study.provenance)
     return read_site(path, form, cells, net_types=net_types)

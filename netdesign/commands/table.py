@@ -89,7 +89,7 @@ def _find_study(site: Site, site_file: Path | None, given: Path | None) -> Study
             continue
         try:
             study = load_study(path)
-        except StudyError:  # nobody asked for this one
+        except StudyError:  # not the study that was asked for
             continue
         if study.provenance.site_sha256 == site.sha256:
             return study

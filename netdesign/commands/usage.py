@@ -21,7 +21,7 @@ def tell(
 ) -> None:
     """Print a message in the language of the command, unless it is another one.
 
-    Words that somebody gave cannot steer the terminal.
+    Control characters in given texts are made visible.
     """
     click.echo(make_printable(render(message, language or speak())), err=err)
 

@@ -213,14 +213,14 @@ def show_phases(
     phases: Sequence[Phase], *, quiet: bool, language: Language
 ) -> Iterator[RunProgress]:
     """Progress of a run of several phases, the last of which solves nothing."""
-    if quiet:
-        yield RunProgress(phases, lambda _: None)
-        return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
     from rich.table import Column
 
     console = Console(stderr=True)
+    if quiet or console.is_dumb_terminal:  # one that cannot take a bar off again
+        yield RunProgress(phases, lambda _: None)
+        return
     if not console.is_terminal:
         yield RunProgress(phases, _write_lines(language))
         return

@@ -23,7 +23,7 @@ from netdesign.words.names import name_member
 _CONFIRMED_SHARE = 0.5
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
 # A case can hide a larger force on one layout where the largest of all is near that.
-_LARGE = 0.9
+LARGE = 0.9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,7 +198,7 @@ class RowEnvelope:
             shares = [
                 force / all_
                 for force, all_ in pairs
-                if all_ > 0.0 and all_ >= _LARGE * own
+                if all_ > 0.0 and all_ >= LARGE * own
             ]
             upper[place] = max(own, max(shares, default=1.0) * upper[place])
             maximum[place] = own

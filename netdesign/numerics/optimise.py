@@ -211,9 +211,8 @@ def _climb(functions: Functions, peaks: _Peaks, axes: Sequence[Floats]) -> _Peak
         around = peaks.points[:, :, None] + offsets[:, None, :] * steps[:, :, None]
         around = np.clip(around.reshape(len(axes), -1), low, high)
         distinct, at = find_distinct(around.T)  # many peaks lie on one corner
-        values = functions(distinct.T)[:, at]
-        values = values.reshape(-1, count.size, offsets.shape[1])
-        own = values[peaks.sought, count]
+        values = functions(distinct.T)
+        own = values[peaks.sought[:, None], at.reshape(count.size, -1)]
         best = own.argmax(axis=1)
         steps *= np.where(offsets[:, best] == 0.0, 0.5, 2.0)
         place = count * offsets.shape[1] + best

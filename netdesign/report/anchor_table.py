@@ -94,8 +94,8 @@ def _list_remarks(rows: Sequence[RowAnchors], words: Words) -> Iterator[str]:
             by_remark.setdefault(words.show(one), []).append(show_text(row.id))
     for remark, ids in by_remark.items():
         yield words("show.label", label=", ".join(ids), text=remark)
-    forces = [one for row in rows for one in row.anchors]
-    if any(one.coupled_kN is not None for one in forces):
+    forces = [anchor for row in rows for anchor in row.anchors]
+    if any(force.coupled_kN is not None for force in forces):
         yield words("table.ratio")
     yield words("table.ropes")
 
@@ -115,9 +115,9 @@ def write_anchor_table(rows: Sequence[RowAnchors], words: Words) -> dict[str, An
         "rows": [
             {
                 "id": row.id,
-                "anchors": [_write_anchor(one) for one in row.anchors],
+                "anchors": [_write_anchor(anchor) for anchor in row.anchors],
                 "reason": words.show(row.reason) if row.reason else None,
-                "notes": [words.show(one) for one in row.notes],
+                "notes": [words.show(note) for note in row.notes],
             }
             for row in rows
         ],

@@ -186,7 +186,7 @@ def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
 
 
 def given_cell(words: Words, value: float | str) -> Cell:
-    """Number that somebody chose or counted: no decimals are added."""
+    """Chosen or counted number: no decimals are added."""
     if isinstance(value, str):
         return text_cell(value)
     return Cell(text=words.show_given(value), number=value)

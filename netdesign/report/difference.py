@@ -182,7 +182,7 @@ def share_rows(changes: Sequence[Change]) -> list[tuple[Change, list[str]]]:
     otherwise only its utilisation is told.
     """
     shared: dict[object, tuple[Change, list[str]]] = {}
-    told_first = sorted(changes, key=lambda one: _AREAS.index(one.area))
+    told_first = sorted(changes, key=lambda change: _AREAS.index(change.area))
     for change in filter(_is_told, told_first):
         is_of_row = bool(change.row) and change.area != "verdict"
         told = (change.area, change.what, str(change.old), str(change.new))
@@ -210,13 +210,13 @@ def write_difference(
     words = Words(language)
     listed = [
         {
-            "area": one.area,
-            "row": one.row,
-            "what": one.name(words),
-            "old": one.old,
-            "new": one.new,
+            "area": change.area,
+            "row": change.row,
+            "what": change.name(words),
+            "old": change.old,
+            "new": change.new,
         }
-        for one in changes
+        for change in changes
     ]
     return {"schema": SCHEMA, "changes": listed}
 
@@ -306,10 +306,10 @@ def _list_verdicts(row: RowStudy) -> Named:
         },
         **_name_all(
             (
-                say("diff.law", law=name("law", one.name)),
-                _tell(_MET if one.is_met else _UNMET),
+                say("diff.law", law=name("law", law.name)),
+                _tell(_MET if law.is_met else _UNMET),
             )
-            for one in row.independent
+            for law in row.independent
         ),
     }
 
@@ -345,7 +345,9 @@ def _list_governing(row: RowStudy) -> Named:
         for key, value in point.items():
             named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
             found[say("diff.governing_case", key=named)] = value
-    extremes = _name_all((name_member(one.quantity), one) for one in row.member_forces)
+    extremes = _name_all(
+        (name_member(force.quantity), force) for force in row.member_forces
+    )
     for quantity, one in extremes.items():
         found[say("diff.largest", quantity=quantity)] = one.value_kN
         found[say("diff.upper_bound", quantity=quantity)] = one.bound_kN
@@ -411,8 +413,8 @@ def _add_unit(what: Message, unit: str) -> Message:
 def _list_profile(study: Study) -> Named:
     profile = study.profile
     values = _name_all(
-        (say("diff.with_unit", what=one.id, unit=one.unit), one.value)
-        for one in profile.values
+        (say("diff.with_unit", what=value.id, unit=value.unit), value.value)
+        for value in profile.values
     )
     return {
         say("diff.profile"): profile.id,
@@ -440,7 +442,7 @@ def _list_quantities(study: Study) -> Named:
 
 def _list_replaced(study: Study) -> Named:
     """Cells of a what-if: without them its verdicts would be read as the site's."""
-    return {say("diff.what_if", cell=one.cell): one.now for one in study.what_if}
+    return {say("diff.what_if", cell=cell.cell): cell.now for cell in study.what_if}
 
 
 def _list_settings(study: Study) -> Named:

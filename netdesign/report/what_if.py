@@ -40,10 +40,10 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
     cells = words.join(
         words(
             "show.label",
-            label=show_text(one.cell),
-            text=show_text(f"{one.was or MISSING} → {one.now}"),
+            label=show_text(cell.cell),
+            text=show_text(f"{cell.was or MISSING} → {cell.now}"),
         )
-        for one in study.what_if
+        for cell in study.what_if
     )
     return replace(
         plain,
@@ -92,8 +92,8 @@ def build_what_if(study: Study, words: Words) -> Table:
         caption=words("what_if.caption"),
         columns=key_columns(words, "", keys),
         rows=tuple(
-            (text_cell(one.cell), text_cell(one.was), text_cell(one.now))
-            for one in study.what_if
+            (text_cell(cell.cell), text_cell(cell.was), text_cell(cell.now))
+            for cell in study.what_if
         ),
     )
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
 
 MISSING = "-"
 UNBOUNDED = "∞"  # a utilisation beyond any number
-_FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
+_FIGURES = 5  # of a calculated number: its relative error is at most a thousandth
 _BLANKS = re.compile("[ \n]+")
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _SAME = 1e-12  # relative; a typed number after its way through SI units
@@ -104,7 +104,7 @@ class Words:
         return MISSING if value is None else self.write(f"{value:.{decimals}f}")
 
     def show_given(self, value: float) -> str:
-        """Value that somebody typed, as it is; one that has more digits, with five.
+        """Typed value, as it is; a value with more digits, with five.
 
         Examples
         --------
@@ -134,7 +134,7 @@ class Words:
         return MISSING if value is None else self.write(f"{value:.3g}")
 
     def show_quantity(self, value: float | str, unit: str) -> str:
-        """Value that somebody chose, with its unit if it has one."""
+        """Chosen value, with its unit if it has one."""
         text = value if isinstance(value, str) else self.show_given(value)
         return show_text(append_unit(text, unit))
 

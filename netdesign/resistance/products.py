@@ -28,6 +28,7 @@ from netdesign.resistance.catalogue import (
 
 _LONGEST_NAME = 200
 _ONE_SIZE = 1.1  # of the largest diameter to the least: makers differ by less
+_NOMINAL = "nominal_diameter"  # of a hollow bar of which no other is stated
 _DECIMAL = r"(\d+(?:\.\d+)?)"
 _END = r"(?:(?= ?mm(?!\w))|(?![\w/]|\.\d))"
 _NUMBER = rf"(?<![\w./]){_DECIMAL}{_END}"
@@ -82,14 +83,15 @@ def find_bar(name: str) -> Product | None:
     'GEWI 32'
     >>> find_bar("GEWI 35") is None
     True
-    >>> find_bar("R25N") is None  # its maker gives no diameter
-    True
+    >>> find_bar("R25N").id
+    'R25 N'
     """
     product = find_product(name)
     if product is None or not product.family.endswith("bar"):
         return None
-    ends = product.values.get("outer_diameter")
-    return product if ends and ends[1] < _ONE_SIZE * ends[0] else None
+    size = "outer_diameter" if "outer_diameter" in product.values else _NOMINAL
+    least, largest = product.values[size]
+    return product if largest < _ONE_SIZE * least else None
 
 
 def _simplify(name: str) -> str:

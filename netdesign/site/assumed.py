@@ -13,6 +13,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Literal
 
+from netdesign.cable.sag import find_sag
 from netdesign.edge.input_files import find_resource
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.words.message import Message, say
@@ -83,6 +84,12 @@ class Assumed:
         low, high = self.shown
         if self.word:
             return say(f"assumed_word.{self.word}", value=low)
+        if self.key == "slack":  # makers state the sag
+            ends = tuple(
+                say("assumed.slack", value=x, sag=100.0 * find_sag(x))
+                for x in (low, high)
+            )
+            return say("assumed.ends", ends=ends) if self.is_range else ends[0]
         if self.low == self.high:
             return say("assumed.value", value=low, unit=self._unit)
         return say("assumed.range", low=low, high=high, unit=self._unit)

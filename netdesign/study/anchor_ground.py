@@ -45,10 +45,10 @@ _POSTS = 3  # beside each other: whatever comes near does so among them
 def check_anchor_distance(
     forces: RowForces, open_cases: Message | None
 ) -> Check | None:
-    """Check how near the anchors of a row come to each other in the ground.
+    """Check the least distance between the anchors of a row in the ground.
 
-    Nearer than the profile says is not proven: a test of the group may show it. None
-    without any pull.
+    A distance below the profile's limit is not proven, since a test of the group may
+    show that it holds. The check is left out where no anchor is pulled.
     """
     row, pulls, ranges = forces.row, forces.pulls, forces.site.ranges
     limit = forces.standard.find(ANCHOR_DISTANCE)
@@ -76,7 +76,7 @@ def check_anchor_distance(
 
 
 def _list_sharings(row: NetRow) -> list[NetRow]:
-    """Row with each way in which its guys may be anchored, where nobody says it."""
+    """List the row with shared and with own guy anchors where neither is given."""
     ways = (True, False) if row.guys.are_shared is None else (row.guys.are_shared,)
     return [replace(row, guys=replace(row.guys, are_shared=way)) for way in ways]
 
@@ -118,9 +118,9 @@ def _list_beside(
 def place_end_anchors(
     row: NetRow, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[str, Bore]]:
-    """Anchors beyond the first post: of its outer guys, lateral, of the end guy.
+    """List the anchors beyond the first post: outer guys, lateral anchor, end guy.
 
-    Along the row they lie before that post. Those whose places nobody gives are none.
+    They lie before that post along the row; one without a given place is left out.
     """
     if row.guys.count > 1 and row.guys.are_shared:
         for anchor, bore in place_anchors(row, points, pulls):
@@ -145,8 +145,8 @@ def place_end_anchors(
 def check_cover(forces: RowForces, open_cases: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
-    What nobody gives is a condition, `study/conditions.py`. None where the profile
-    leaves it to others, where nothing of it is given, or without any pull.
+    What the workbook leaves empty is a condition, see `study/conditions.py`. The check
+    is left out where the profile leaves it to others and where nothing is given.
     """
     row, pulls = forces.row, forces.pulls
     if "anchor_ground" in forces.standard.not_checked:
@@ -179,7 +179,7 @@ class BondInGround:
     length : float or None
         Of the bore, or of the bond alone [m]; None where neither is given.
     least_cover, least_edge : float or None
-        As the geotechnical engineer asks [m]; None where nobody does.
+        As the geotechnical engineer asks [m]; None where the cell is empty.
     has_soil : bool
         The strength of the ground is given: its wedge is checked instead of a cover.
     """
@@ -194,7 +194,7 @@ class BondInGround:
 
     @property
     def is_checked(self) -> bool:
-        """Something of its ground is given on both sides of a comparison."""
+        """A cover or an edge distance is given together with its least value."""
         return self._has_cover or self.edge is not None or self.leaves_ground
 
     @property
@@ -207,7 +207,7 @@ class BondInGround:
         return None not in (self.cover, self.least_cover)
 
     def list_short(self) -> Iterator[Message]:
-        """What lies too near to the surface, or to an edge."""
+        """List the bonds that lie too near to the surface or to an edge."""
         named = {"anchor": name_member(self.anchor)}
         cover, least = self.cover, self.least_cover
         if cover is not None and self.leaves_ground:
@@ -219,7 +219,7 @@ class BondInGround:
             yield say("bores.too_near_edge", **named, edge=edge, least=least)
 
     def ask_edge(self) -> Message | None:
-        """Question about an edge nearer than a bore is long, that nobody asks for."""
+        """Ask about an edge that is nearer than the bore is long."""
         if self.least_edge is not None or self.edge is None:
             return None
         if self.length is not None and self.edge >= self.length:
@@ -357,9 +357,9 @@ def find_ground_resistance(
 
 
 def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
-    """Axes that an anchor may have [rad]: of a guy's, that of one for each guy, too.
+    """List the axes that an anchor may have [rad], shared by two guys or one for each.
 
-    Where nobody says whether two guys share it, one for each may be less deep.
+    Where the workbook does not say whether two guys share it, both count.
     """
     may_be_own = row.guys.count > 1 and row.guys.are_shared is None
     if pull.is_axis_given or not may_be_own or pull.anchor not in GUY_ANCHORS:
@@ -370,7 +370,7 @@ def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
 def _lift_ground(
     soil: Soil, basis: Basis, pull: PullRecord, depth: float, width: float
 ) -> WedgeResistance:
-    """Wedge that an anchor lifts, or the cone about one that has no neighbours."""
+    """Compute the wedge that an anchor lifts, or the cone about a single anchor."""
     row, span = basis.row, basis.site.ranges["inclination"]
     slope, guy = row.slope_angle, row.row_end.guy if row.row_end else None
     if pull.anchor not in END_ANCHORS:

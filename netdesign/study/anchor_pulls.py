@@ -42,7 +42,7 @@ from netdesign.words.message import Message, say
 
 ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 GUY_ANCHORS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-# Below the horizontal, of a bore whose axis nobody gives, so that mortar fills it: a
+# Below the horizontal, of a bore without a given axis, so that mortar fills it: a
 # supplier's manual asks for it (Geobrugg GBE-3000A).
 USUAL_DIP = math.radians(15.0)
 _CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
@@ -137,8 +137,8 @@ def _list_end_pulls(
 ) -> Iterator[PullRecord]:
     """Pulls on the anchors that hold the row along itself: of lower rope and end guy.
 
-    The lower rope pulls along the row. Nobody gives the bore of the end guy's anchor:
-    it goes on with the guy, and where that is too flat below it.
+    The lower rope pulls along the row. The bore of the end guy's anchor is assumed: it
+    continues the guy, or dips more where that is too flat.
     """
     end, slope = row.row_end, row.slope_angle
     if end is None or not points:
@@ -239,7 +239,7 @@ def build_pull(
 def find_open_dip(
     resistance: Resistance, pull: PullRecord | None, standard: Standard
 ) -> Message | None:
-    """Doubt that mortar fills a borehole, of a bond that tests show in steeper ones.
+    """Reason why mortar may not fill a borehole that is flatter than the tested ones.
 
     From a borehole that is flat or rises mortar runs out; structure/THEORY.md, (S14b).
     """

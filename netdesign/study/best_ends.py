@@ -1,7 +1,7 @@
 """Checks beyond 1 at the best ends of what is assumed, and the value that decides them.
 
 Density, friction and inclination are design ranges: a row must hold over all of them.
-What is assumed of the product or the geometry has one true value that nobody has said.
+What is assumed of the product or the geometry has one true value, which is not known.
 A check fails where it does at the best ends of that, too; else it is not proven, and
 says from which value on it passes.
 """
@@ -82,7 +82,7 @@ def _take_off_ropes(forces: RowForces) -> RowForces:
 
 
 def _has_open_truss(row: NetRow) -> bool:
-    """A stiffness is open by which ropes and post at the end share a pull."""
+    """The stiffness that shares a pull between ropes and end post is assumed."""
     return row.row_end is not None and len(row.row_end.stiffnesses) > 1
 
 
@@ -159,7 +159,7 @@ class _BestEnds:
         return is_rope and self._are_sags_assumed
 
     def _has_open_pull(self, member_check: MemberCheck) -> bool:
-        """A border rope pulls by what nobody says: its sag, or that it slides."""
+        """A border rope pulls the member, and its sag or its sliding is assumed."""
         end = member_check.forces.row.row_end
         if end is None or member_check.check.member in ROPE_OF:
             return False
@@ -173,7 +173,7 @@ class _BestEnds:
         take_off: Callable[[RowForces], RowForces],
         key: str,
     ) -> Check:
-        """Check without a pull that hangs on what nobody says, if it passes so."""
+        """Ease the check where it passes without the pull that an assumption brings."""
         low = _find_low(
             self._judge(
                 member_check, take_off(member_check.best or member_check.forces)
@@ -206,7 +206,7 @@ class _BestEnds:
         return min(_find_low(self._judge(member_check, x)) for x in at_corners)
 
     def _find_best_panels(self, row: NetRow) -> RowForces | None:
-        """Knowledge of a corner by all cases, with the best of its assumed panels."""
+        """Forces at a corner over all cases, with the best of the assumed panels."""
         key = (_name(row), find_least_forces.__name__)
         if key not in self.forces_at:
             place = list_layouts(self.task.row).index(row.layout)
@@ -222,7 +222,7 @@ class _BestEnds:
         return member_check.again(forces).check
 
     def _tell(self, member_check: MemberCheck) -> Message | None:
-        """What is decided by the value that lowers a check most; None of none."""
+        """Name the assumed value that lowers the utilisation most, if one does."""
         worst = _rate(member_check.check)
         options = [
             *self._vary_statics(member_check),
@@ -332,7 +332,7 @@ class _BestEnds:
         return _scale(member_check.check, *rated)
 
     def _find_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
-        """Knowledge of a variant of the row, by the case that governs a force alone."""
+        """Forces on a variant of the row by the case that governs one force."""
         task, point = self.task, force.largest.case
         key = (_name(row), point)
         if key not in self.forces_at:
@@ -349,7 +349,7 @@ class _BestEnds:
         values: Mapping[str, float],
         find: _FindForces = find_forces_alone,
     ) -> RowForces | None:
-        """Knowledge of a variant by the governing case of a check, at other values."""
+        """Forces on a variant by the governing case of a check, at other values."""
         task = self.task
         if task.solver is None or member_check.check.case is None:
             return None
@@ -383,7 +383,6 @@ class _BestEnds:
 
 
 def _name(row: NetRow) -> object:
-    """Corner at which a variant of the row is."""
     return tuple(sorted(read_values(row).items()))
 
 

@@ -20,7 +20,7 @@ from netdesign.words.message import Message, Text
 
 @dataclass(frozen=True, kw_only=True)
 class ConfirmationRecord:
-    """The governing case solved again by another fidelity."""
+    """Result of the governing case on a finer mesh."""
 
     confirmed_kN: float | None
     difference_percent: float | None
@@ -217,7 +217,7 @@ class HeldSidewaysRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class EndGuyRecord:
-    """What the end guy does to the support at a row's end: (S25), (S26).
+    """Forces that the end guy brings to the support at a row's end: (S25), (S26).
 
     Parts are over V, the part across the row of its pull on the head; the largest over
     the net's inclinations.

@@ -30,12 +30,12 @@ _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each 
 
 
 def count_cases(site: Site) -> int:
-    """About the number of cases of a search, which nobody knows yet."""
+    """Estimate the number of cases of a search."""
     return sum(_count_row(site.at_row(row).ranges) for row in site.rows)
 
 
 def _count_row(ranges: Ranges) -> int:
-    """About the number of cases of a row: its first cases, and some of its own."""
+    """Estimate the number of cases of a row from its first design."""
     if not ranges.axes:
         return 1
     return max(_SEARCH, len(list_first_design(len(ranges.axes))) + _BEYOND_FIRST)
@@ -100,7 +100,7 @@ def search_site(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _RowScenes:
-    """Scenes of a row that are more than three values put into one scene.
+    """Scenes of a row whose layers or further ranges follow the case.
 
     Layers follow the density of a case; a typed glide factor follows its thickness.
     """
@@ -142,12 +142,12 @@ def _build_search(row: NetRow, of_site: Ranges, run: CheckRun) -> RowTask:
 def have_same_forces(
     row: NetRow, ranges: Ranges, other: NetRow, others: Ranges, run: CheckRun
 ) -> bool:
-    """Two rows over their ranges are solved alike, whatever bears their forces."""
+    """Two rows have the same search, and so the same forces."""
     return _build_search(row, ranges, run) == _build_search(other, others, run)
 
 
 def list_alike(site: Site, run: CheckRun) -> list[tuple[NetRow, ...]]:
-    """Rows of a site, those together that are solved alike."""
+    """Group the rows of a site by equal searches."""
     alike: dict[RowTask, list[NetRow]] = {}
     for row in site.rows:
         alike.setdefault(_build_search(row, site.ranges, run), []).append(row)
@@ -155,7 +155,7 @@ def list_alike(site: Site, run: CheckRun) -> list[tuple[NetRow, ...]]:
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
-    """Scenes of a row without what decides no force, and is no part of a name."""
+    """Build the scenes of a row without the inputs that change no force."""
     bare = replace(
         row,
         inputs=(),

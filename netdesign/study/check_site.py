@@ -27,13 +27,13 @@ from netdesign.study.side_by_side import (
 )
 from netdesign.words.message import say
 
-# Progress that nobody is shown.
+# Progress that is not shown.
 _SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)
 OnRow = Callable[[Studies], None]
 
 
 def _keep_silent(_: Studies) -> None:
-    """Tell nobody of a row."""
+    """Report no row."""
 
 
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
@@ -140,8 +140,8 @@ def solve_rows(
 ) -> SolvedSite:
     """Solve the cases of every net row whose forces differ from those in ``before``.
 
-    A what-if has the rows of the site that is known, in their order, and some of them
-    may be solved alike: only their checks are other ones.
+    A what-if has the rows of the site before it, in their order; where a row has the
+    same forces, only its checks differ.
     """
     todo = [
         row for row in site.rows if before is None or _is_new(row, site, before, run)
@@ -156,7 +156,6 @@ def solve_rows(
 
 
 def _is_new(row: NetRow, site: Site, before: SolvedSite, run: CheckRun) -> bool:
-    """No row of that id was solved, or its forces are other ones."""
     old = {row.id: row for row in before.site.rows}.get(row.id)
     return old is None or not have_same_forces(
         row, site.ranges, old, before.site.ranges, run
@@ -180,7 +179,6 @@ def judge_solved(
 
 
 def _list_jobs(solved: SolvedSite, build: Callable[..., RowsJob]) -> list[RowsJob]:
-    """One job a row, with its solved cases."""
     pairs = zip(solved.site.rows, solved.rows, strict=True)
     return [build((row,), (of_row,)) for row, of_row in pairs]
 
@@ -208,7 +206,6 @@ def _gather(
     standards: Sequence[Standard],
     run: CheckRun,
 ) -> list[Study]:
-    """One study a profile, of the rows' studies by their ids."""
     return [
         gather_study(site, [of_rows[row.id][k] for row in site.rows], standard, run)
         for k, standard in enumerate(standards)

@@ -1,8 +1,8 @@
-"""What has to hold beside the numbers: statements that nobody typed.
+"""What has to hold beside the numbers: statements that the workbook leaves open.
 
 A statement is no number that could be searched. What a workbook says of it is a check;
-what it does not say is a condition, which somebody sees to: each stands once for all
-net rows, with the number that the worst of them needs.
+what it leaves open is a condition, which office, supplier or site fulfil. Each stands
+once for all net rows, with the number that the worst of them needs.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def _state(key: Key, value: float | None = None) -> Condition:
 
 
 def _list_of_snow(forces: RowForces) -> Iterator[Condition]:
-    """Heights and glide factors, which a document or an authority confirms."""
+    """List the snow height and glide factor that a document confirms."""
     row, ranges, documents = forces.row, forces.site.ranges, forces.site.documents
     if "snow_document" not in documents:
         yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
@@ -142,7 +142,7 @@ def _list_of_snow(forces: RowForces) -> Iterator[Condition]:
 
 
 def _list_of_types(forces: RowForces) -> Iterator[Condition]:
-    """What the types of a row do not say of corrosion, grounds and sleeves."""
+    """List what the types of a row leave open of corrosion, grounds and sleeves."""
     row, left_out = forces.row, forces.standard.not_checked
     for resistance in _list_resistances(row):
         if resistance.wear is not None and "corrosion" not in left_out:
@@ -177,7 +177,7 @@ def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
 
 
 def _list_of_ground(forces: RowForces) -> Iterator[Condition]:
-    """Ground above and beside the bonds of which nobody says what it has to be."""
+    """List the covers and edge distances for which no least value is given."""
     if "anchor_ground" in forces.standard.not_checked:
         return
     for bond in list_bonds(forces.row, forces.pulls):
@@ -190,7 +190,7 @@ def _list_of_ground(forces: RowForces) -> Iterator[Condition]:
 
 
 def _list_of_bores(forces: RowForces) -> Iterator[Condition]:
-    """Ways and places of the bores, and what stands beside the row."""
+    """List the axes and places of the bores, and the distances beside the row."""
     row, standard = forces.row, forces.standard
     if any(not pull.is_axis_given for pull in forces.pulls):
         yield _state("axes", given_degree_from_radian(USUAL_DIP))

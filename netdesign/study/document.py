@@ -47,7 +47,7 @@ def compute_digest(study: Study) -> str:
     """SHA-256 of a study without its own digest.
 
     It shows that a document is the one whose digest is printed in a report, or that it
-    was altered by somebody who did not think of it. Who alters a document on purpose
+    was altered by accident. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
     return hashlib.sha256(study.written.values.encode()).hexdigest()
@@ -117,12 +117,12 @@ def read_document(text: str) -> Study:
 
 
 def restore_row(text: str) -> RowStudy:
-    """Net row from the text that this program wrote of one.
+    """Read a net row from the text that this program wrote.
 
     Raises
     ------
     ValueError
-        If it is none.
+        If the text is no net row.
     """
     row = json.loads(text)
     _drop_of_row(row)
@@ -131,9 +131,9 @@ def restore_row(text: str) -> RowStudy:
 
 
 def _drop_of_study(document: Any) -> bool:
-    """Take out what is written beside the fields; any other key is refused then.
+    """Remove the values that follow from the fields; other keys are refused later.
 
-    False of what has none of it, and so is no study.
+    False where a document has none of these values, and so is no study.
     """
     if not isinstance(document, dict) or document.keys().isdisjoint(Study.WRITTEN):
         return False
@@ -148,7 +148,7 @@ def _drop_of_row(row: Any) -> None:
 
 
 def _drop(part: Any, names: Iterable[str], members: str = "") -> list[Any]:
-    """Members of an object without some of its keys; none of what is no object."""
+    """Remove keys of an object, and return the members of one of its lists."""
     if not isinstance(part, dict):
         return []
     for name in names:
@@ -158,7 +158,7 @@ def _drop(part: Any, names: Iterable[str], members: str = "") -> list[Any]:
 
 
 def require_unaltered(study: Study, text: str) -> None:
-    """Refuse a study that its text's digest is not of, or that says what is not so.
+    """Refuse a study whose text does not have its digest.
 
     The text holds what follows from the study's fields, too, and the digest is of both.
 
@@ -172,7 +172,7 @@ def require_unaltered(study: Study, text: str) -> None:
 
 
 def _require_sense(study: Study) -> None:
-    """Refuse what has the right kind and is impossible all the same."""
+    """Refuse equal row ids, calculations out of order and impossible dates."""
     counts = Counter(row.id for row in study.rows)
     twice = [name for name, count in counts.items() if count > 1]
     if twice:
@@ -220,7 +220,7 @@ _PLAIN = frozenset({float, int, str, bool, type(None)})  # have no values within
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
-    """One value that two studies do not share; None where one has none."""
+    """Value that differs between two studies; None in the study that lacks it."""
 
     place: str  # "rows.R1.checks.foot_anchor.tendon.demand_kN"
     stored: Any

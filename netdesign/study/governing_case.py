@@ -36,7 +36,7 @@ _DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
 def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
-    """Section of a case; None of one without a solution."""
+    """Record the section of a case; None where it has no solution."""
     if result is None or result.solution is None or result.anchors is None:
         return None
     points = place_support(row.layout, result.solution.head_point)
@@ -137,7 +137,7 @@ LIMITS = {
 
 
 def is_law_met(name: str, value: float | None, limit: float | None) -> bool:
-    """A law is met.
+    """Whether a law is met.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def record_model_form(
 
 
 def _place(law: CreepLaw, row: NetRow) -> _Variant:
-    """Variant of a law: where N was typed, with the slip length that means this N.
+    """Build the variant of a law, with the slip length that means the typed N.
 
     A law without a table of N keeps the row's slip length.
     """
@@ -228,7 +228,6 @@ def _place(law: CreepLaw, row: NetRow) -> _Variant:
 def _solve(
     solver: CaseSolver, row: NetRow, case: Case, variants: Sequence[_Variant]
 ) -> list[CaseResult | None]:
-    """Results in their order; None of a variant that is not solved."""
     solved = iter(
         solver.solve_all(
             [

@@ -130,7 +130,7 @@ def list_guideline_forces(site: Site, standard: Standard) -> list[RowAnchors]:
 def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
     """Forces on the anchors of a net row by the guideline's load, as listed above.
 
-    Where nobody gives its statics, the largest at all their corners.
+    Where the statics are assumed, the largest force at all corners counts.
     """
     ranges = site.at_row(row).ranges
     effects = find_effects(row, standard, ranges)
@@ -215,7 +215,7 @@ def _find_largest(
 def _list_notes(row: NetRow, variants: Sequence[RowForces]) -> list[Message]:
     """Notes on what is taken for granted, and on a load along the row that is not held.
 
-    A single guy on each side holds none; of guys that nobody gives, two do.
+    A single guy on each side holds none; where the number is assumed, two guys hold it.
     """
     lacks = [forces.held for forces in variants if isinstance(forces.held, Message)]
     held = lacks[:1] if len(lacks) == len(variants) else []
@@ -242,7 +242,6 @@ _IN_LOADS = (
 def _hold_sideways(
     row: NetRow, span: Interval, pull: float, share: float
 ) -> HeldSidewaysRecord | Message:
-    """Load along the row under the guideline's load, or why nothing holds it."""
     splay, places = find_splay(row), place_over(row, span)
     if isinstance(splay, Message):
         return splay
@@ -295,7 +294,7 @@ def find_coupled(checks: Sequence[Check], anchor: str, position: str) -> float |
 
 
 def _list_solved(check: Check) -> Iterator[float]:
-    """Forces of section, panel and truss on a support; of a rope's end its only one."""
+    """List the forces of section, panel and truss on a support, or the rope's force."""
     symbols = ("E_c", "E_p", "E_t")
     for force in map(check.read, symbols):
         if force is not None:

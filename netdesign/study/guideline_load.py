@@ -149,7 +149,7 @@ def find_altitude_factor(row: NetRow) -> float:
 
 
 def list_assumed(row: NetRow) -> list[Message]:
-    """What the guideline's load takes for granted about a row."""
+    """List the assumptions of the guideline's load about a row."""
     messages = []
     if row.altitude is None:
         messages.append(say("row.altitude_assumed", factor=find_altitude_factor(row)))
@@ -201,7 +201,7 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
 
 
 def check_ends(effects: RowEffects) -> Check | None:
-    """Not proven where the profile does not say how the ends of a row are loaded."""
+    """Leave the ends of a row open where the profile has no rule for their load."""
     if not effects.missing:
         return None
     return leave_open("ends", OpenKind.RESISTANCE_MISSING, *effects.missing)
@@ -219,7 +219,7 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
 def find_row_floors(
     row: NetRow, ranges: Ranges, standard: Standard, layouts: Sequence[SupportLayout]
 ) -> dict[SupportLayout, Floor | None]:
-    """Those forces of a row on each of some layouts."""
+    """Find the floor of a row on each of several layouts."""
     if standard.floor == "none":
         return dict.fromkeys(layouts)
     model, nets = read_floor_model(standard), _list_nets(row, ranges)
@@ -250,13 +250,13 @@ def _list_nets(row: NetRow, ranges: Ranges) -> NetRanges:
 
 
 def _place_at(row: NetRow, ranges: Ranges, end: Literal["low", "high"]) -> NetRow:
-    """Row at one end of all ranges; the load rises with each, or falls."""
+    """Row at one end of all ranges: the load is monotone in each."""
     values = {name: getattr(span, end) for name, span in ranges.intervals}
     return row.at(Case.of(values))
 
 
 def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
-    """Net row as the guideline needs it, at an inclination [rad]."""
+    """Build the geometry of a net row for the guideline, at an inclination [rad]."""
     return NetGeometry(
         slope_angle=row.slope_angle,
         snow_thickness=row.held_thickness,
@@ -434,7 +434,6 @@ def _list_causes(
 
 
 def _name_cause(row: NetRow) -> Message:
-    """Cause of a difference that lies in ground and law."""
     is_free = row.ground.kind == "free"
     return say("guideline.on_free_ground" if is_free else "guideline.on_sliding_ground")
 

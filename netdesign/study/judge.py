@@ -158,7 +158,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
 
 
 def _record_panel(row: NetRow) -> PanelRecord | None:
-    """Panel between two posts of a row; None without one."""
     if not row.panels:
         return None
     has_mid_anchors = row.panels[0].has_mid_anchors
@@ -177,7 +176,6 @@ def _find_worst_variant(row_checks: RowChecks, variants: Sequence[Variant]) -> V
 def _find_reliability(
     at: Variant, row_checks: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
-    """Notional reliability of the governing check, where it is asked for."""
     if not run.has_reliability:
         return None
     solver = CaseSolver(run.settings, run.creep_law)
@@ -191,7 +189,7 @@ def _ask_other_models(
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
-    Where the program fails in one of those, it is not trusted in the checks either.
+    Where the program fails in one of these solves, no check by its forces passes.
     """
     before = task.count_faults()
     form = _find_model_form(task, find_worst(row_checks.checks))

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.head_pulls import HeadPulls, list_panels
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
+from netdesign.envelope.rows import LARGE
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
 from netdesign.site.model import NetRow
@@ -150,7 +152,7 @@ def _find_least_tension(results: Sequence[CaseResult]) -> float:
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
     """Least tension of the guys at work under the guideline's load [N].
 
-    None where the altitude is not known: a lower row has less. Any without that load.
+    It is 0 where the altitude is not known, since a lower row has less snow.
     """
     if floor is None:
         return math.inf
@@ -171,7 +173,7 @@ class EndShare:
     along : float
         H, largest pull of the ridge rope along the row [N].
     factor : float
-        By which the guideline's load raises the pull on the head [-].
+        By which the guideline's load raises the pulls on the head [-].
     """
 
     end: LoadedWidth
@@ -266,31 +268,64 @@ def _share_end(
     return float(outer[0]), float(outer[2])
 
 
-def find_rope_factors(
-    results: Sequence[CaseResult], floor: Floor
-) -> tuple[float, float]:
-    """Pull of the guideline's load on lower and ridge rope over that of the cases [-].
+class RopeFactors(NamedTuple):
+    """Pulls of the guideline's load over those of the solved cases, at least 1 [-].
 
-    At least 1. Sizes of the pulls at foot and head, each its own largest; of several
-    panels that may be built the one that is pulled least counts. Theory:
-    panel/THEORY.md, (P12).
+    ``lower`` and ``ridge`` raise the largest pull of each rope; ``head`` is that of the
+    panel whose heads are pulled least.
     """
-    solved = [
-        result.panel for result in results if isinstance(result.panel, PanelForces)
-    ]
-    foot = floor.find(Member.FOOT_ANCHOR)
-    if not solved or floor.head is None or foot is None:
-        return 1.0, 1.0
-    least = []
-    for variant in zip(*(panel.variants for panel in solved), strict=True):
+
+    lower: float = 1.0
+    ridge: float = 1.0
+    head: float = 1.0
+
+
+def find_rope_factors(
+    results: Sequence[CaseResult], floor: Floor | None
+) -> RopeFactors:
+    """Factors by which the guideline's load raises what pulls along the row.
+
+    Of several panels that may be built each is raised by its own. Theory:
+    panel/THEORY.md, (P12), (P13).
+    """
+    cases = [panels for result in results if (panels := list_panels(result))]
+    foot = floor.find(Member.FOOT_ANCHOR) if floor else None
+    if not cases or floor is None or floor.head is None or foot is None:
+        return RopeFactors()
+    heads, feet = [], []
+    for variant in zip(*cases, strict=True):
         solutions = [panel.solution for panel in variant]
-        feet = [
-            (a.foot[0] + a.mid_foot[0], a.foot[1] + a.mid_foot[1]) for a in solutions
-        ]
-        pulls = (feet, [solution.head for solution in solutions])
-        least.append(tuple(max(math.hypot(*pull) for pull in of) for of in pulls))
-    lower, ridge = (min(ratios) for ratios in zip(*least, strict=True))
-    return max(1.0, foot.force / lower), max(1.0, floor.head.pull / ridge)
+        pulls = (map(sum, zip(a.foot, a.mid_foot, strict=True)) for a in solutions)
+        at_foot = max(math.hypot(*pull) for pull in pulls)
+        at_head = max(math.hypot(*solution.head) for solution in solutions)
+        feet.append(max(1.0, foot.force / at_foot))
+        heads.append(max(1.0, floor.head.pull / at_head))
+    of_lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+    of_ridge = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
+    return RopeFactors(
+        lower=max(_raise_rope(cases, rope, feet) for rope in of_lower),
+        ridge=max(_raise_rope(cases, rope, heads) for rope in of_ridge),
+        head=max(heads),
+    )
+
+
+def _raise_rope(
+    cases: Sequence[Sequence[PanelForces]], rope: str, factors: Sequence[float]
+) -> float:
+    """Largest force of a rope, each panel's raised by its own factor, over that of all.
+
+    Where a panel's force is largest, it has a share of the largest of all panels:
+    envelope/THEORY.md, (E3).
+    """
+    sizes = [[panel.bands[rope].value for panel in panels] for panels in cases]
+    largest = [max(of_case) for of_case in sizes]
+    raised: list[float] = []
+    for factor, own in zip(factors, zip(*sizes, strict=True), strict=True):
+        near = LARGE * max(own)
+        pairs = zip(own, largest, strict=True)
+        shares = (force / most for force, most in pairs if most >= near)
+        raised.append(factor * max(shares))
+    return max(raised)
 
 
 def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:
@@ -305,9 +340,9 @@ def place_row(row: NetRow, inclination: float) -> SupportPoints:
 
 
 def ask_end_guy(task: Basis) -> Message | None:
-    """Question about an end guy whose anchor stands farther down than the post's head.
+    """Ask about an end guy's anchor that stands farther down than the post's head.
 
-    An empty cell has it abreast of the head: left empty, it would help.
+    An empty cell places it abreast of the head, which is more favourable.
     """
     row, span = task.row, task.site.ranges["inclination"]
     place = row.row_end.guy_from_base if row.row_end else None
@@ -334,7 +369,7 @@ def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
 
 
 def find_splay(row: NetRow) -> float | Message:
-    """Splay of the guys that hold a load along the row [rad], or why none is held."""
+    """Splay of the guys that hold a load along the row [rad], or why none holds it."""
     if row.guys.count < 2:
         return say("sideways.one_guy")
     if row.layout.is_foot_shared and row.guys.splay is not None:

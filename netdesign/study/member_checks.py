@@ -117,7 +117,7 @@ def judge_member(
 ) -> MemberCheck:
     """Check of a member of one support, on one variant of the row.
 
-    With ``is_size`` its numbers and verdict alone: its steps begin at E_k.
+    With ``is_size`` the check has its numbers alone: its steps begin at E_k.
     """
     open_force = _find_open_force(forces, resistance, width)
     if open_force:  # whatever else is missing
@@ -155,7 +155,7 @@ def _resist_and_ask(
     width: LoadedWidth,
     force: MemberForce | None,
 ) -> tuple[Resistance, list[Open]]:
-    """Resistance of a member to a force, and all that is open of both."""
+    """Find the resistance of a member to a force, and the open points of both."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, open_lasting = find_lasting(forces, resistance, pull)
     if force is not None:
@@ -173,7 +173,7 @@ def _resist_and_ask(
 def _list_open(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Iterator[Open]:
-    """What is open of a member's force: of its cases, of what pulls it."""
+    """List the open points of a member's force."""
     open_forces = (
         forces.open_cases,
         forces.open_panel,
@@ -196,8 +196,8 @@ def judge_force(
 ) -> Check:
     """Check of a force; it fails where a moment alone is too much for a post.
 
-    Nothing of the post is left for its force then: the utilisation has no bound. So it
-    is with a loose foot that its post surely lifts.
+    Then no resistance is left for the post's force, and the utilisation has no bound.
+    The same holds for a loose foot that its post surely lifts.
     """
     standard = forces.standard
     reason = points[0].message if points else say("check.no_case_solved")
@@ -273,7 +273,7 @@ def find_lasting(
 def _find_open_force(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> Message | None:
-    """Lack of what a force depends on, so that nothing is known of it."""
+    """Reason why a force is not known at all; None where it is."""
     row = forces.row
     if resistance.member in ROPE_OF and forces.effects.open_end is not None:
         return forces.effects.open_end
@@ -282,7 +282,7 @@ def _find_open_force(
 
 
 def _find_open_input(row: NetRow, resistance: Resistance) -> Message | None:
-    """Lack of the workbook that leaves a rope, an end member, or the end post, open."""
+    """Empty input that leaves a rope or a member of the row's end open."""
     if resistance.member in _ROPES:
         return None if row.panels else row.panel_lack
     if row.row_end is None or resistance.member not in (*EndMember, *PUSHED):
@@ -301,9 +301,9 @@ def _find_loose_end(
 def _find_other_panel(
     row: NetRow, resistance: Resistance, position: Position
 ) -> Message | None:
-    """Doubt that the ropes between the posts are those that were computed.
+    """Reason why the ropes between the posts may differ from those computed.
 
-    It concerns what they load more than the section does.
+    It concerns the members that the ropes load more than the section does.
     """
     pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR, *_ROPES]
     if row.layout.is_foot_shared or (position == "second" and row.row_end):

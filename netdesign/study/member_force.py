@@ -122,7 +122,7 @@ def find_force(
 def _find_numbers(
     forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberForce | None:
-    """Force on a member of which nothing is kept but what a check compares."""
+    """Find the numbers of a force on a member, without its way."""
     try:
         force = _work_out(forces, resistance, width, is_size=True)
     except ModelError:  # outside the range of an operation: the way names it
@@ -140,7 +140,7 @@ def _take_numbers(on: SupportForce) -> SupportForce:
 
 
 def _begin_at(symbol: str, force: Quantity) -> Quantity:
-    """Force as a leaf [kN]; one that is missing stays itself."""
+    """Make a force a leaf [kN]; a missing force stays as it is."""
     if force.low is None or force.high is None:
         return force
     return leaf(symbol, force.value, "kN", "", band=(force.low, force.high))
@@ -149,7 +149,6 @@ def _begin_at(symbol: str, force: Quantity) -> Quantity:
 def _calculate(
     forces: RowForces, leaves: Sequence[Quantity], *, is_size: bool
 ) -> SupportForce:
-    """Force from its leaves, with its way unless its size alone is asked for."""
     kept = map(strip, leaves) if is_size else leaves
     symbols = (quantity.symbol for quantity in leaves)
     return calculate_force(
@@ -203,7 +202,7 @@ def find_guideline_force(
 ) -> float:
     """Force on a member of a support by the guideline's load alone [kN].
 
-    It knows no pull of the ropes along the row.
+    The guideline knows no pull of the ropes along the row.
 
     Parameters
     ----------
@@ -225,7 +224,7 @@ def _find_end_force(
 ) -> MemberForce | None:
     """Force of a border rope, or on a member that holds its pull at the row's end.
 
-    None of a row without panel or end, and where no case has a panel.
+    None where the row has no panel or no end, or where no case has a panel.
     """
     rope = forces.largest.get(ROPE_OF[member])
     is_endless = forces.row.row_end is None and member in tuple(EndMember)
@@ -349,7 +348,7 @@ def _list_floor_leaves(
 
 
 def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
-    """Some case, or the guideline's load, may pull a post off its base."""
+    """Whether some case, or the guideline's load, may pull a post off its base."""
     least = floor.forces if floor else ()
     pulls = [
         *(force.high_kN for force in forces if force.quantity in POST_PULLS),

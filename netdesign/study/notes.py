@@ -165,7 +165,7 @@ def list_judged_notes(
 
 
 def list_row_notes(forces: RowForces) -> list[Message]:
-    """What was taken for granted about this row."""
+    """List the assumptions about a row."""
     row, notes = forces.row, []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
@@ -187,7 +187,7 @@ def list_row_notes(forces: RowForces) -> list[Message]:
 
 
 def _list_end_notes(forces: RowForces) -> Iterator[Message]:
-    """What is assumed of the end of a row: its posts, the end guy and its anchor."""
+    """List the assumptions about the end of a row: posts, end guy and its anchor."""
     row, end = forces.row, forces.row.row_end
     if row.has_end and row.post_count is None:
         yield say("row.posts_unknown")
@@ -201,7 +201,7 @@ def _list_end_notes(forces: RowForces) -> Iterator[Message]:
 
 
 def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
-    """Axes of anchors that are drilled along the pull, and what mortar runs out of."""
+    """List the anchors that are drilled along the pull, and boreholes too flat."""
     for pull in pulls:
         is_twice = pull.position == "edge" and pull.anchor in tuple(Member)
         if is_twice:
@@ -244,13 +244,13 @@ def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
 
 
 def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
-    """How the pulls of two guys on one anchor are added, where some are."""
+    """Note on the sum of the pulls of two guys on one anchor."""
     sharing = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
     return [sharing] if may_share(row.guys) else []
 
 
 def _list_base_notes(tilt: float, checks: Sequence[Check]) -> list[Message]:
-    """What the utilisation of a base rests on that friction holds; (R12)."""
+    """Note on a base that friction holds; (R12)."""
     is_rubbed = any(check.read("μ_b") is not None for check in checks)
     return [say("row.base_friction", tilt=tilt)] if is_rubbed else []
 
@@ -318,7 +318,7 @@ def list_one_anchor_notes(checks: Sequence[Check]) -> list[Message]:
 
 
 def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
-    """Notes on what was done otherwise than asked in some cases."""
+    """Note on cases that were solved with released contact."""
     released = sum(case.reason == RELEASED for case in cases)
     if not released:
         return []

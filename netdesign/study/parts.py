@@ -46,7 +46,7 @@ class PartRecord:
 
 
 def list_parts(row: NetRow, inclination: Interval) -> list[PartRecord]:
-    """Parts of a net row that somebody has to order.
+    """List the parts of a net row to be ordered.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def _count(
 ) -> int | None:
     """Number of a member at some supports; a shared anchor is one of both its posts.
 
-    Of those between an end post and the next one the end post has them.
+    The end post counts the shared anchors between itself and the next post.
     """
     if supports is None:
         return None
@@ -118,7 +118,7 @@ def _count(
 
 
 def _measure(row: NetRow, member: str, heads: list[SupportPoints]) -> float | None:
-    """Longest length of a guy or post between its points [m]; None of anchors."""
+    """Measure the longest guy or post between its points [m]; None for anchors."""
     if member == Member.POST:
         return max(head.post_length for head in heads)
     if member not in (Member.UPHILL_GUY, Member.DOWNHILL_GUY):
@@ -169,7 +169,6 @@ def _list_ends(row: NetRow) -> Iterator[PartRecord]:
 
 
 def _index(resistances: Iterable[Resistance]) -> dict[str, Resistance]:
-    """First resistance of each member."""
     first: dict[str, Resistance] = {}
     for resistance in resistances:
         first.setdefault(resistance.member, resistance)

@@ -51,7 +51,7 @@ _ROUNDED = 0.01
 
 
 def find_short_post(resistance: Resistance, basis: Basis) -> Message | None:
-    """Lack of a post's resistance that was computed for a shorter post than the row's.
+    """Reason why the resistance of a post does not hold: the row's post is longer.
 
     Theory: resistance/THEORY.md, (R5). The post is longest at one end of the net's
     inclinations.
@@ -105,7 +105,8 @@ def find_post_resistance(
 ) -> Resistance:
     """Compression that a post bears beside the snow on it; (R10) to (R11b).
 
-    Where nobody gives eta, it is that of the largest, and ``best`` that of the least.
+    Where eta is not given, the value is that of the largest eta, and ``best`` that of
+    the least.
     """
     standard, row = basis.standard, basis.row
     on_action = standard.find(ACTION_FACTOR)
@@ -170,9 +171,9 @@ class _Efficiency:
 def ask_efficiency(
     resistance: Resistance, basis: Basis, width: LoadedWidth
 ) -> Message | None:
-    """Question about an eta with which snow presses more than where nobody gives one.
+    """Ask about an eta with which the snow presses more than with the assumed one.
 
-    Left empty it would help: somebody confirms it, or changes it.
+    An empty cell would be more favourable: the engineer confirms or changes it.
     """
     section = resistance.dimensions
     if not isinstance(section, PostSection) or section.efficiency is None:
@@ -276,7 +277,7 @@ def _load_post(
 
 
 def _name_assumed(section: PostSection) -> Message | str:
-    """What of a post nobody gives, so that it is assumed; "" of nothing."""
+    """Name the assumed inputs of a post; "" where all are given."""
     names = tuple(say(f"column.Posts.{key}") for key in section.assumed)
     return say("post_bending.not_given", names=names) if names else ""
 

@@ -107,7 +107,7 @@ class VariableRecord:
     mean: float
     variation: float  # coefficient of variation [-]
     source: Text
-    is_assumed: bool  # nobody typed it
+    is_assumed: bool  # not typed
     alpha_squared: float | None = None  # share in beta squared [-]
     at_design_point: float | None = None
 
@@ -156,7 +156,7 @@ class OpenPoint:
 class RowStudy:
     """Everything about one net row."""
 
-    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # nobody asked for it
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("reliability",)  # an option
     WRITTEN: ClassVar = ("verdict", "scopes", "open")
 
     id: str
@@ -178,8 +178,8 @@ class RowStudy:
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: Items[PartRecord] = field(default_factory=list)  # that it is built of
-    conditions: Items[Condition] = field(default_factory=list)  # that somebody sees to
-    reliability: ReliabilityRecord | None = None  # None where nobody asks for it
+    conditions: Items[Condition] = field(default_factory=list)  # beside the numbers
+    reliability: ReliabilityRecord | None = None  # None without --reliability
 
     @cached_property
     def verdict(self) -> Verdict:
@@ -204,7 +204,7 @@ class RowStudy:
 
     @cached_property
     def open(self) -> list[OpenPoint]:
-        """What is open of its checks that are not proven, each reason once."""
+        """Open points of the checks that are not proven, each reason once."""
         points: dict[tuple[OpenKind, str], OpenPoint] = {}
         for check in self.checks:
             if check.verdict is not Verdict.NOT_PROVEN:
@@ -235,9 +235,9 @@ class RowStudy:
 
     @cached_property
     def reasons(self) -> list[Message]:
-        """Why it does not pass: of its checks, and of laws not met; may be empty.
+        """Reasons why the row does not pass: of its checks and of laws not met.
 
-        Checks with the same reason stand before it together.
+        Checks with the same reason share one line.
         """
         titles: dict[str, list[Message]] = {}
         messages: dict[str, Message] = {}
@@ -259,7 +259,7 @@ class RowStudy:
 
     @cached_property
     def written(self) -> JsonPart:
-        """Itself in the document; a process that judges rows sends it along."""
+        """JSON text of the row in the document, made where the row is judged."""
         return write_part(self)
 
 
@@ -280,7 +280,7 @@ class ProfileRecord:
     is_floor_overruled: bool = False  # the profile itself takes the other one
     has_maker_floor: bool = True  # nor below an anchor force that the maker states
     is_by_guideline: bool = False  # its load decides even where it is the smaller
-    is_default: bool = False  # nobody named it
+    is_default: bool = False  # not named by the user
     proof_factor: float | None = None  # load of a test over the design force it proves
     not_checked: Items[str] = field(default_factory=list)  # topics that others check
 
@@ -346,7 +346,7 @@ class Study:
 
     @cached_property
     def written(self) -> JsonPart:
-        """Document without its digest: page and document want both."""
+        """JSON text of the study without its digest."""
         without = list_fields(self) | {"digest": ""}
         parts = {
             name: self.written_rows if name == "rows" else write_part(value)

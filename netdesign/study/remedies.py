@@ -40,7 +40,7 @@ from netdesign.words.names import name
 
 
 def list_remedies(member_check: MemberCheck) -> list[Change]:
-    """Changes that flip a failing, unproven or close check."""
+    """List the changes with which a failing, unproven or close check passes."""
     basis = member_check.forces
     is_of_ground = (
         member_check.resistance.mode in ("sliding", "wedge")
@@ -63,9 +63,9 @@ def list_remedies(member_check: MemberCheck) -> list[Change]:
 
 
 def _annotate(member_check: MemberCheck, changes: list[Change]) -> list[Change]:
-    """Changes with a note where they alone do not do.
+    """Add a note to the changes that do not suffice alone.
 
-    Another type has the condition of its own resistance.
+    Another type has its own condition.
     """
     if member_check.check.has_open(OpenKind.UNSOLVED):
         note = say("change.as_far_as_solved")
@@ -77,7 +77,7 @@ def _annotate(member_check: MemberCheck, changes: list[Change]) -> list[Change]:
 
 
 def _is_worth_telling(basis: Basis, member_check: MemberCheck) -> bool:
-    """It has a force, and does not pass with much to spare."""
+    """The check has a force, and its utilisation is at least 0.9."""
     demand, used = (member_check.check.read_band(symbol)[1] for symbol in ("E_d", "μ"))
     if not demand or basis.row.is_overtopped:
         return False
@@ -140,7 +140,7 @@ _ANCHORS = (
 
 
 def find_ground(site: Site, type_id: str) -> str:
-    """Ground of an anchor type of the workbook; "" where nobody gives it."""
+    """Ground of an anchor type of the workbook; "" where it is not given."""
     grounds = (kind.ground for kind in site.catalogue if kind.type_id == type_id)
     return next((ground for ground in grounds if ground), "")
 
@@ -148,7 +148,7 @@ def find_ground(site: Site, type_id: str) -> str:
 def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
     """Validity of a type in the ground of the type that it would replace.
 
-    A type whose ground nobody gives proves nothing in any.
+    A type without a given ground proves nothing in any ground.
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ class _Enough:
 def _list_enough(
     basis: Basis, resistance: Resistance, demand: float, pull: PullRecord | None
 ) -> Iterator[_Enough]:
-    """Types of the workbook that reach a demand; none of another ground, or worn."""
+    """List the types of the workbook that reach a demand in the same ground."""
     row, standard = basis.row, basis.standard
     ground = row.ground_type or resistance.ground
     for other in basis.site.catalogue:
@@ -270,7 +270,7 @@ def _record(
 
 _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
-_BAR_STRENGTH = 500.0  # of a bar whose steel nobody gives [MPa]
+_BAR_STRENGTH = 500.0  # of a bar without a given steel [MPa]
 _LONGEST_BOND = 10.0  # that counts [m]
 
 
@@ -382,7 +382,6 @@ def _find_derivation(resistance: Resistance, key: str) -> Message | None:
 
 
 def _take(how: Message, key: str) -> float:
-    """Number of a derivation."""
     return float(str(how.arguments[key]))
 
 

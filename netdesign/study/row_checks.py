@@ -46,7 +46,7 @@ from netdesign.words.message import Message, say
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowChecks:
-    """Every check of a row; by their ids how those of forces were judged."""
+    """Every check of a row, and by id how each check of a force was judged."""
 
     checks: list[Check]
     judged: Mapping[str, MemberCheck]
@@ -55,8 +55,7 @@ class RowChecks:
 def check_row(task: RowToCheck, variants: Sequence[RowForces]) -> RowChecks:
     """Every check of a row: the members of both supports, then the geometry.
 
-    ``variants`` is what its solved cases tell, at each corner of what is assumed of its
-    statics.
+    ``variants`` are its forces at each corner of the assumed statics.
     """
     judged = settle(task, variants, judge_members(variants))
     checks = []
@@ -95,7 +94,7 @@ def check_limits(basis: Basis) -> list[Check]:
 def _find_actual(row: NetRow, ranges: Ranges) -> dict[str, tuple[float, float]]:
     """Least and largest value of a row by what an approval limits, SI.
 
-    Where nobody gives the altitude, it may be whatever the guideline knows.
+    An altitude that is not given may be any that the guideline knows.
     """
     factors = [find_row_glide_factor(corner) for corner in list_corners(row, ranges)]
     altitude = find_altitude_factor(row)
@@ -110,10 +109,10 @@ def _find_actual(row: NetRow, ranges: Ranges) -> dict[str, tuple[float, float]]:
 
 
 def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
-    """Checks of a row with one line for what is not listed of its structure.
+    """Settle the checks of the structure by the row's approval, or leave it open.
 
-    Inside its limits an approval proves it, and what was calculated of it is
-    information. Outside, and where nothing is given of it, it is not proven.
+    Inside its limits the approval proves the structure, and its calculated checks are
+    information. Outside them, and without any resistance, it is not proven.
     """
     limits = next((check for check in checks if check.mode == MODE), None)
     if limits is None:
@@ -147,7 +146,7 @@ def _leave_structure_open(mode: str, reason: Message | None) -> Check:
 
 
 def _is_given(check: Check) -> bool:
-    """Something is given that a check of the structure rests on.
+    """A type or a resistance is given for a check of the structure.
 
     The type of a chain is that of its anchor, which is none of the structure. Friction
     under a base of no type is assumed.
@@ -159,7 +158,7 @@ def _is_given(check: Check) -> bool:
 
 
 def _has_result(check: Check) -> bool:
-    """Its numbers, or a document, say something of it."""
+    """Its numbers or a document give a result."""
     return check.used is not None or check.verdict is not Verdict.NOT_PROVEN
 
 
@@ -200,7 +199,7 @@ def check_row_geometry(basis: Basis) -> list[Check]:
 
 
 def _leave_assumed_open(row: NetRow, check: Check) -> Check:
-    """Check of the distance of rows, open where nobody says how far the snow goes."""
+    """Leave the distance of rows open where the length of the snow is assumed."""
     length = row.find_assumed(_UPSLOPE)
     if check.mode != _SPACING or length is None:
         return check
@@ -209,8 +208,8 @@ def _leave_assumed_open(row: NetRow, check: Check) -> Check:
 
 
 def _list_asked(row: NetRow, standard: Standard) -> Iterator[Check]:
-    """Checks that are there only while something is asked about."""
-    if standard.is_default:  # nobody has named the limit profile
+    """List the checks that are there only while the program asks about an input."""
+    if standard.is_default:  # the limit profile is not named
         reason = say("check.no_profile", profile=standard.id)
         asked = leave_open("profile", OpenKind.VALUE_ASKED, reason)
         yield replace(asked, id="profile.named")

@@ -24,7 +24,7 @@ from netdesign.words.message import Message
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowForces(Basis):
-    """Knowledge of a row by its solved cases, or by its study, in engineer's units.
+    """Forces of a row by its solved cases, in engineer's units.
 
     Attributes
     ----------

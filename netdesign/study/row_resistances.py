@@ -170,9 +170,9 @@ def _find_head_resistance(
 def holds_across(
     resistance: Resistance, standard: Standard, pull: PullRecord | None, force: Quantity
 ) -> bool:
-    """What is at the head takes the design force across the axis, (R9c).
+    """Whether the anchor's head takes the design force across the axis, (R9c).
 
-    A block that does not is none to a bar, which then bends in the ground. ``force`` is
+    Where a block does not, the bar bends in the ground. ``force`` is
     the characteristic one [kN].
     """
     asked = replace(resistance, mode="direction", basis="declared")
@@ -188,7 +188,7 @@ def holds_across(
 
 
 def may_bend(resistance: Resistance) -> bool:
-    """Bar or micropile: it bends where the block at its head does not hold."""
+    """A bar or micropile bends where the block at its head does not hold."""
     anchor = resistance.dimensions
     return isinstance(anchor, AnchorType) and anchor.kind in BENDING
 
@@ -217,10 +217,10 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
 def settle_basis(
     resistance: Resistance, standard: Standard
 ) -> tuple[Resistance, Message | None]:
-    """Pull-out resistance of which nobody says how it was found: the worse counts.
+    """Settle a pull-out resistance without a basis: the worse of two bases counts.
 
-    It is computed, or that of one test. With why it may not count: the profile has no
-    factor on one of these. Others as they are.
+    It may be computed, or that of one test. The message says where the profile has no
+    factor on one of these. Other resistances stay as they are.
     """
     if resistance.mode != "pull_out" or resistance.basis or resistance.value is None:
         return resistance, None
@@ -307,7 +307,7 @@ def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Qu
 def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
-    Bare steel whose diameter nobody gives has none that is known. As it is, and no
+    Bare steel without a given diameter has no known resistance. As it is, and no
     open point, of what does not corrode, what has a condition in the place of its
     protection, and where the profile leaves corrosion to others.
     """
@@ -431,7 +431,7 @@ def connect(
 
 
 def _add_usual_link(resistance: Resistance, strength: float | None) -> Resistance:
-    """Chain that nobody calls complete: a usual link may be weaker, (R17a).
+    """Add a usual link to a chain that is not said to be complete, (R17a).
 
     It is a shackle as strong as the steel or rope of its type, pulled at a right angle.
     """

@@ -116,7 +116,7 @@ def describe_variant(row: NetRow) -> AssumedPoint | None:
 
 
 def is_layout_assumed(row: NetRow) -> bool:
-    """Whether nobody gives some distance or tilt of its support."""
+    """Whether some distance or tilt of the support is assumed."""
     return any(row.find_assumed(key) is not None for key in _OF_LAYOUT)
 
 

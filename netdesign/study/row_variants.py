@@ -15,12 +15,13 @@ from netdesign.guideline.floor import Floor
 from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import RopeForce
+from netdesign.structure.members import Member, RopeForce
 from netdesign.study.anchor_pulls import FootPulls, list_pulls, measure_feet
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
 from netdesign.study.load_along_row import (
     EndShare,
+    RopeFactors,
     find_end_guy,
     find_held_sideways,
     find_rope_factors,
@@ -78,11 +79,10 @@ def find_least_forces(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> Row
         return place_forces(cases, read_cases(cases))
     heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
-    cases = replace(cases, heads=heads, feet=feet)
+    cases = replace(cases, heads=heads, feet=feet, factors=RopeFactors())
     base = read_cases(cases)
     largest = _take_least(base.largest, solved.results)
-    floor = base.floor and replace(base.floor, lower_rope=1.0, ridge_rope=1.0)
-    forces = place_forces(cases, replace(base, largest=largest, floor=floor))
+    forces = place_forces(cases, replace(base, largest=largest))
     return take_off_truss(forces)
 
 
@@ -128,12 +128,15 @@ class RowCases:
         What they bring to the foot.
     floor : Floor or None
         Forces by the guideline's load.
+    factors : RopeFactors
+        By which that raises what pulls along the row.
     """
 
     task: RowToCheck
     heads: HeadPulls
     feet: FootPulls
     floor: Floor | None
+    factors: RopeFactors
 
 
 def gather_cases(
@@ -141,14 +144,28 @@ def gather_cases(
 ) -> RowCases:
     """Solved cases of a variant of a row; ``before`` on another layout of its."""
     at = replace(task, row=row, solved=solved, extremes=solved.extremes)
+    width, floor = row.layout.post_spacing, _find_floor(task, row.layout)
     return RowCases(
         task=at,
-        heads=before.heads
-        if before
-        else read_heads(row.layout.post_spacing, solved.results),
+        heads=before.heads if before else read_heads(width, solved.results),
         feet=before.feet if before else measure_feet(solved.results),
-        floor=_find_floor(task, row.layout),
+        floor=floor,
+        factors=before.factors
+        if before and _pull_alike(before.floor, floor)
+        else find_rope_factors(solved.results, floor),
     )
+
+
+def _pull_alike(first: Floor | None, second: Floor | None) -> bool:
+    """Both loads pull as much on foot and head, so that they raise ropes alike."""
+    if first is None or second is None:
+        return first is second
+    pulls = [
+        (foot.force, floor.head.pull)
+        for floor in (first, second)
+        if floor.head and (foot := floor.find(Member.FOOT_ANCHOR))
+    ]
+    return len(pulls) == len({*pulls}) + 1
 
 
 def _find_floor(task: RowToCheck, layout: SupportLayout) -> Floor | None:
@@ -167,7 +184,6 @@ def read_cases(cases: RowCases) -> RowForces:
     task, floor = cases.task, cases.floor
     site, row, standard = task.site, task.row, task.standard
     results, extremes = task.solved.results, task.extremes
-    factors = find_rope_factors(results, floor) if floor else (1.0, 1.0)
     return RowForces(
         site=site,
         row=row,
@@ -177,7 +193,7 @@ def read_cases(cases: RowCases) -> RowForces:
         largest={
             k: record_largest(extreme, task.solved) for k, extreme in extremes.items()
         },
-        floor=record_floor(floor, row, factors),
+        floor=record_floor(floor, row, (cases.factors.lower, cases.factors.ridge)),
         held=say("check.no_case_solved"),
         tilt=find_tilt(
             row, (result.case.inclination for result in results if result.is_converged)
@@ -199,8 +215,10 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
     along = find_end_pull(forces)
     if along is None:
         return forces
-    factor = forces.floor.ridge_rope if forces.floor else 1.0
-    load = EndShare(end=forces.effects.supports[-1], along=along, factor=factor)
+    factors = cases.factors
+    if factors.ridge < factors.head:  # all panels are raised as the least one
+        along *= factors.head / factors.ridge
+    load = EndShare(end=forces.effects.supports[-1], along=along, factor=factors.head)
     return replace(forces, end_guy=find_end_guy(task, load, cases.heads))
 
 

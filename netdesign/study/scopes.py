@@ -100,7 +100,7 @@ _PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be
 def find_scopes(check: Check) -> Scopes:
     """Scopes that a check belongs to: one, or all that it bears on.
 
-    What nobody said of its member, as of a stored study that was altered, bears on all.
+    A check of an unknown member, as in an altered study, belongs to all scopes.
     """
     if check.id == _PLAUSIBLE:
         asked = (_find_asked(point.message) for point in check.open)
@@ -140,7 +140,7 @@ class ScopeRecord:
     governing : str
         Id of the check that decides; "" without any.
     assumed : int
-        Values that nobody gave and that it was searched over.
+        Number of values that are not given, and over which the row was searched.
     row : str or None
         Net row of the governing check; None in the record of a row.
     """

@@ -129,7 +129,7 @@ def size_site(
 
 
 def _join_slots(study: Study, site: Site) -> list[SizedCell]:
-    """Every cell once, though it may hold for several rows."""
+    """Join the cells of several rows into one."""
     joined: dict[tuple[str, str, str], SizedCell] = {}
     for row, net_row in zip(study.rows, site.rows, strict=True):
         for slot in _list_slots(row, net_row, site):
@@ -139,7 +139,7 @@ def _join_slots(study: Study, site: Site) -> list[SizedCell]:
 
 
 def _join(sized: SizedCell, other: SizedCell) -> SizedCell:
-    """A cell of two rows: a type has to hold in the ground of both."""
+    """Join a cell of two rows: a type has to hold in the ground of both."""
     return replace(
         sized,
         checks={**sized.checks, **other.checks},
@@ -155,10 +155,9 @@ def _choose(slot: SizedCell, passing: Mapping[str, float]) -> SizedCell:
 
 
 def _list_slots(row: RowStudy, net_row: NetRow, site: Site) -> Iterator[SizedCell]:
-    """Cells of a row that name a type, with the checks of the type.
+    """List the cells of a row that name a type, with the checks of the type.
 
-    A row is open where a check with a force does not pass: where nothing is known of
-    the forces no type is at fault.
+    A row is open where a check with a known force does not pass.
     """
     checks: dict[tuple[Column, str, str], list[Check]] = {}
     for check in row.checks:
@@ -283,11 +282,11 @@ def _rate(
     built: Iterable[Check],
     tried: Sequence[Check],
 ) -> float | None:
-    """Largest utilisation of a cell's checks, at most 1; None if any does not pass.
+    """Find the largest utilisation of a cell's checks; None if one does not pass.
 
     A check that is declared as proven elsewhere stays so; no other becomes one. A type
     may bring checks of its own: a bar bends where a rope anchor turns. One of whose
-    ground nobody says the strength is none in the place of one where somebody does.
+    ground without a given strength does not replace a type whose ground has one.
     """
     lost = set(ids) - {check.id for check in tried}
     if any("wedge" in name for name in lost):

@@ -90,7 +90,7 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
 def _shorten(
     lines: Sequence[ToDo], most: int, order: Sequence[str]
 ) -> tuple[ToDo, ...]:
-    """Lines of which the last one counts those that have no room."""
+    """Shorten the list: its last line counts the lines left out."""
     kept, rest = lines[: most - 1], lines[most - 1 :]
     ids = tuple(row for row in order if any(row in line.rows for line in rest))
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
@@ -106,8 +106,8 @@ def _rank(group: Sequence[_Point]) -> tuple[int, float]:
 def _list_points(row: RowStudy) -> Iterator[_Point]:
     """Open points of the checks of a row that do not pass.
 
-    One of each that fails, or whose interval spans the limit. Of a structure of which
-    nothing is given, that is the point.
+    A failing check has one, and so has one whose band spans the limit. A structure
+    without any resistance has a single point.
     """
     is_bare = any(check.member == STRUCTURE and check.open for check in row.checks)
     for check in row.checks:
@@ -200,7 +200,7 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
 
 
 def _describe_open(checks: tuple[Message, ...], reason: Message) -> Message:
-    """Reason, behind the names of its checks where they are few."""
+    """Name the checks where they are few, and the reason."""
     is_few = len(checks) <= _FEW
     return say("to_do.open", checks=checks, reason=reason) if is_few else reason
 
@@ -212,7 +212,7 @@ def shorten_reason(reason: Message) -> Message:
 
 
 def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
-    """Force beside resistance, and the type that does, where one is known."""
+    """Name force and resistance, and the type that suffices where one is known."""
     demand, resistance = check.read_band("E_d")[1], check.resistance_kN
     if demand is None or resistance is None:
         return _describe_open(checks, shorten_reason(check.plain_reason))
@@ -225,7 +225,7 @@ def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
 
 
 def _describe_needed(checks: Sequence[Check]) -> Message:
-    """What types, or members without one, do not say; the least that each needs."""
+    """Name the missing resistances, and the least value that each type needs."""
     needed: dict[str, float] = {}
     for check in checks:
         name = check.resistance_type or check.member

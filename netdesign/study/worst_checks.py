@@ -32,7 +32,7 @@ from netdesign.words.message import Message
 def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
     """Checks of both supports' members, then of the net and what holds its ropes.
 
-    Each is that of the variant of the row on which it is worst.
+    Each check is that of the variant on which it is worst.
     """
     forces = variants[0]
     effects, row = forces.effects, forces.row
@@ -67,7 +67,7 @@ def _judge_at(
 ) -> Iterator[MemberCheck]:
     """Checks of the members of one support, each rope's with those of its links.
 
-    Those of the directions come once these are known.
+    The checks of the directions follow later, since they depend on these.
     """
     for resistance in resistances:
         if resistance.mode == "direction" or not _concerns(variants, resistance):
@@ -116,7 +116,7 @@ def _judge_worst(
     resistance: Resistance,
     find: _Find = _keep,
 ) -> MemberCheck:
-    """Check of a member where it is worst; ``find`` its resistance on a variant."""
+    """Judge a member where it is worst; ``find`` gives its resistance."""
 
     def judge(forces: RowForces, *, is_size: bool = False) -> MemberCheck:
         used = find(forces, resistance, width)
@@ -188,7 +188,7 @@ def _judge_direction(
     width: LoadedWidth,
     open_cases: Message | None,
 ) -> MemberCheck:
-    """Check of a rope anchor's angle; beyond what it turns by, of its head."""
+    """Check a rope anchor's angle; beyond the limit check its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
     check = check_direction(pull, forces.standard, open_cases) if pull else None
     if check is None:
@@ -207,7 +207,7 @@ _AS_INSIDE = 1.01  # times the utilisation inside the row: the second support is
 def _place_second(
     forces: RowForces, of_supports: Mapping[str, Sequence[MemberCheck]]
 ) -> list[MemberCheck]:
-    """Checks of all supports, those of the second one where they can govern.
+    """List the checks of all supports, those of the second one where they can govern.
 
     It has the types inside and no less load. Where that is alike, its check is the one
     inside; where the end has the same type with more load, that check says all.
@@ -245,7 +245,7 @@ def _rate_load(member_check: MemberCheck) -> float:
 
 
 def _is_no_worse(member_check: MemberCheck, other: MemberCheck) -> bool:
-    """Neither more used nor loaded nor of a worse verdict."""
+    """Whether a check has no larger use, no larger load and no worse verdict."""
     verdicts = [WORSE.index(each.check.verdict) for each in (member_check, other)]
     loads = [each.check.read_band("E_d")[1] or 0.0 for each in (member_check, other)]
     is_less = member_check.ratio <= other.ratio and loads[0] <= loads[1]
@@ -255,7 +255,7 @@ def _is_no_worse(member_check: MemberCheck, other: MemberCheck) -> bool:
 def _is_covered(
     forces: RowForces, member_check: MemberCheck, end: MemberCheck | None
 ) -> bool:
-    """The end's check of the same type is worse; no document for it alone."""
+    """Whether the end's check of the same type is worse, and no document proves it."""
     if (
         end is None
         or not end.resistance.type_id
@@ -270,7 +270,7 @@ def _is_covered(
 
 
 def _concerns(variants: Sequence[RowForces], resistance: Resistance) -> bool:
-    """The check is one of this row and profile: some case lifts a foot that is held."""
+    """Whether row and profile have the check: a post foot where a case lifts it."""
     if resistance.member == Member.POST_FOOT:
         return any(lifts(forces.largest.values(), forces.floor) for forces in variants)
     not_checked = variants[0].standard.not_checked

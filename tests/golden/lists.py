@@ -13,10 +13,15 @@ from pathlib import Path
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from tests.golden.compare import tell_differences
-from tests.golden.drawn import HERE, PROFILES, load, solve_and_judge, store
+from tests.golden.drawn import (
+    HERE,
+    PROFILES,
+    load,
+    read_drawn,
+    solve_and_judge,
+    store,
+)
 from tests.golden.places import flatten, state_verdicts
-from tests.grid import drop_counts
-from tests.site_lines import write_lines
 
 LISTS = HERE / "lists"
 ROWS = 2  # of each site
@@ -47,9 +52,7 @@ def read_list(name):
     if (path := LISTS / f"{name}.xlsx").is_file():
         return read_site(path)
     with tempfile.TemporaryDirectory() as folder:
-        sheets = drop_counts(load("lines")[name])
-        write_lines(path := Path(folder) / "site.xlsx", sheets)
-        return read_site(path)
+        return read_drawn(Path(folder) / "site.xlsx", load("lines")[name])
 
 
 def store_lists():

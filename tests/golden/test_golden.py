@@ -37,4 +37,4 @@ def test_the_sites_hold_all_verdicts_and_grounds(stored):
                 if key.endswith("/verdict")}  # fmt: skip
     assert verdicts == {"pass", "fail", "not_proven", "declared"}
     words = {value for study in numbers.values() for value in study.values()}
-    assert {"free", "no-slip", "sliding"} <= words
+    assert {"free", "sliding"} <= words

@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 from itertools import product
 
 import pytest
@@ -35,6 +36,12 @@ SEEDS = (203, 204, 207, 211, 216, 218)
 
 def draw_solver(seed):
     """Function that solves one drawn row with some panels, and its post spacing."""
+    solve, _, spacing = draw_case(seed)
+    return lambda panels: solve(panels).panel, spacing
+
+
+def draw_case(seed):
+    """Function that solves one drawn row with some panels, its net and post spacing."""
     draw = random.Random(seed)
     height, spacing = draw.uniform(2.0, 4.5), draw.uniform(2.5, 4.5)
     layout = SupportLayout(
@@ -58,12 +65,13 @@ def draw_solver(seed):
     ground = GroundLaw(kind=draw.choice(("free", "no-slip")))
     case = Case(density=0.0, friction_angle=0.0, inclination=0.0)
 
-    def solve(panels):
-        scene = Scene(snowpack=snow, ground=ground, net=net)
+    def solve(panels, denser=1.0):
+        dense = replace(snow, density=denser * snow.density)
+        scene = Scene(snowpack=dense, ground=ground, net=net)
         task = build_task(case, lambda _: scene, layout, COARSE, tuple(panels))
-        return run_cases([task])[0].panel
+        return run_cases([task])[0]
 
-    return solve, spacing
+    return solve, net, spacing
 
 
 def list_ends(spacing):

@@ -9,7 +9,7 @@ import pytest
 from netdesign.checks import Proof
 from netdesign.checks.check import Check
 from netdesign.outcome import StudyError, Verdict
-from netdesign.report.difference import compare_studies, name_area, write_difference
+from netdesign.report.difference import compare_studies, write_difference
 from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.document import read_document, write_document
 from netdesign.study.parts import PartRecord
@@ -219,24 +219,6 @@ def test_every_value_of_a_study_is_compared():
         assert bool(changes) is (name not in UNTOLD), path
         is_verdict = name[-1] in ("verdict", "is_met")
         assert any(c.is_turned for c in changes) >= is_verdict, path
-
-
-@pytest.mark.parametrize(
-    ("language", "verdict", "area"),
-    [("en", "verdict: fail -> none", "verdict"), ("fr", "aucune valeur", "verdict"),
-     ("de", "kein Wert", "Ergebnis")],
-)  # fmt: skip
-def test_changes_are_told_in_the_language_asked_for(language, verdict, area):
-    old, new = build_study(rows=3), build_study(rows=2)
-    changed = replace(new, project=replace(new.project, revision="C"))
-    changes = compare_studies(old, changed)
-    told = [change.tell(language) for change in changes]
-    assert all(told)
-    assert any(verdict.rpartition(": ")[2].split(" -> ")[-1] in line for line in told)
-    assert name_area("verdict", language) == area
-    document = write_difference(changes, language)
-    assert len(document["changes"]) == len(changes)
-    assert [one["new"] for one in document["changes"]] == [one.new for one in changes]
 
 
 def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():

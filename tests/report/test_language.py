@@ -10,13 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.checks import load_standard
-from netdesign.report.blocks import Table
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.annexes import build_cases, build_opinions
-from netdesign.report.sections.basis import build_profile
-from netdesign.report.sections.schedule import show_schedule
-from netdesign.report.words import Words, show_own, show_verdict
+from netdesign.report.words import Words, show_own
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.document import read_document, write_document
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
@@ -98,25 +94,6 @@ def test_shipped_profiles_are_translated(language):
     texts += [profile.choice_text for profile in profiles if profile.choice]
     assert len(set(texts)) > 90
     assert [text for text in texts if show_own(words, text) == text] == []
-
-
-@pytest.mark.parametrize("language", OTHERS)
-def test_the_same_study_is_told_with_the_same_numbers(language):
-    study, shown = build_study(), []
-    for words in (Words("en"), Words(language)):
-        tables = [
-            one for one in show_schedule(study, words).blocks if isinstance(one, Table)
-        ]
-        tables += [build_cases(row, words) for row in study.rows]
-        tables += [build_opinions(study, words), build_profile(study, words)]
-        shown.append([c.number for one in tables for line in one.rows for c in line])
-    assert shown[0] == shown[1]
-    assert len(shown[0]) > 500
-    english, other = (
-        show_verdict(study.verdict, Words(one)) for one in ("en", language)
-    )
-    assert english.word != other.word
-    assert english.style == other.style
 
 
 def test_what_somebody_typed_is_never_translated():

@@ -279,12 +279,14 @@ def test_the_guideline_s_load_reaches_the_ropes():
     foot = floor.find("foot_anchor").force / max(feet)
     head = floor.head.pull / max(heads)
     found = find_rope_factors(envelope.results, floor)
-    assert found == pytest.approx((max(1.0, foot), max(1.0, head)), rel=1e-12)
+    expected = (max(1.0, foot), max(1.0, head), max(1.0, head))
+    assert found == pytest.approx(expected, rel=1e-12)
     assert max(found) > 1.0
     half = replace(floor, head=replace(floor.head, pull=0.3 * floor.head.pull))
-    assert find_rope_factors(envelope.results, half)[1] == 1.0
+    assert find_rope_factors(envelope.results, half).ridge == 1.0
     double = replace(floor, head=replace(floor.head, pull=2.0 * floor.head.pull))
-    assert find_rope_factors(envelope.results, double)[1] == pytest.approx(2.0 * head)
+    doubled = find_rope_factors(envelope.results, double).ridge
+    assert doubled == pytest.approx(2.0 * head)
 
 
 # Of other types at the end, whose checks say nothing of those inside.

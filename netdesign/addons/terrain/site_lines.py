@@ -20,12 +20,12 @@ from netdesign.addons.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
+from netdesign.cable.sag import find_sag, find_slack
 from netdesign.outcome import SiteDataError, TerrainError
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.office import Column, load_columns, load_plan
 from netdesign.site.office.project import read_lines
-from netdesign.site.office.rows import find_sag, find_slack
 from netdesign.site.office.sheets import find_office_tables
 from netdesign.site.readings import Reading, Row
 from netdesign.site.template.office_workbook import render_input

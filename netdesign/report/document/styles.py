@@ -74,7 +74,7 @@ def _name_own(name: str) -> str:
 
 
 def shape_all(document: Document) -> None:
-    """Our look for every style, in a document that is nobody's template."""
+    """Our look for every style, in a document without a template."""
     for name in _LOOKS:
         style = _find(document, name)
         _shape(style, name)

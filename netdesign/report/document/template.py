@@ -117,8 +117,7 @@ def _set_paper(document: Document) -> None:
 def _drop_text(document: Document) -> None:
     """Take out the text of a template, which may be that of an older report.
 
-    Pictures, links and comments of that text go with it: nobody would see them, and
-    they would be sent along.
+    Pictures, links and comments of that text go with it: they would be sent along.
     """
     body = document.element.body
     for element in list(body):

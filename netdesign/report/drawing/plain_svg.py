@@ -87,7 +87,7 @@ class Frame:
 
     def place(self, points: Iterable[Sequence[float]]) -> list[Point]:
         """Places of points, whatever else is known of them [pt]."""
-        return [(self.x(float(one[0])), self.y(float(one[1]))) for one in points]
+        return [(self.x(float(point[0])), self.y(float(point[1]))) for point in points]
 
 
 @dataclass(slots=True, kw_only=True)

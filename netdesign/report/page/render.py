@@ -58,7 +58,7 @@ def render_page(
     skip : tuple, optional
         Link by which the keyboard gets to the contents.
     style : str
-        Rules of this page alone; nothing that somebody typed may come here.
+        Rules of this page alone; no typed text may stand here.
     is_report : bool
         The page is a study's report, and has no looks of other pages.
     """

@@ -64,7 +64,7 @@ def list_annexes(study: Study, words: Words) -> Iterator[Part]:
 
 def _name_symbols(study: Study, words: Words) -> Paragraph:
     """Symbols of the calculations of the study, each with its name and unit."""
-    steps = (step for row in study.rows for one in row.checks for step in one.steps)
+    steps = (step for row in study.rows for check in row.checks for step in check.steps)
     units = {step.symbol: step.unit for step in steps}
     told = [
         words("show.label", label=symbol, text=_name_symbol(symbol, unit, words))
@@ -233,7 +233,7 @@ def _opinion_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
     guideline = row.guideline
     coupled = guideline.solved_foot_anchor_kN if guideline else None
     cases = guideline.cases if guideline else []
-    by_case = {one.name: one.foot_anchor_kN for one in cases}
+    by_case = {case.name: case.foot_anchor_kN for case in cases}
     return (
         text_cell(row.id),
         number_cell(words, "foot_anchor_kN", coupled),
@@ -252,7 +252,7 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
         "opinion.spread",
         member=show_member(words, record.member),
         band=words.show_band("solved_kN", *ends),
-        count=sum(one.ratio is not None for one in record.variants),
+        count=sum(variant.ratio is not None for variant in record.variants),
     )
 
 

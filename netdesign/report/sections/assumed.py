@@ -15,7 +15,7 @@ from netdesign.site.model import InputEcho
 from netdesign.study.records import Study
 from netdesign.words.message import Message, say
 
-DEFAULT = "default"  # cell of an input that nobody typed
+DEFAULT = "default"  # cell of an input that takes its default value
 # Left empty, its factor is taken by the guideline's load.
 ALTITUDE = say("column.Nets.altitude")
 
@@ -30,7 +30,7 @@ class AssumedLine:
 
 
 def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
-    """Ranges that were searched, then what else nobody said, each name once.
+    """Searched ranges, then other assumed values, each name once.
 
     Rows whose ranges differ share a line: least low end to largest high end.
     """
@@ -39,14 +39,14 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
     rows: dict[str, dict[str, None]] = {}
     units: dict[str, str] = {}
     for row in study.rows:
-        for one in row.assumed:
-            name = words.show(one.input)
+        for value in row.assumed:
+            name = words.show(value.input)
             rows.setdefault(name, {})[row.id] = None
-            if one.low is None or one.high is None:
-                found.setdefault(name, {})[words.show(one.text)] = None
+            if value.low is None or value.high is None:
+                found.setdefault(name, {})[words.show(value.text)] = None
             else:
-                ends.setdefault(name, []).extend((one.low, one.high))
-                units[name] = one.unit.removeprefix("-")
+                ends.setdefault(name, []).extend((value.low, value.high))
+                units[name] = value.unit.removeprefix("-")
         for echo in row.inputs:
             shown, name = _show_default(echo, words), words.show(echo.label)
             if shown and row.id not in rows.get(name, {}):

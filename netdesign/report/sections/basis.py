@@ -61,7 +61,7 @@ def build_inputs(study: Study, words: Words) -> Table:
         caption=words("heading.typed_and_understood"),
         columns=(
             *key_columns(words, "heading.", ("input", "unit", "in_all_rows")),
-            *name_columns([show_text(one) for one in ids], numbers=()),
+            *name_columns([show_text(row_id) for row_id in ids], numbers=()),
         ),
         rows=tuple(
             (text_cell(label), Cell(text=unit), *_share_cells(ids, cells))
@@ -80,8 +80,8 @@ def _name_input(echo: InputEcho, words: Words) -> str:
 
 def _share_cells(ids: Sequence[str], cells: Mapping[str, Cell]) -> list[Cell]:
     """A cell for all rows where their inputs are alike; else that of each row."""
-    first, *others = (cells.get(one, Cell(text=MISSING)) for one in ids)
-    if others and all(one == first for one in others):
+    first, *others = (cells.get(row_id, Cell(text=MISSING)) for row_id in ids)
+    if others and all(other == first for other in others):
         return [first, *(Cell() for _ in ids)]
     return [Cell(), first, *others]
 
@@ -95,7 +95,7 @@ def _input_cell(echo: InputEcho, words: Words) -> Cell:
     return Cell(text=f"{typed} → {cell.text}", note=note)
 
 
-_ASSUMED = "assumed"  # status of a value that nobody has confirmed
+_ASSUMED = "assumed"  # status of a value that is not confirmed
 
 
 def show_profile(study: Study, words: Words) -> Part:
@@ -148,9 +148,9 @@ def name_profile(study: Study, words: Words) -> str:
 
 
 def count_assumed(study: Study) -> tuple[int, int]:
-    """Values of the profile that nobody has confirmed, and all of them."""
+    """Number of unconfirmed values of the profile, and of all its values."""
     values = study.profile.values
-    return sum(one.status == _ASSUMED for one in values), len(values)
+    return sum(value.status == _ASSUMED for value in values), len(values)
 
 
 def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
@@ -175,7 +175,7 @@ _FEW_ROWS, _TWO = 8, 2
 
 def show_basis(study: Study, words: Words) -> Part:
     """Statements that hold for all rows: limits of the report, profile, tests."""
-    evidence = (one for one in study.notes if one.key.startswith(_EVIDENCE))
+    evidence = (note for note in study.notes if note.key.startswith(_EVIDENCE))
     notes = (
         *(words.show(note) for note in evidence),
         *label_rows(share_notes(study, words), study, words),
@@ -249,9 +249,9 @@ def _list_approvals(study: Study, words: Words) -> Iterator[Pair]:
     """Values of rows beside the limits of their approvals."""
     found: dict[str, list[str]] = {}
     for row in study.rows:
-        for one in row.checks:
-            if one.mode == "approval" and one.finding is not None:
-                found.setdefault(words.show(one.finding), []).append(row.id)
+        for check in row.checks:
+            if check.mode == "approval" and check.finding is not None:
+                found.setdefault(words.show(check.finding), []).append(row.id)
     if found:
         told = label_rows(found, study, words)
         yield Pair(name=words("documents.approvals"), text=symbols("\n".join(told)))
@@ -285,8 +285,8 @@ def _count_by_floor(study: Study, words: Words) -> str:
     if study.profile.floor == "none":
         is_own = not study.profile.is_floor_overruled
         return words("floor.none" if is_own else "floor.none_chosen")
-    checks = [one for row in study.rows for one in row.checks if one.is_of_force]
-    governed = sum(one.governs == "guideline" for one in checks)
+    checks = [check for row in study.rows for check in row.checks if check.is_of_force]
+    governed = sum(check.governs == "guideline" for check in checks)
     profiles = {row.floor.profile for row in study.rows if row.floor}
     named = show_text(", ".join(sorted(profiles)))
     return words("floor.told", profile=named, count=governed, all=len(checks))
@@ -302,7 +302,7 @@ _EVIDENCE = "evidence."  # keys of notes that say what supports a creep law
 
 def list_limits(study: Study, words: Words) -> list[str]:
     """Notes on the whole study for the first page: where its creep law was used."""
-    notes = (one for one in study.notes if not one.key.startswith(_EVIDENCE))
+    notes = (note for note in study.notes if not note.key.startswith(_EVIDENCE))
     return [words.show(note) for note in notes]
 
 
@@ -364,7 +364,7 @@ def anchor_rows(study: Study) -> dict[str, str]:
 
 def _leave_out_name(row: RowStudy) -> RowStudy:
     """The row as if it stood in no line of a workbook."""
-    inputs = [replace(one, cell="") for one in row.inputs if one.label != _NAME]
+    inputs = [replace(echo, cell="") for echo in row.inputs if echo.label != _NAME]
     return replace(row, id="", inputs=inputs)
 
 

@@ -85,9 +85,9 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
         return words.show(row.reasons[0]) if row.reasons else words("todo.row_open")
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
-    gaps = [_leave_out_cell(one) for one in check.gaps]
+    gaps = [_leave_out_cell(gap) for gap in check.gaps]
     if gaps and check.verdict is not Verdict.FAIL:
-        return words.join(words.show(one) for one in gaps)
+        return words.join(words.show(gap) for gap in gaps)
     return describe_cause(check, words)
 
 
@@ -128,7 +128,8 @@ def _show_apart(
 def name_checks(checks: Sequence[Check], words: Words) -> str:
     """Names of checks, one after the other."""
     return (
-        words.join(dict.fromkeys(show_check(words, one) for one in checks)) or MISSING
+        words.join(dict.fromkeys(show_check(words, check) for check in checks))
+        or MISSING
     )
 
 
@@ -139,7 +140,7 @@ def name_few(checks: Sequence[Check], words: Words) -> str:
 
 
 _LOADS = ("coupled", "panel", "truss", "guideline", "maker")
-_FAR = 2.0  # times today's value, or its half: beyond it nobody would build
+_FAR = 2.0  # times today's value, or its half: beyond it the change is no proposal
 _SENSES = {
     "at least": "show.change_at_least",
     "at most": "show.change_at_most",
@@ -157,7 +158,7 @@ def list_flips(check: Check, words: Words) -> tuple[str, ...]:
 
 
 def is_useful(change: Change) -> bool:
-    """Somebody may build it: a resistance or type, or a number near today's.
+    """A change that can be built: a resistance or type, or a number near today's.
 
     A post spacing of 0.3 m in the place of 3.5 m is none.
     """

@@ -65,13 +65,13 @@ def rate(checks: Sequence[Check]) -> Rated | None:
     """Verdict and deciding check of some checks; None without any."""
     if not checks:
         return None
-    verdict = min((one.verdict for one in checks), key=SEVERITY.index)
-    forces = [one for one in checks if one.is_of_force]
-    pool = [one for one in forces if one.verdict is verdict]
+    verdict = min((check.verdict for check in checks), key=SEVERITY.index)
+    forces = [check for check in checks if check.is_of_force]
+    pool = [force for force in forces if force.verdict is verdict]
     if verdict is Verdict.DECLARED:
-        pool = [one for one in forces if one.used is not None] or pool
+        pool = [force for force in forces if force.used is not None] or pool
     shown = max(pool or forces or checks, key=_rank)
-    by_guideline = [one.utilisation_by_guideline for one in forces]
+    by_guideline = [force.utilisation_by_guideline for force in forces]
     return Rated(
         verdict=verdict,
         check=shown,
@@ -91,18 +91,18 @@ def _rank(check: Check) -> tuple[bool, float, float]:
 def list_anchor(row: RowStudy, members: Sequence[str]) -> list[Check]:
     """Checks of some anchors and of their ground, without the links above them."""
     checks = list_of_scope(row.checks, Scope.ANCHORS)
-    return [one for one in checks if one.member in members]
+    return [check for check in checks if check.member in members]
 
 
 def list_part(row: RowStudy, members: Sequence[str]) -> list[Check]:
     """Checks of some parts of the structure; of anchors those of their links."""
     checks = list_of_scope(row.checks, Scope.STRUCTURE)
-    return [one for one in checks if one.member in members]
+    return [check for check in checks if check.member in members]
 
 
 def find_structure(row: RowStudy) -> Check | None:
     """Line that stands for the structure: an approval, or that nothing is given."""
-    return next((one for one in row.checks if one.member == STRUCTURE), None)
+    return next((check for check in row.checks if check.member == STRUCTURE), None)
 
 
 def rate_scope(row: RowStudy, scope: Scope) -> Rated | None:
@@ -116,7 +116,7 @@ def find_demand(checks: Sequence[Check]) -> float | None:
     That across a base which slides is another force.
     """
     forces = (x.demand_kN for x in checks if x.is_of_force and x.mode != "sliding")
-    return max((one for one in forces if one is not None), default=None)
+    return max((force for force in forces if force is not None), default=None)
 
 
 def find_deciding(row: RowStudy) -> Check | None:
@@ -124,8 +124,8 @@ def find_deciding(row: RowStudy) -> Check | None:
     whole = find_structure(row)
     if whole is not None and whole.verdict is row.verdict is Verdict.DECLARED:
         return whole
-    forces = [one for one in row.checks if one.is_of_force]
-    pool = [one for one in forces if one.verdict is row.verdict]
+    forces = [check for check in row.checks if check.is_of_force]
+    pool = [force for force in forces if force.verdict is row.verdict]
     return max(pool, key=_rank) if pool else find_governing(row.checks)
 
 
@@ -142,7 +142,7 @@ def find_worked(row: RowStudy) -> Check | None:
     is_whole = deciding is not None and deciding.is_of_force
     if is_whole and row.verdict is not Verdict.DECLARED:
         return deciding
-    return find_highest([one for one in row.checks if one.is_of_force])
+    return find_highest([check for check in row.checks if check.is_of_force])
 
 
 def find_needed(check: Check) -> float | None:

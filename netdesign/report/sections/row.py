@@ -161,7 +161,7 @@ class RowPage:
     def _name_law(self) -> str:
         """Law of the ground, in the reader's language; "" where none is given."""
         label = say("column.Nets.ground_law")
-        laws = [one for one in self.row.inputs if one.label == label and one.value]
+        laws = [echo for echo in self.row.inputs if echo.label == label and echo.value]
         return str(understand(laws[0], self.words)) if laws else ""
 
     def _show_figures(self) -> Iterator[Block]:
@@ -229,9 +229,9 @@ class RowPage:
         if rated:
             yield self._tabulate(rated)
         told = {one.check.id for _, one in rated if _says_all(one.check)}
-        others = [one for one in row.checks if one.id not in told]
+        others = [check for check in row.checks if check.id not in told]
         if whole is not None and whole.declared:  # what it proves is information
-            others = [one for one in others if not is_of_structure(one)]
+            others = [other for other in others if not is_of_structure(other)]
         yield from self._show_others(others)
         if not row.checks:
             reasons = tuple(t.show(one) for one in row.reasons)
@@ -273,10 +273,10 @@ class RowPage:
         """Checks that are not shown: those that are met by number, others at length."""
         t = self.words
         others: dict[tuple[Verdict, str], list[Check]] = {}
-        for one in checks:
-            if one.verdict is not Verdict.PASS:
-                reason = "" if _says_all(one) else t.show(one.plain_reason)
-                others.setdefault((one.verdict, reason), []).append(one)
+        for check in checks:
+            if check.verdict is not Verdict.PASS:
+                reason = "" if _says_all(check) else t.show(check.plain_reason)
+                others.setdefault((check.verdict, reason), []).append(check)
         told: list[Content] = []
         for (verdict, reason), shared in list(others.items())[:_MOST_REASONS]:
             named = name_few(shared, t)
@@ -287,7 +287,7 @@ class RowPage:
         rest = len(others) - len(told)
         if rest > 0:
             told.append((Piece(t("row_page.more", count=rest)),))
-        met = sum(one.verdict is Verdict.PASS for one in checks)
+        met = sum(check.verdict is Verdict.PASS for check in checks)
         if told:
             yield Items(items=tuple(told), look="reasons")
         if met:
@@ -328,7 +328,7 @@ class RowPage:
         """What has to hold of the row, and notes that it alone has, each once."""
         t = self.words
         if self.row.conditions:
-            yield t.join(t.show(one.message) for one in self.row.conditions)
+            yield t.join(t.show(condition.message) for condition in self.row.conditions)
         for text in dict.fromkeys(t.show(x) for x in self.row.notes if is_of_row(x)):
             if text not in self.told:
                 yield text

@@ -75,11 +75,11 @@ def list_anchors(study: Study) -> Iterator[AnchorLine]:
         for member in ANCHOR_MEMBERS:
             checks = list_anchor(row, (member,))
             of_type: dict[str, list[Check]] = {}
-            for one in checks:
-                if one.is_of_force:
-                    of_type.setdefault(one.resistance_type, []).append(one)
+            for check in checks:
+                if check.is_of_force:
+                    of_type.setdefault(check.resistance_type, []).append(check)
             for type_id, forces in of_type.items():
-                beside = [one for one in checks if not one.is_of_force]
+                beside = [check for check in checks if not check.is_of_force]
                 rated = rate([*forces, *beside])
                 if rated:
                     yield _build_line(row, member, type_id, rated, forces, study)
@@ -94,16 +94,16 @@ def _build_line(
     study: Study,
 ) -> AnchorLine:
     parts = [
-        one
-        for one in row.parts
-        if _PARTS.get(one.part, one.part) == member and one.type_id == type_id
+        part
+        for part in row.parts
+        if _PARTS.get(part.part, part.part) == member and part.type_id == type_id
     ]
-    counts = [one.count for one in parts if one.count is not None]
-    pulls = [one for one in row.pulls if one.anchor == member]
-    pulled = [one for one in forces if one.mode == "pull_out"]
+    counts = [part.count for part in parts if part.count is not None]
+    pulls = [pull for pull in row.pulls if pull.anchor == member]
+    pulled = [force for force in forces if force.mode == "pull_out"]
     proof = _find_proof(pulled, study.profile.proof_factor)
     limits = [x.proof_limit_kN for x in pulled if x.proof_limit_kN is not None]
-    dips = tuple(dict.fromkeys(round(one.dip_deg, 1) for one in pulls))
+    dips = tuple(dict.fromkeys(round(pull.dip_deg, 1) for pull in pulls))
     limit = min(limits, default=None)
     return AnchorLine(
         row=row.id,
@@ -112,7 +112,7 @@ def _build_line(
         rated=rated,
         demand_kN=find_demand(forces),
         count=sum(counts) if counts and len(counts) == len(parts) else None,
-        length_m=next((one.size for one in parts if one.size is not None), None),
+        length_m=next((part.size for part in parts if part.size is not None), None),
         dips_deg=dips,
         proof_kN=proof,
         proof_limit_kN=limit,
@@ -132,7 +132,7 @@ def _find_proof(pulled: Sequence[Check], factor: float | None) -> float | None:
 
 def _find_weak(row: RowStudy) -> set[str]:
     """Types whose tendon bears less than the ground holds."""
-    weak = (one for one in row.notes if one.key == "row.weak_tendon")
+    weak = (note for note in row.notes if note.key == "row.weak_tendon")
     return {str(one.arguments["type"]) for one in weak}
 
 
@@ -167,7 +167,7 @@ def show_schedule(study: Study, words: Words) -> Part:
 
 def _letter_notes(lines: Sequence[AnchorLine]) -> dict[str, str]:
     """Letter of each note that some line has."""
-    keys = dict.fromkeys(note for one in lines for note in one.notes)
+    keys = dict.fromkeys(note for line in lines for note in line.notes)
     return {key: "abcdefgh"[place] for place, key in enumerate(keys)}
 
 
@@ -246,23 +246,23 @@ class _Order:
     @property
     def count(self) -> int | None:
         """Number of all, if each is known."""
-        counts = [one.count for one in self.lines]
-        known = [one for one in counts if one is not None]
+        counts = [line.count for line in self.lines]
+        known = [count for count in counts if count is not None]
         return sum(known) if len(known) == len(counts) else None
 
 
 def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> Table:
     """Types with their numbers, metres and loads; what fails is not ordered."""
     orders: dict[str, _Order] = {}
-    for one in lines:
-        if one.rated.verdict is not Verdict.FAIL and one.type_id:
-            orders.setdefault(one.type_id, _Order()).lines.append(one)
+    for line in lines:
+        if line.rated.verdict is not Verdict.FAIL and line.type_id:
+            orders.setdefault(line.type_id, _Order()).lines.append(line)
     numbers = ("count", "length", "total", "demand", "proof")
     tested = {
-        one.resistance_type: one
+        check.resistance_type: check
         for row in study.rows
-        for one in row.checks
-        if one.tests is not None
+        for check in row.checks
+        if check.tests is not None
     }
     return Table(
         caption=words("anchors.order"),
@@ -282,12 +282,12 @@ def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> 
 def _show_order(
     kind: str, order: _Order, tested: Check | None, words: Words
 ) -> tuple[Cell, ...]:
-    lengths = [one.length_m for one in order.lines if one.length_m is not None]
+    lengths = [line.length_m for line in order.lines if line.length_m is not None]
     is_known = order.count is not None and len(lengths) == len(order.lines)
     total = sum((x.count or 0) * (x.length_m or 0.0) for x in order.lines)
-    demands = [one.demand_kN for one in order.lines if one.demand_kN is not None]
-    worst = max(order.lines, key=lambda one: one.proof_kN or 0.0)
-    rows = dict.fromkeys(show_text(one.row) for one in order.lines)
+    demands = [line.demand_kN for line in order.lines if line.demand_kN is not None]
+    worst = max(order.lines, key=lambda line: line.proof_kN or 0.0)
+    rows = dict.fromkeys(show_text(line.row) for line in order.lines)
     ends = (min(lengths), max(lengths)) if lengths else (None,)
     each = [words.show_fixed(end, 1) for end in ends]
     return (
@@ -332,7 +332,7 @@ def _list_lines(study: Study, words: Words) -> Iterator[tuple[Cell, ...]]:
     for checks in of_type.values():
         tests = checks[0].tests
         ends = [one.read_band("E_d")[1] for one in checks]
-        known = [one for one in ends if one is not None]
+        known = [end for end in ends if end is not None]
         whole = tests is not None and len(known) == len(ends)
         factor = tests.proof_factor if tests and whole else None
         wanted = None if factor is None else factor * max(known)

@@ -37,7 +37,7 @@ def describe_study_scopes(study: Study, words: Words) -> str:
 def _find_check(row: RowStudy | None, record: ScopeRecord) -> Check | None:
     """Check that decides a scope."""
     checks = row.checks if row else []
-    return next((one for one in checks if one.id == record.governing), None)
+    return next((check for check in checks if check.id == record.governing), None)
 
 
 def _describe(
@@ -76,7 +76,7 @@ def list_exceeding(study: Study, words: Words) -> Iterator[str]:
     """Checks whose coupled force exceeds the resistance, though it does not decide."""
     found: dict[str, list[str]] = {}
     for row in study.rows:
-        beyond = [one for one in row.checks if one.exceeds_by_model]
+        beyond = [check for check in row.checks if check.exceeds_by_model]
         if not beyond:
             continue
         worst = max(beyond, key=lambda one: one.utilisation_by_model or 0.0)

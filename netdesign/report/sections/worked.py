@@ -75,14 +75,14 @@ def _list_shown(check: Check) -> list[Step]:
     """
     governing = _OF_LOADS.get(check.governs, "")
     wanted = {"E_d", *(("μ", "R_d", "R_k") if check.used is not None else ())}
-    for one in reversed(check.steps):
-        is_wanted = one.symbol in wanted
-        if is_wanted and one.formula:
-            operands = {symbol for symbol, _ in list_operands(one.formula, 0)}
-            loads = operands & set(_LOADS) if one.symbol == "E_k" else set()
+    for step in reversed(check.steps):
+        is_wanted = step.symbol in wanted
+        if is_wanted and step.formula:
+            operands = {symbol for symbol, _ in list_operands(step.formula, 0)}
+            loads = operands & set(_LOADS) if step.symbol == "E_k" else set()
             others = loads - {governing} if governing in loads else set()
             wanted |= operands - others
-    return [one for one in check.steps if one.symbol in wanted and one.formula]
+    return [step for step in check.steps if step.symbol in wanted and step.formula]
 
 
 def _work_step(step: Step, check: Check, words: Words) -> tuple[Cell, ...]:
@@ -110,7 +110,7 @@ def _work_step(step: Step, check: Check, words: Words) -> tuple[Cell, ...]:
 def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Utilisation by the guideline, and the resistance that is needed."""
     by_guideline = check.utilisation_by_guideline
-    known = {one.symbol: _show_digits(one.value, words) for one in check.steps}
+    known = {step.symbol: _show_digits(step.value, words) for step in check.steps}
     if by_guideline is not None and "E_g" in known:
         yield (
             text_cell(words("worked.by_guideline")),
@@ -155,7 +155,7 @@ def show_all(study: Study, words: Words, legend: Paragraph) -> Part:
 
 def _show_row(row: RowStudy, words: Words) -> Iterator[Table | Items]:
     """Checks of forces step by step, then those that compare none."""
-    forces = [one for one in row.checks if one.is_of_force]
+    forces = [check for check in row.checks if check.is_of_force]
     yield Table(
         caption=show_text(row.id),
         columns=key_columns(words, "heading.", ("calculation",)),
@@ -172,7 +172,7 @@ def _describe_check(check: Check, words: Words) -> Content:
     """Every step of a check with its interval; its resistance, verdict and case."""
     mark = show_verdict(check.verdict, words).symbol
     label = words("show.label", label=f"{mark} {show_check(words, check)}", text="")
-    known = (one for one in check.steps if one.value is not None)
+    known = (step for step in check.steps if step.value is not None)
     told = [_describe_step(one, check, words) for one in known]
     beside = [describe_resistance(check, words), name_case(check, words)]
     beside += [one for one in [describe_eased(check, words)] if one]
@@ -197,7 +197,7 @@ def _describe_step(step: Step, check: Check, words: Words) -> str:
 
 
 def _show_interval(step: Step, words: Words) -> str:
-    low, value, high = (_show_digits(one, words) for one in step.ends)
+    low, value, high = (_show_digits(end, words) for end in step.ends)
     return value if low == value == high else f"{value} ({low}–{high})"
 
 

@@ -1,6 +1,6 @@
 """Sheet of checks: each a block whose numbers follow from the block's own cells.
 
-A verdict is the study's text. What somebody types here changes numbers of one block,
+A verdict is the study's text. A number typed here changes numbers of one block,
 never a verdict: no cell can make an unearned pass.
 """
 
@@ -57,7 +57,7 @@ _ENDS = {-1: "low", 0: "value", 1: "high"}
 _FORCES = {"E_d": ("symbol", "name"), "R_d": ("formula", "formula")}  # columns
 _REASON = ("check", "source")
 _FORMATS = {"kN": "0.00", "m": "0.000", "-": "0.0000"}
-_TYPED = "#2A4B6B"  # colour of numbers that somebody may type over
+_TYPED = "#2A4B6B"  # colour of numbers that a reader may type over
 
 # Cell of each number by symbol and end; an end without a cell is as the value.
 Cells = dict[tuple[str, int], str]

@@ -199,8 +199,8 @@ def _add_sheets(book: Book, study: Study, *, is_verified: bool) -> None:
 
 def _add_part(book: Book, name: str, blocks: Sequence[Block]) -> None:
     """Sheet of a part of the page: its tables first, then its sentences."""
-    tables = [one for one in blocks if isinstance(one, Table)]
-    others = [one for one in blocks if not isinstance(one, Table | Heading)]
+    tables = [block for block in blocks if isinstance(block, Table)]
+    others = [block for block in blocks if not isinstance(block, Table | Heading)]
     add_page_sheet(book, name, tables, *others)
 
 
@@ -216,12 +216,12 @@ def _add_notes(book: Book, study: Study) -> None:
     ]
     sentences = tuple(dict.fromkeys((*notes, name_cases(study, words))))
     blocks = show_basis(study, words).blocks
-    tests = [one for one in blocks if isinstance(one, Table)]
+    tests = [block for block in blocks if isinstance(block, Table)]
     add_page_sheet(
         book,
         "notes",
         tests,
-        *(one for one in blocks if not isinstance(one, Table | Heading)),
+        *(block for block in blocks if not isinstance(block, Table | Heading)),
         Heading(text=words("heading.notes"), level=3),
         Items(items=sentences),
         Heading(text=words("heading.provenance"), level=3),

@@ -58,7 +58,7 @@ class SheetWriter:
                     self._write_line(f"– {write_plain(item)}")
             elif isinstance(block, Pairs):
                 self._write_pairs(
-                    [(one.name, write_plain(one.text)) for one in block.pairs]
+                    [(pair.name, write_plain(pair.text)) for pair in block.pairs]
                 )
             elif isinstance(block, Table):
                 self._write_table(block)
@@ -115,7 +115,7 @@ def add_page_sheet(
     """
     title = book.words(f"heading.{name}")
     sheet = book.add_table_sheet(name, title, tables, has_more=bool(blocks))
-    line = 2 + sum(BETWEEN_TABLES + len(one.rows) for one in tables)
+    line = 2 + sum(BETWEEN_TABLES + len(table.rows) for table in tables)
     widths = find_widths(tables)
     SheetWriter(book=book, sheet=sheet, widths=widths, line=line).write(blocks)
     return sheet

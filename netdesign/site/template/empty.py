@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from netdesign.cable.sag import find_sag
 from netdesign.site.assumed import Assumed, load_assumed
 from netdesign.site.columns.office import Column, load_text
-from netdesign.site.office.rows import find_sag
 from netdesign.site.template.workbook import describe_accepted
 from netdesign.words.catalogue import Language, render, set_marks
 from netdesign.words.message import say

@@ -77,20 +77,8 @@ def test_empty_parts_say_none():
     assert "NOT PROVEN" in page
 
 
-def test_study_without_rows_has_a_page():
-    study = replace(build_study(), rows=[])
-    assert "none: the site has no net rows" in html.render_html(study)
-
-
 def take_first_page(page):
     return page[page.index('id="decision"') : page.index('id="schedule"')]
-
-
-def test_first_page_lists_what_is_to_be_done_and_has_room_to_sign(page):
-    first = take_first_page(page)
-    assert "FAIL" in first
-    assert "Prepared" in first
-    assert "A. Moreau" in first
 
 
 def test_annexes_are_left_out_unless_they_are_asked_for(page):

@@ -6,9 +6,10 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
+from netdesign.cable.sag import find_slack
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.office import load_columns
-from netdesign.site.office.rows import find_slack, join_rows
+from netdesign.site.office.rows import join_rows
 from netdesign.site.reader import read_site
 from netdesign.site.readings import read_nothing
 from tests.each import each

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
+from netdesign.cable.sag import find_slack
 from netdesign.outcome import SiteDataError
 from netdesign.search.maxima import MOST_PARAMETERS
-from netdesign.site.office.rows import find_slack
 from netdesign.site.reader import read_site
 from tests.each import each
 from tests.site.office.books import write_office

@@ -74,8 +74,9 @@ def list_improvements(before, after):
         for check in row.checks:
             pulled = checks.get(check.id.replace("wedge", "pull_out"))
             is_open = pulled is None or not pulled.resistance_type
+            is_open |= any(one.key == "ground" for one in now.conditions)
             if check.mode == "wedge" and check.id not in checks and is_open:
-                continue  # of no type: nobody says what its ground bears
+                continue  # of no type, or a condition: nobody says what ground bears
             if check.id == "geometry.cover" and check.id not in checks:
                 continue  # nobody says what it has to be: a condition
             if check.id == "geometry.anchors" and states_row_above(now):
@@ -160,6 +161,19 @@ def assert_never_better(path, seed, count):
         if after is not None:
             better = list_improvements(before, after)
             assert not better, f"{seed} {cells} {better[:4]}"
+
+
+@pytest.mark.xfail(strict=True, reason="an empty proof counts as a calculation")
+def test_a_report_that_nobody_names_any_more_proves_no_more(tmp_path):
+    """A value of a report is not proven without the document, Declared says it."""
+    tables, path = build_tables(11), tmp_path / "site.xlsx"
+    for one in tables["anchor_types"]:
+        if one.get("proven") == "calculated":
+            one["proven"] = "report"
+    places = enumerate(tables["anchor_types"])
+    cells = [("anchor_types", k, "proven") for k, x in places if "proven" in x]
+    before, after = judge(path, tables), judge(path, empty(tables, cells))
+    assert list_improvements(before, after) == []
 
 
 @pytest.mark.parametrize("seed", [2, 3, 4, 43])

@@ -1,6 +1,6 @@
 """Every check of a net row's forces, redone from plain numbers; nothing of the program.
 
-Read are the workbook's cells (as TOML), the files of a limit profile, and of
+Read are the workbook's cells, the files of a limit profile, and of
 study.json what only a solve knows: forces, pulls on the head, angles of pulls.
 """
 
@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.verification.second_reader import guideline, resistance, statics
+from tests.verification.second_reader.cells import Cells
 from tests.verification.second_reader.widths import spread_end_effect
 
 FLOORS = {"uphill_anchor": "uphill_guy", "downhill_anchor": "downhill_guy"}
@@ -31,17 +32,6 @@ def read_profile(folder):
             elif kind in ("limit", "factor", "value"):
                 values |= {one["id"]: one["value"] for one in listed}
     return values, tables
-
-
-@dataclass
-class Cells:
-    """Lines of the workbook by sheet."""
-
-    lines: dict
-
-    def find(self, sheet, key, name):
-        found = [one for one in self.lines.get(sheet, []) if one.get(key) == name]
-        return found[0] if found else {}
 
 
 @dataclass
@@ -102,12 +92,8 @@ class Row:
 
     @property
     def inclinations(self):
-        (found,) = (
-            one
-            for one in self.cells.lines["Ranges"]
-            if one["quantity"] == "net inclination"
-        )
-        return math.radians(found["low"]), math.radians(found["high"])
+        low, high = self.cells.ranges["inclination"]
+        return math.radians(low), math.radians(high)
 
     @property
     def sections(self):
@@ -351,6 +337,7 @@ class Row:
         of the uphill one. The error of a force is at most the largest of all.
         """
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
+        width *= self.floor_scale("upper")  # the guideline's pull on the head, (B4)
         along, angle, place = self.end_guy
         pulls = [
             (self.solved[f"{model}uphill_guy"], self.solved[f"{model}post"])

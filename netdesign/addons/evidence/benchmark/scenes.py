@@ -17,6 +17,8 @@ import numpy as np
 from netdesign.coupling.scene import Scene
 from netdesign.files.scene import SceneFile, build_scene_of_file
 from netdesign.outcome import ModelError
+from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+from netdesign.site.template.office_workbook import write_input_workbook
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
 from netdesign.words.message import say
@@ -182,6 +184,22 @@ def change_value(site: Path, sheet: str, column: str, text: str) -> None:
     rows[-1][rows[0].index(column)] = text
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows(rows)
+
+
+def write_offices(folder: Path) -> None:
+    """Write two lists of an office: the example's rows as they are, and with bare nets.
+
+    Of a bare net only the height is given.
+    """
+    folder.mkdir(exist_ok=True)
+    tables = load_input_example()
+    write_input_workbook(folder / "office.xlsx", more=WITH_EXAMPLE, tables=tables)
+    types = [
+        {key: one[key] for key in ("id", "net_height")} for one in tables["net_types"]
+    ]
+    given = ("project", "rows", "anchor_types", "tests")
+    bare = {**{name: tables[name] for name in given}, "net_types": types}
+    write_input_workbook(folder / "bare.xlsx", more=("tests",), tables=bare)
 
 
 _SNOW_DAYS = (60, 230)  # after the first of September: snow falls, and does not melt

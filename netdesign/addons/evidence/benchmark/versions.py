@@ -28,6 +28,7 @@ from netdesign.addons.evidence.benchmark.scenes import (
     NAMES,
     change_value,
     write_heights,
+    write_offices,
     write_site,
 )
 from netdesign.addons.evidence.runner import run_in_turns
@@ -78,6 +79,9 @@ class Figure(NamedTuple):
     accepted: tuple[int, ...] = (0,)
 
 
+_CHECKED = (0, 1, 4, 6)  # exit codes of a check that ended
+
+
 def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     """Figures of a version, whose files are in a folder.
 
@@ -92,7 +96,7 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     grid = {name: f"{span}:{size.samples}" for name, span in spans.items()}
     check = ["check", "--jobs", _PROCESSES, "--quiet", "--force", "--out"]
     site, length, resistance = (
-        Figure([[*check, str(folder / "out"), str(folder / listed)]], [], (0, 1, 4))
+        Figure([[*check, str(folder / "out"), str(folder / listed)]], [], _CHECKED)
         for listed in ("site", *CHANGED)
     )
     in_time = ["--json", "--method", "transient"]
@@ -100,7 +104,13 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     heights = ["--heights", str(folder / _HEIGHTS)]
     winter = ["winter", "--example", "--no-cache", "--quiet", "--force"]
     winter += ["--out", str(folder / "winter"), "--row", "A1"]
-    own = [*check, str(folder / "own"), "--example", "--no-cache"]
+    own, office, bare = (
+        Figure([[*check, str(folder / "own"), *listed, "--no-cache"]], [], _CHECKED)
+        for listed in (
+            ["--example"],
+            *([str(folder / f"{name}.xlsx")] for name in ("office", "bare")),
+        )
+    )
     return {
         "solve": Figure(scenes[:1]),
         "scenes": Figure(scenes, scenes),
@@ -110,7 +120,9 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         "again": site,
         "length": length,
         "resistance": resistance,
-        "example": Figure([own], [], (0, 1, 4, 6)),
+        "example": own,
+        "office": office,
+        "bare": bare,
         "history": Figure(history, history),
         "winter": Figure([winter], [], (0, 4)),
         "winters": Figure(
@@ -183,6 +195,7 @@ def write_sites(folder: Path, rows: int) -> None:
     """Write a site, copies with one value changed, and a station's snow heights."""
     write_site(folder / "site", rows)
     write_heights(folder / _HEIGHTS, _WINTERS)
+    write_offices(folder)
     for name, change in CHANGED.items():
         write_site(folder / name, rows)
         change_value(folder / name, *change)

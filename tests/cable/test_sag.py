@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from netdesign.site.office.rows import find_slack
+from netdesign.cable.sag import find_slack
 from tests.each import each
 
 SAGS = [1e-6, 2e-5, 3e-5, *np.linspace(0.001, 0.3, 60)]

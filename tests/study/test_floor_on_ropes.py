@@ -1,0 +1,111 @@
+"""The guideline's load on the ropes of panels that nobody gives: (P12), (P13)."""
+
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.cable.funicular import build_alike
+from netdesign.envelope.head_pulls import list_panels
+from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
+from netdesign.panel.solve import PanelSolution, solve_strips
+from netdesign.panel.strips import build_strip
+from netdesign.structure.members import Member, RopeForce
+from netdesign.study.load_along_row import find_rope_factors
+from tests.each import each
+from tests.panel.test_assumed import assume_all, draw_case, list_ends
+
+LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+
+
+def make_floor(foot, head):
+    """Floor that pulls so much on foot and head [N]."""
+    force = FloorForce(
+        member=Member.FOOT_ANCHOR, force=foot, at=None, case=None, load=None, pull=None
+    )
+    span = HeadSpan(pull=head, least_tension=0.0, foot_least=0.0, foot_largest=0.0)
+    return Floor(forces=(force,), head=span)
+
+
+def measure_foot(solution):
+    return math.hypot(*np.add(solution.foot, solution.mid_foot))
+
+
+def take_largest(results, rope):
+    """Largest force of a rope over all cases and panels [N]."""
+    panels = [panel for result in results for panel in list_panels(result)]
+    return max(panel.bands[rope].value for panel in panels)
+
+
+def take_alone(result, place):
+    """The case with one of its panels alone."""
+    return replace(result, panel=replace(list_panels(result)[place], others=()))
+
+
+@each("seed", range(40, 60))
+def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed):
+    """No force of the ropes is less, and none larger than that of the worst of them.
+
+    By a tenth at most where cases of different snow share their largest panels.
+    """
+    draw = random.Random(seed)
+    solve, _, spacing = draw_case(seed)
+    panels = assume_all(spacing)
+    results = [solve(panels, draw.uniform(0.6, 1.3)) for _ in range(3)]
+    if not all(map(list_panels, results)):
+        pytest.skip("a case without panels")
+    solutions = [panel.solution for panel in list_panels(results[0])]
+    foot = draw.uniform(0.5, 2.5) * max(map(measure_foot, solutions))
+    head = draw.uniform(0.5, 2.5) * max(math.hypot(*one.head) for one in solutions)
+    floor = make_floor(foot, head)
+    together = find_rope_factors(results, floor)
+    for rope in RopeForce:
+        name = "lower" if rope in LOWER else "ridge"
+        raised = getattr(together, name) * take_largest(results, rope)
+        alone = []
+        for place in range(len(solutions)):
+            given = [take_alone(result, place) for result in results]
+            factor = getattr(find_rope_factors(given, floor), name)
+            alone.append(factor * take_largest(given, rope))
+        assert raised >= (1.0 - 1e-12) * max(alone)
+        assert raised <= 1.1 * max(alone)
+
+
+@each("seed", range(2100, 2106))
+def test_raised_ropes_pull_no_less_than_any_panel_under_that_load(seed):
+    """All 96 ends of what is built, each under the load that reaches the floor."""
+    draw = random.Random(seed)
+    solve, net, spacing = draw_case(seed)
+    result = solve(assume_all(spacing))
+    state = result.solution
+    strip = build_strip(net, state.net_curve, state.net_forces, state.foot)
+    panels = [
+        one
+        for one in solve_strips(strip, list(list_ends(spacing)))
+        if isinstance(one, PanelSolution)
+    ]
+    share = draw.uniform(1.0, 2.5)
+    foot, head = (share * end.size * spacing for end in (state.foot, state.head))
+    factors = find_rope_factors([result], make_floor(foot, head))
+    lower = factors.lower * take_largest([result], RopeForce.LOWER_ALONG)
+    ridge = factors.ridge * take_largest([result], RopeForce.UPPER_ALONG)
+    for one in panels:
+        at_foot = solve_raised(strip, one, foot / measure_foot(one))
+        at_head = solve_raised(strip, one, head / math.hypot(*one.head))
+        assert at_foot is None or at_foot.lower.along <= lower
+        assert at_head is None or at_head.upper.along <= ridge
+
+
+def solve_raised(strip, solution, factor):
+    """Panel under so many times its load; None where it lies on the ground then."""
+    forces = max(1.0, factor) * strip.forces
+    raised = replace(
+        strip,
+        forces=forces,
+        foot_pull=max(1.0, factor) * strip.foot_pull,
+        alike=build_alike(forces, strip.shares, strip.stiffness),
+    )
+    (solved,) = solve_strips(raised, (solution.panel,))
+    return solved if isinstance(solved, PanelSolution) else None
