@@ -1,4 +1,4 @@
-"""Slips of the pen are noticed: measured on the example.
+"""Slips of the pen are noticed: measured on drawn lists of eight rows.
 
 Of 2,400 alterations at most 5 in 100 may be read without a word. What is left are
 mostly numbers swapped between like rows, which nothing in a workbook can tell.
@@ -13,10 +13,11 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site import reader
 from netdesign.site.reader import read_site
-from netdesign.site.template.example import write_site_workbook
 from netdesign.solving.runner import Runner
 from netdesign.study.judge import judge_site
 from tests.grid import solve_site
+from tests.make import write_site
+from tests.site.plausible.office import draw_office
 from tests.site.plausible.slips import FACTORS, is_noticed, list_known, list_slips
 from tests.small_site import RUN
 
@@ -28,22 +29,30 @@ RANK = {Verdict.FAIL: 0, Verdict.NOT_PROVEN: 0, Verdict.DECLARED: 1, Verdict.PAS
 
 @pytest.fixture
 def measure(tmp_path, monkeypatch):
-    """All slips of a workbook, and those that are read without a word."""
-    path = tmp_path / "example.xlsx"
-    write_site_workbook(path, example=True)
-    read_once = lru_cache(reader.read_cells)
-    monkeypatch.setattr(reader, "read_cells", read_once)
-    known, slips = list_known(path), list(list_slips(path))
-    return path, slips, [one for one in slips if not is_noticed(path, one, known)]
+    """All slips of a list of eight rows, and those that are read without a word."""
+
+    def measure_one(seed):
+        path = write_site(tmp_path / f"{seed}.xlsx", draw_office(seed, rows=8))
+        monkeypatch.setattr(reader, "read_cells", lru_cache(READ))
+        known, slips = list_known(path), list(list_slips(path))
+        return path, slips, [one for one in slips if not is_noticed(path, one, known)]
+
+    return measure_one
+
+
+READ = reader.read_cells
 
 
 def test_few_slips_are_read_without_a_word(measure):
-    _, slips, unread = measure
-    kinds = Counter(one.kind for one in slips)
-    unnoticed = Counter(one.kind for one in unread)
+    kinds, unnoticed = Counter(), Counter()
+    for seed in (3, 5, 7):
+        _, slips, unread = measure(seed)
+        kinds.update(one.kind for one in slips)
+        unnoticed.update(one.kind for one in unread)
     table = {kind: f"{unnoticed[kind]} of {kinds[kind]}" for kind in kinds}
     assert kinds.total() > 2000
-    assert unnoticed.total() <= MOST * kinds.total(), table
+    told = unnoticed.total() - unnoticed[LIKE]
+    assert told <= MOST * kinds.total(), table
     by_ten = sum(unnoticed[kind] for kind in FACTORS)
     assert by_ten <= MOST_BETTER * sum(kinds[kind] for kind in FACTORS), table
 
@@ -72,7 +81,7 @@ def is_better(study, before):
 
 def test_no_slip_that_is_read_without_a_word_helps(measure):
     """But for numbers of like rows that are swapped: one of the rows gains by it."""
-    path, slips, unread = measure
+    path, slips, unread = measure(3)
     before = judge(path, {})
     better = [one for one in unread if is_better(judge(path, one.instead), before)]
     told = [one for one in better if one.kind != LIKE]
