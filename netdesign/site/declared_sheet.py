@@ -7,7 +7,7 @@ names a cell in the same way: it is read as if something else were typed there.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -133,29 +133,6 @@ def describe_replaced(was: str) -> Message:
     return say("what_if.instead", was=was) if was else say("what_if.instead_of_nothing")
 
 
-# Words of the names of checks, and those of earlier versions that workbooks still have.
-_FORMER = {
-    "en": (
-        ("Net anchor (foot)", "Foot anchor"),
-        ("bending under off-axis pull", "bending beside the axis"),
-        ("around the bond length", "around the bond"),
-    ),
-    "fr": (
-        *(("Ancrage du filet (pied)", "Ancrage de pied"),),
-        *(
-            ("portance du sol", "appui au sol"),
-            ("ontant", "oteau"),
-            ("ligne", "rangée"),
-        ),
-    ),
-    "de": (
-        *(("Netzanker (Fuß)", "Fußanker"), ("Verankerungslänge", "Verbundlänge")),
-        ("Grundbruch unter der Fußplatte", "Fundation, Druck"),
-        *(("Ausziehen", "Herausziehen"), ("Fundation, Druck", "Bodenpressung")),
-        ("Biegung bei Schrägzug", "Biegung neben der Achse"),
-        ("Baugrund um die Verbundlänge", "Boden um den Verbund"),
-    ),
-}
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
 # a net below its snow are no matter of proof.
 _OF_GEOMETRY = tuple(
@@ -282,19 +259,9 @@ def list_check_names() -> Mapping[str, _Subject]:
         subject = (member, mode, position)
         title = name_check(*subject)
         spelt = f"{member}.{mode}{end}"
-        spellings = [spelt, *_list_spellings(title)]
+        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
         names |= dict.fromkeys(map(normalise, spellings), subject)
     return names
-
-
-def _list_spellings(title: Message) -> Iterator[str]:
-    """Name of a check in every language, and as each earlier version had it."""
-    for language in LANGUAGES:
-        text = render(title, language)
-        yield text
-        for word, former in _FORMER.get(language, ()):
-            text = text.replace(word, former)
-            yield text
 
 
 def _read_confirmation(

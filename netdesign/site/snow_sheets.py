@@ -119,7 +119,7 @@ def check_layers(
     ranges: Ranges,
     findings: list[Finding],
 ) -> None:
-    """Refuse layers whose mean or sum lies outside the ranges, or that get too dense.
+    """Refuse layers whose mean lies outside the range, or that get too dense.
 
     Parameters
     ----------
@@ -136,7 +136,6 @@ def check_layers(
     for row in rows:
         if not row.layers:
             continue
-        _check_sum(row, snow[row.id], ranges, findings)
         place = snow[row.id][0]["density"]
         mean = row.mean_density
         densest = max(layer.density for layer in row.layers) * high / mean
@@ -148,21 +147,6 @@ def check_layers(
             rule = say("layer.too_dense", density=densest)
             accepted = say("layer.at_most_density", most=DENSEST_SNOW * ICE_DENSITY)
             refuse(place, rule, accepted, findings)
-
-
-def _check_sum(
-    row: NetRow, lines: Sequence[Row], ranges: Ranges, findings: list[Finding]
-) -> None:
-    """Refuse layers whose thickness lies outside its range."""
-    total = sum(layer.thickness for layer in row.layers)
-    factors = {"thickness": 1.0, "snow_height": math.cos(row.slope_angle)}
-    for name, factor in factors.items():
-        if name not in ranges.further:
-            continue
-        low, high = ranges[name].low * factor, ranges[name].high * factor
-        if not low - _SUM_TOLERANCE <= total <= high + _SUM_TOLERANCE:
-            rule = say("range.sum_outside", sum=total, low=low, high=high)
-            refuse(_size_of(lines[0]), rule, say("range.sum_or_wider"), findings)
 
 
 def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:

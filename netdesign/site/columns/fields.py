@@ -169,8 +169,6 @@ class Field:
         Whether its numbers are not compared from line to line.
     of_product : tuple of str
         Quantities of a product that its number must agree with.
-    computed_from, computed_with : tuple of str
-        Keys of columns that a resistance follows from, and of those that may be empty.
     required : bool
         Whether the heading and every cell below it must be there.
     not_beside : tuple of str
@@ -210,8 +208,6 @@ class Field:
     zero_says_none: bool = False
     scatters: bool = False
     of_product: tuple[str, ...] = ()
-    computed_from: tuple[str, ...] = ()
-    computed_with: tuple[str, ...] = ()
     required: bool = False
     not_beside: tuple[str, ...] = ()
     not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
