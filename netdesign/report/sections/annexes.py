@@ -66,11 +66,11 @@ def _name_symbols(study: Study, words: Words) -> Paragraph:
     """Symbols of the calculations of the study, each with its name and unit."""
     steps = (step for row in study.rows for check in row.checks for step in check.steps)
     units = {step.symbol: step.unit for step in steps}
-    told = [
+    texts = [
         words("show.label", label=symbol, text=_name_symbol(symbol, unit, words))
         for symbol, unit in units.items()
     ]
-    return Paragraph(text=symbols(words.join(told)), look="small")
+    return Paragraph(text=symbols(words.join(texts)), look="small")
 
 
 def _name_symbol(symbol: str, unit: str, words: Words) -> str:
