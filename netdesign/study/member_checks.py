@@ -68,7 +68,7 @@ class MemberCheck:
 
     ``force`` is None where no case gives it. ``forces`` are those of the variant on
     which the check is worst, ``best`` those of the variant on which it is least used.
-    ``again`` judges the same member on another variant.
+    ``again`` judges the same member on another variant, by its numbers alone.
     """
 
     forces: RowForces
