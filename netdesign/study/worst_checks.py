@@ -133,9 +133,11 @@ def _judge_worst(
 def _compare(judged: Sequence[MemberCheck], judge: _Judge) -> MemberCheck:
     """Worst of a member's checks on several variants, eased to the best of them."""
     best = min(judged, key=lambda each: _find_least(each.check))
-    worst = judge(take_worst(judged).forces)
+    least = _find_least(best.check)
+    eased = [replace(each, check=each.check.ease(least)) for each in judged]
+    worst = judge(take_worst(eased).forces)
     check = replace(
-        worst.check.ease(_find_least(best.check)),
+        worst.check.ease(least),
         assumed=describe_variant(worst.forces.row),
     )
     return replace(worst, check=check, best=best.forces, again=judge)
