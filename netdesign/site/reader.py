@@ -117,14 +117,16 @@ def read_site(
     else:
         cells = read_cells(Path(path), text_format, sheets)
     workbook, replaced = replace_cells(cells, instead)
-    workbook, changed = change_values(workbook, change)
-    replaced += changed
+    if not found:
+        workbook, changed = change_values(workbook, change)
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     if found:
         workbook = join_list(workbook, found, findings)
+        workbook, changed = change_values(workbook, change, is_list=True)
     else:
         findings.extend(_ask_for_rows_elsewhere(Path(path), workbook, text_format))
+    replaced += changed
     if is_office(workbook):
         library = read_library(net_types, text_format, findings) if net_types else None
         content = read_office(workbook, findings, library)
