@@ -11,12 +11,12 @@ from netdesign.report.sections.schedule import list_anchors, show_tests
 from netdesign.report.words import Words
 from tests.checks.given_pulls import study_row
 
-STEEL = {"kind of anchor": "rope anchor", "tendon resistance [kN]": 500}
+STEEL = {"kind": "rope anchor", "tendon": 500}
 ROW = {
     "anchor": STEEL,
     "foot": (20.0, 18.0),
     "head": (5.0, -22.0),
-    "gap to next work [m]": 0.5,
+    "gap": 0.5,
 }
 TESTS = [
     (300.0, "pulled out", 250.0),
@@ -71,8 +71,8 @@ def test_acceptance_follows_load_result_and_design_force(tmp_path):
 
 
 def test_number_and_mean_alone_are_enough(tmp_path):
-    numbers = {"number of tests": 3, "least tested resistance [kN]": 300}
-    anchor = STEEL | numbers | {"mean tested resistance [kN]": 330}
+    numbers = {"test_count": 3, "pull_out": 300}
+    anchor = STEEL | numbers | {"test_mean": 330}
     study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
     assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
@@ -103,7 +103,7 @@ def test_a_tendon_that_bears_less_than_the_ground_holds_is_told(tmp_path):
 
 
 def judge_typed(tmp_path, **typed):
-    anchor = STEEL | {"pull-out resistance [kN]": 330} | typed
+    anchor = STEEL | {"pull_out": 330} | typed
     study = study_row(tmp_path, "eurocode", **(ROW | {"anchor": anchor}))
     return next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
 
@@ -125,10 +125,10 @@ def test_a_value_by_report_counts_as_it_is_and_is_no_pass(tmp_path):
 
 
 BOND = {
-    "tendon resistance [kN]": 500,
-    "kind of anchor": "rope anchor",
-    "drill diameter [mm]": 110,
-    "bond length [m]": 9.0,
+    "tendon": 500,
+    "kind": "rope anchor",
+    "drill_diameter": 110,
+    "bond_length": 9.0,
     "ground": "gravel",
 }
 
