@@ -12,7 +12,7 @@ from netdesign.site.columns.office import load_columns
 from netdesign.site.reader import read_site
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import place_support
-from netdesign.structure.members import NetPart
+from netdesign.structure.members import Member, NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from tests.grid import build_cases, wrap_results
@@ -34,7 +34,6 @@ ROW = {
     "upslope_length": 18,
     "glide_factor": 1.0,
     "post_count": 12,
-    "altitude": 1900,
     "net_type": "N",
     "post_spacing": 3.5,
     "foot_anchor": "A",
@@ -89,16 +88,13 @@ def study_row(
     foot,
     head,
     floor="none",
-    eta=1.0,
-    axes=None,
     **row,
 ):
     """Study of the row under a profile, given by its id or its folder.
 
-    Without a floor by the guideline's load the given pulls are the demand. ``eta`` is
-    the efficiency factor of the posts, ``axes`` are those of the anchors [deg].
+    Without a floor by the guideline's load the given pulls are the demand.
     """
-    site = read_row(tmp_path, anchor=anchor, eta=eta, axes=axes, **row)
+    site = read_row(tmp_path, anchor=anchor, **row)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
     standard = replace(load_standard(profile), floor=floor)
@@ -107,15 +103,21 @@ def study_row(
     )
 
 
-def read_row(tmp_path, *, anchor, foot=None, head=None, eta=1.0, axes=None, **row):
-    """Site of the row; what no cell says is set, above all that it has no panel."""
-    site = read_site(write_row(tmp_path, anchor=anchor, **row))
+def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
+    """Site of the row; what no cell says is set, above all that it has no panel.
+
+    Of ``row`` the axes of anchors [deg], of ``post`` the efficiency factor.
+    """
+    axes = {key: row.pop(key) for key in AXES if key in row}
+    bare = {key: value for key, value in post.items() if key != "eta"}
+    path = write_row(tmp_path, anchor=anchor, post=bare, tests=tests, **row)
+    site = read_site(path)
     (given,) = site.rows
     changed = {
-        "resistances": tuple(set_eta(one, eta) for one in given.resistances),
-        "axes": tuple(
-            (member, math.radians(angle)) for member, angle in (axes or {}).items()
-        )
+        "resistances": tuple(
+            set_efficiency(one, post.get("eta", 1.0)) for one in given.resistances
+        ),
+        "axes": tuple((AXES[key], math.radians(angle)) for key, angle in axes.items())
         or given.axes,
         "panels": (),
         "panel_assumed": (),
@@ -132,10 +134,15 @@ def read_row(tmp_path, *, anchor, foot=None, head=None, eta=1.0, axes=None, **ro
 
 
 TOLD = ("anchor_axes", "kind", "lever_arm", "efficiency")  # of what is assumed
+AXES = {
+    "foot_axis": Member.FOOT_ANCHOR,
+    "uphill_axis": Member.UPHILL_ANCHOR,
+    "downhill_axis": Member.DOWNHILL_ANCHOR,
+}
 
 
-def set_eta(resistance, eta):
-    """Resistance of a post that is pressed by so many times its width of snow."""
+def set_efficiency(resistance, eta):
+    """Resistance of a post that so many times its width of snow presses on."""
     if resistance.mode != "compression_bending" or resistance.dimensions is None:
         return resistance
     dimensions = replace(resistance.dimensions, efficiency=eta)

@@ -10,6 +10,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.sections.schedule import list_anchors, show_tests
 from netdesign.report.words import Words
 from tests.checks.given_pulls import study_row
+from tests.make import find_cell
 
 STEEL = {"kind": "rope anchor", "tendon": 500}
 ROW = {
@@ -110,47 +111,20 @@ def judge_typed(tmp_path, **typed):
 
 def test_a_tested_number_without_a_count_is_that_of_one_test(tmp_path):
     """1.40 for one test, by mean and least alike."""
-    check = judge_typed(tmp_path, basis="tested")
+    check = judge_typed(tmp_path, proven="tests")
     assert check.read("R_k") == pytest.approx(330.0 / 1.4)
-    assert (check.tests.count, check.resistance_cell) == (1, "Anchors!J2")
-    assert "330 kN as one test" in str(check.resistance_derivation)
+    assert (check.tests.count, check.resistance_cell) == (
+        1,
+        find_cell("anchor_types", "pull_out"),
+    )
 
 
 def test_a_value_by_report_counts_as_it_is_and_is_no_pass(tmp_path):
     """Sheet Declared names the document; without it the check stays not proven."""
-    check = judge_typed(tmp_path, basis="by report")
+    check = judge_typed(tmp_path, proven="report")
     assert check.read("R_k") == 330.0
     assert check.verdict is Verdict.NOT_PROVEN
     assert "characteristic value of a report" in str(check.reason)
-
-
-BOND = {
-    "tendon": 500,
-    "kind": "rope anchor",
-    "drill_diameter": 110,
-    "bond_length": 9.0,
-    "ground": "gravel",
-}
-
-
-@pytest.mark.parametrize(
-    ("sleeve", "tests", "told"),
-    [
-        ("no", (), ""),
-        ("yes", (), "without tests of that type on this site"),
-        (None, (), ""),
-        ("yes", TESTS, ""),
-    ],
-)
-def test_a_sleeve_is_proven_by_tests_alone(tmp_path, sleeve, tests, told):
-    anchor = {**(STEEL if tests else BOND), "fabric sleeve": sleeve}
-    row = ROW | {"anchor": anchor}
-    study = study_row(tmp_path, "eurocode", tests=tests, **row)
-    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
-    assert (check.read("R_k") is None) is bool(told)
-    assert told in str(check.reason)
-    if told:
-        assert check.verdict is Verdict.NOT_PROVEN
 
 
 @pytest.mark.parametrize(
