@@ -24,7 +24,8 @@ if "NETDESIGN_STORE" not in os.environ:
         tempfile.mkdtemp(prefix="netdesign-tests-"), "cases.sqlite"
     )
 
-import math  # noqa: E402  (all of these after the environment)
+import gc  # noqa: E402  (all of these after the environment)
+import math  # noqa: E402
 from collections.abc import Callable  # noqa: E402
 from functools import cache  # noqa: E402
 from pathlib import Path  # noqa: E402
@@ -175,6 +176,12 @@ def call(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., Ended
     """Calls the program in this process, in an empty folder: ``call("init")``."""
     monkeypatch.chdir(tmp_path)
     return call_program
+
+
+def pytest_collection_finish() -> None:
+    """What was collected stays: no collection of garbage need look at it again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime, time, timedelta
 
@@ -263,11 +263,12 @@ class _Painter:
             if y1 > y0
         ]
         scale = frame.height / (frame.y_high - frame.y_low)
-        self.sketch.tiles((x, y, w, h * scale, fill) for x, y, w, h, fill in placed)
+        tiles = ((x, y, w, h * scale, fill) for x, y, w, h, fill in placed)
+        draw_tiles(self.sketch, tiles)
         x = frame.left + frame.width + 4.0
         for place, (fill, text) in enumerate(panel.key, 1):
             y = frame.top + frame.height - place * _SAMPLE
-            self.sketch.rectangle(x, y, _SAMPLE, _SAMPLE, fill)
+            draw_rectangle(self.sketch, x, y, _SAMPLE, _SAMPLE, fill)
             self.sketch.text(x + _SAMPLE + 3.0, y + 9.0, text)
 
     def _fill_band(self, line: Line) -> None:
@@ -291,7 +292,9 @@ class _Painter:
             self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
             if line.has_dots and len(points) <= _MOST_DOTS:
                 for x, y in points:
-                    self.sketch.rectangle(x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY)
+                    draw_rectangle(
+                        self.sketch, x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY
+                    )
 
     def _list_names(self, lines: Sequence[Line]) -> None:
         """Names at the right beside a piece of each line, the largest value first."""
@@ -432,3 +435,32 @@ def shade(value: float, low: float, high: float) -> str:
         return "#fff"
     share = (value - low) / (high - low) if high > low else 0.0
     return GREYS[round((len(GREYS) - 1) * min(1.0, max(0.0, share)))]
+
+
+def draw_rectangle(
+    chart: Chart, left: float, top: float, width: float, height: float, fill: str
+) -> None:
+    """Filled rectangle [pt]."""
+    chart.shapes.append(
+        f'<rect x="{left:.2f}" y="{top:.2f}" width="{width:.2f}" '
+        f'height="{height:.2f}" fill="{fill}"/>'
+    )
+
+
+def draw_tiles(
+    chart: Chart, cells: Iterable[tuple[float, float, float, float, str]]
+) -> None:
+    """Many filled rectangles: left, top, width, height [pt] and fill of each.
+
+    A map has hundreds: each is a thick line, those of one fill are one path, and
+    paths of one width in turn share it.
+    """
+    paths: dict[str, dict[str, str]] = {}
+    for left, top, width, height, fill in cells:
+        of_width = paths.setdefault(show_place(width), {})
+        middle, start = show_place(left + width / 2), show_place(top)
+        tile = f"M{middle} {start}v{show_place(height)}"
+        of_width[fill] = of_width.get(fill, "") + tile
+    for width_pt, fills in paths.items():
+        lines = "".join(f'<path stroke="{f}" d="{d}"/>' for f, d in fills.items())
+        chart.shapes.append(f'<g stroke-width="{width_pt}">{lines}</g>')

@@ -61,7 +61,20 @@ def write_formula(quantity: Quantity) -> str:
     """Right side of the equation that makes a quantity, of symbols; "" of a leaf."""
     if not quantity.operation:
         return ""
-    parts = _list_parts(_build_tree(quantity, is_whole=True), PLAIN, 0, 0)
+    symbols = tuple(operand.symbol for operand in quantity.of)
+    if all(symbols):
+        return _write_of_symbols(quantity.operation, symbols)
+    return _write(_build_tree(quantity, is_whole=True))
+
+
+@lru_cache(maxsize=1024)
+def _write_of_symbols(operation: str, symbols: tuple[str, ...]) -> str:
+    """Formula of an operation on symbols: a study has a few of them, often."""
+    return _write(_join(operation, [ast.Name(id=symbol) for symbol in symbols]))
+
+
+def _write(tree: ast.expr) -> str:
+    parts = _list_parts(tree, PLAIN, 0, 0)
     return "".join(part if isinstance(part, str) else part[0] for part in parts)
 
 
@@ -160,13 +173,16 @@ def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
         return ast.Name(id=quantity.symbol)
     if not quantity.operation:
         return ast.Constant(value=quantity.value or 0.0)
-    of = [_build_tree(operand) for operand in quantity.of]
-    if quantity.operation == "=":
+    return _join(quantity.operation, [_build_tree(operand) for operand in quantity.of])
+
+
+def _join(operation: str, of: list[ast.expr]) -> ast.expr:
+    """Tree of an operation on others."""
+    if operation == "=":
         return of[0]
-    if quantity.operation in _RANK:
-        operator = _OPERATORS[quantity.operation]
-        return ast.BinOp(left=of[0], op=operator, right=of[1])
-    return ast.Call(func=ast.Name(id=quantity.operation), args=of, keywords=[])
+    if operation in _RANK:
+        return ast.BinOp(left=of[0], op=_OPERATORS[operation], right=of[1])
+    return ast.Call(func=ast.Name(id=operation), args=of, keywords=[])
 
 
 def require_formula(text: str, symbols: Container[str]) -> None:

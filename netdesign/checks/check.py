@@ -220,7 +220,6 @@ class Check:
     resistance_basis: str = ""  # "tested", "computed", "report", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
-    resistance_years: int | None = None  # for which its steel lasts; None: not known
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     tests: TestSeries | None = None  # of a pull-out resistance that is from them
     proof_limit_kN: float | None = None  # of a test's load, by the tendon that it pulls

@@ -278,9 +278,8 @@ class SupportForce:
         Of a base that slides, those across it.
     support, load, push : Support, MemberLoad, Quantity or None
         What turns a force inside the row into the member's, and the ropes' part.
-    shared, stated : Quantity or None
-        That of a linear truss of post, guys and end guy, on a guy or its anchor; and
-        that by the maker, on an anchor [kN].
+    shared : Quantity or None
+        That of a linear truss of post, guys and end guy, on a guy or its anchor [kN].
     pressing, tilt : Quantity or None
         Force across the base plate [kN], and that along it over it [-], of a base that
         slides.
@@ -294,7 +293,6 @@ class SupportForce:
     load: MemberLoad = field(default_factory=MemberLoad)
     push: Quantity | None = None
     shared: Quantity | None = None
-    stated: Quantity | None = None
     pressing: Quantity | None = None
     tilt: Quantity | None = None
 
@@ -356,7 +354,6 @@ def calculate_force(leaves: Leaves, *, by_guideline: bool = False) -> SupportFor
         load=load,
         push=push,
         shared=shared,
-        stated=stated,
         pressing=None if tilt is None else action,
         tilt=tilt,
     )

@@ -165,8 +165,8 @@ def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     lines: list[str] = []
     for (cells, what_if), study in zip(sized, studies, strict=False):  # none unasked
         lines.append(words("what_if.sized_for", profile=study.profile.id))
-        told = [describe_sized(cell, words) for cell in cells]
-        lines += told or [words("what_if.nothing")]
+        texts = [describe_sized(cell, words) for cell in cells]
+        lines += texts or [words("what_if.nothing")]
         if what_if is not None:
             lines.append(describe_overall(what_if, words))
         elif cells:

@@ -71,8 +71,8 @@ def _read_defaults(
     ]
     table = tables.get(command.name or "", {})
     if not isinstance(table, dict):
-        told = say("config.not_a_table", path=str(path), command=command.name or "")
-        faults, table = [*faults, told], {}
+        message = say("config.not_a_table", path=str(path), command=command.name or "")
+        faults, table = [*faults, message], {}
     options = _name_options(command)
     defaults: dict[str, Any] = {}
     for key, value in table.items():

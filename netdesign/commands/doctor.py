@@ -129,8 +129,8 @@ def _look_at_core() -> Probe:
 
     what, word = say("doctor.core"), read_switch()
     if word not in ("", SWITCHED_OFF):
-        told = say("doctor.switch", name=SWITCH, word=word, off=SWITCHED_OFF)
-        return Probe(what=what, shows=told, is_sound=False)
+        message = say("doctor.switch", name=SWITCH, word=word, off=SWITCHED_OFF)
+        return Probe(what=what, shows=message, is_sound=False)
     if find_core() is not None:
         return Probe(what=what, shows=name_core())
     why = "doctor.switched_off" if is_switched_off() else "doctor.not_compiled"
@@ -146,8 +146,8 @@ def _measure_store() -> Probe:
     if not is_there(path):
         return Probe(what=what, shows=say("doctor.no_store", path=str(path)))
     megabytes = path.stat().st_size / 1e6
-    told = say("doctor.store_size", path=str(path), megabytes=megabytes)
-    return Probe(what=what, shows=told)
+    message = say("doctor.store_size", path=str(path), megabytes=megabytes)
+    return Probe(what=what, shows=message)
 
 
 def _load_profiles() -> str:

@@ -79,8 +79,8 @@ def read_scopes(
     named = [one.strip() for text in texts for one in text.split(",")]
     for one in named:
         if one not in tuple(SCOPES):
-            told = say("usage.scope", text=one, accepted=tuple(map(str, SCOPES)))
-            raise ValueRefusal(told, context, option)
+            message = say("usage.scope", text=one, accepted=tuple(map(str, SCOPES)))
+            raise ValueRefusal(message, context, option)
     return tuple(dict.fromkeys(named))
 
 

@@ -118,9 +118,10 @@ def report_places(paths: Iterable[Path], asked: Mapping[str, Any]) -> None:
         by_folder.setdefault(path.parent, []).append(path)
     for folder, files in by_folder.items():
         names = tuple(path.name for path in files)
-        told = say("cli.wrote_files", folder=str(folder), files=names)
+        message = say("cli.wrote_files", folder=str(folder), files=names)
         tell(
-            say("cli.wrote", path=str(files[0])) if len(files) == 1 else told, err=True
+            say("cli.wrote", path=str(files[0])) if len(files) == 1 else message,
+            err=True,
         )
 
 

@@ -128,8 +128,8 @@ def _bound_refused(
 
 
 def _show_refusal(solution: Solved, document: dict[str, Any]) -> None:
-    told = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
-    tell(told)
+    message = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
+    tell(message)
     if bound := document.get("upper_bound"):
         limit = say(
             "solve.bound",

@@ -214,7 +214,7 @@ def show_phases(
 ) -> Iterator[RunProgress]:
     """Progress of a run of several phases, the last of which solves nothing."""
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
     from rich.table import Column
 
     console = Console(stderr=True)
@@ -226,7 +226,7 @@ def show_phases(
         return
     text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
     columns = (
-        TimeRemainingColumn(elapsed_when_finished=True),
+        TimeElapsedColumn(),
         BarColumn(12),
         TextColumn("{task.description}", table_column=text),
     )

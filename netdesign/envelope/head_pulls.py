@@ -76,14 +76,15 @@ def read_heads(
     """Pulls on the heads in the solved cases of a row; those of panels if wanted."""
     states = []
     for result in results:
-        if result.anchors is None or result.solution is None:
+        if result.anchors is None:
             continue
-        ends = [(result.anchors, result.solution.head)]
+        own = result.solution.head.error if result.solution else 0.0
+        ends = [(result.anchors, own)]
         if has_panels:
-            ends += [(panel.anchors, panel.head) for panel in list_panels(result)]
+            ends += [(panel.anchors, panel.head.error) for panel in list_panels(result)]
         states += [
-            (result.case.inclination, *anchors.head_pull, head.error * post_spacing)
-            for anchors, head in ends
+            (result.case.inclination, *anchors.head_pull, error * post_spacing)
+            for anchors, error in ends
         ]
     inclinations, x, y, errors = np.array(states).reshape(-1, 4).T
     distinct, places = np.unique(inclinations, return_inverse=True)

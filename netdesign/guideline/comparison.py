@@ -293,39 +293,47 @@ def solve_load_case(
     glide_factor : float
         N [-].
     """
+    return hold_net(net, load_net(model, net, case, glide_factor))
+
+
+def load_net(
+    model: LoadModel,
+    net: NetGeometry[float],
+    case: LoadCase[float],
+    glide_factor: float,
+) -> GuidelineResult:
+    """Load and pulls of one load case, whatever support holds them."""
     try:
         load, pull = find_pulls(model, net, case, glide_factor)
-        anchors = hold_net(net, pull)
     except ModelError as error:
         return GuidelineResult(case=case, reason=error.message)
-    if isinstance(anchors, FailedSupport):
-        return GuidelineResult(case=case, load=load, pull=pull, reason=anchors.reason)
-    return GuidelineResult(case=case, load=load, pull=pull, anchors=anchors)
+    return GuidelineResult(case=case, load=load, pull=pull)
 
 
-def hold_net(
-    net: NetGeometry[float], pull: NetPull[float]
-) -> AnchorForces | FailedSupport:
-    """Forces on a support that hold a net's pulls.
+def hold_net(net: NetGeometry[float], loaded: GuidelineResult) -> GuidelineResult:
+    """Forces on the support of a net that hold its pulls.
 
     Parameters
     ----------
     net : NetGeometry
         Net row.
-    pull : NetPull
-        On its two ends [N/m].
-
-    Returns
-    -------
-    AnchorForces or FailedSupport
-        [N]; why nothing holds it.
+    loaded : GuidelineResult
+        Of `load_net`; of a net that differs in nothing but its layout.
     """
-    return compute_anchor_forces(
-        place_support(net.layout, place_head(net)),
-        foot_pull_per_m=pull.foot,
-        head_pull_per_m=pull.head,
-        post_spacing=net.layout.post_spacing,
-    )
+    if loaded.pull is None:
+        return loaded
+    try:
+        anchors = compute_anchor_forces(
+            place_support(net.layout, place_head(net)),
+            foot_pull_per_m=loaded.pull.foot,
+            head_pull_per_m=loaded.pull.head,
+            post_spacing=net.layout.post_spacing,
+        )
+    except ModelError as error:
+        return GuidelineResult(case=loaded.case, reason=error.message)
+    if isinstance(anchors, FailedSupport):
+        return replace(loaded, reason=anchors.reason)
+    return replace(loaded, anchors=anchors)
 
 
 def find_pulls(

@@ -15,9 +15,10 @@ from netdesign.guideline.comparison import (
     LoadCase,
     NetGeometry,
     find_pulls,
+    hold_net,
     list_load_cases,
+    load_net,
     place_head,
-    solve_load_case,
 )
 from netdesign.guideline.load_model import (
     LoadModel,
@@ -214,38 +215,42 @@ def find_floors(
             return [Floor(reason=failed.reason)]
         alone = (find_floors(model, ranges, altitude, (one,)) for one in layouts)
         return [floor for (floor,) in alone]
-    reached, count = scan.try_points(points), len(layouts)
+    reached, count, load = scan.try_points(points), len(layouts), cache(scan.load_one)
     own = zip(np.split(points, count, axis=1), np.split(largest, count), strict=True)
     tried = np.split(np.arange(points.shape[1]), count)
     return [
-        _take_floor(scan, place, of_layout, _list_sizes(reached, place, tried[place]))
-        for place, of_layout in enumerate(own)
+        _take_floor(layout, load, of_layout, _list_sizes(reached, place, tried[place]))
+        for (place, layout), of_layout in zip(enumerate(layouts), own, strict=True)
     ]
 
 
+_LoadOne = Callable[[tuple[float, ...], int, int], tuple[LoadedNet, GuidelineResult]]
+
+
 def _take_floor(
-    scan: _Scan,
-    place: int,
+    layout: SupportLayout,
+    load: _LoadOne,
     found: tuple[Floats, Floats],
     reached: Mapping[str, Floats],
 ) -> Floor:
     """Floor on one of the layouts, from the points found for it and what they bring."""
     points, largest = found
-    solve = cache(scan.solve_one)  # members are often largest at the same place
+    # members are often largest at the same place
+    hold = cache(lambda *place: _hold(*load(*place), layout))
     by_member: dict[str, FloorForce] = {}
     for key, sizes in reached.items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
         point = tuple(map(float, points[:, number]))
-        at, snow, result = solve(point, int(case), int(end), place)
+        at, result = hold(point, int(case), int(end))
         if result.solved is None:
             return Floor(reason=_explain(at, result))
-        load, pull, anchors = result.solved
+        snow, pull, anchors = result.solved
         by_member[key] = FloorForce(
             member=key,
             force=_measure(anchors, pull)[key],
             at=at,
-            case=snow,
-            load=load,
+            case=result.case,
+            load=snow,
             pull=pull,
         )
     return Floor(
@@ -416,10 +421,10 @@ class _Scan:
         points: Floats = least + share * (largest - least)
         return points
 
-    def solve_one(
-        self, point: tuple[float, ...], case: int, end: int, place: int
-    ) -> tuple[LoadedNet, LoadCase[float], GuidelineResult]:
-        """One net and load case as everywhere else."""
+    def load_one(
+        self, point: tuple[float, ...], case: int, end: int
+    ) -> tuple[LoadedNet, GuidelineResult]:
+        """One net under one load case as everywhere else, on the row's own layout."""
         inclination, thickness, share = point
         stiffness, slack = _list_ends(self.ranges)[end]
         net = replace(
@@ -428,24 +433,33 @@ class _Scan:
             inclination=inclination,
             stiffness=stiffness,
             slack=slack,
-            layout=self.layouts[place],
         )
         snow = list_load_cases(self.model, net, self.altitude)[case]
         depth = thickness if snow.creep_factor is None else net.net_height
         glide = float(self._find_glide(np.array([depth]), np.array([share]))[0])
-        at = LoadedNet(net=replace(net, snow_thickness=depth), glide_factor=glide)
-        return at, snow, solve_load_case(self.model, at.net, snow, glide)
+        net = replace(net, snow_thickness=depth)
+        at = LoadedNet(net=net, glide_factor=glide)
+        return at, load_net(self.model, net, snow, glide)
 
     def _find_failed(self, points: Floats) -> _FailedAtError:
         """First of the points at which a load case fails, and why."""
         ends = range(len(_list_ends(self.ranges)))
         count = len(list_load_cases(self.model, self.ranges.net, self.altitude))
-        places = range(len(self.layouts))
-        for point, case, end, place in product(points.T, range(count), ends, places):
-            at, _, result = self.solve_one(tuple(map(float, point)), case, end, place)
+        tried = product(points.T, range(count), ends, self.layouts)
+        for point, case, end, layout in tried:
+            loaded = self.load_one(tuple(map(float, point)), case, end)
+            at, result = _hold(*loaded, layout)
             if result.anchors is None:
                 return _FailedAtError(_explain(at, result))
         raise AssertionError  # what fails for many fails for one of them
+
+
+def _hold(
+    at: LoadedNet, loaded: GuidelineResult, layout: SupportLayout
+) -> tuple[LoadedNet, GuidelineResult]:
+    """A loaded net on a layout, and the forces there."""
+    at = replace(at, net=replace(at.net, layout=layout))
+    return at, hold_net(at.net, loaded)
 
 
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)

@@ -185,8 +185,8 @@ def share_rows(changes: Sequence[Change]) -> list[tuple[Change, list[str]]]:
     told_first = sorted(changes, key=lambda change: _AREAS.index(change.area))
     for change in filter(_is_told, told_first):
         is_of_row = bool(change.row) and change.area != "verdict"
-        told = (change.area, change.what, str(change.old), str(change.new))
-        key: object = told if is_of_row else (*told, change.row, len(shared))
+        texts = (change.area, change.what, str(change.old), str(change.new))
+        key: object = texts if is_of_row else (*texts, change.row, len(shared))
         _, rows = shared.setdefault(key, (change, []))
         rows.append(change.row)
     return list(shared.values())

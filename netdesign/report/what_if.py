@@ -104,13 +104,13 @@ def describe_sized(one: SizedCell, words: Words) -> str:
     if not one.cell:
         return words("what_if.no_cell", **place)
     if not one.now:
-        told = words(
+        text = words(
             "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
         )
         if not one.left_out:
-            return told
+            return text
         left_out = words("what_if.other_ground", count=one.left_out)
-        return words.join((told, left_out))
+        return words.join((text, left_out))
     used = words.show_number("utilisation", one.used)
     return words(
         "what_if.type",

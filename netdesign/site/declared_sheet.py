@@ -18,7 +18,6 @@ from netdesign.site.cells.cells import (
     Cell,
     Sheet,
     Workbook,
-    group_by_row,
     split_address,
 )
 from netdesign.site.cells.findings import Finding
@@ -92,7 +91,7 @@ def replace_cells(
             accepted = say("what_if.another_text")
             findings.append(cell.finding(say("what_if.same"), accepted))
             continue
-        sheets[number] = put_cell(sheets[number], replace(cell, value=text, formula=""))
+        sheets[number] = put_cell(sheets[number], cell, text)
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
     if findings:
         raise SiteDataError(findings)
@@ -105,13 +104,20 @@ def find_cell(sheet: Sheet, address: str) -> Cell:
     return sheet.cell(row, column)
 
 
-def put_cell(sheet: Sheet, cell: Cell) -> Sheet:
-    """Sheet with one cell, its display format taken away: that was of another value."""
+def put_cell(sheet: Sheet, cell: Cell, value: object) -> Sheet:
+    """Sheet with another value in a cell, its display format, that of the old, gone.
+
+    A cell of an office's list may stand elsewhere in the sheet that the list makes.
+    """
     plain = replace(
         cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
     )
-    kept = [one for line in sheet.rows.values() for one in line.values()]
-    return replace(sheet, rows=group_by_row([*kept, plain]))  # the last of a place
+    now = replace(plain, value=value, formula="")
+    rows = {number: dict(line) for number, line in sheet.rows.items()}
+    places = [(y, x) for y, line in rows.items() for x in line if line[x] == cell]
+    for y, x in places or [(cell.row, cell.column)]:
+        rows.setdefault(y, {})[x] = now
+    return replace(sheet, rows=rows)
 
 
 def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from typing import Any
@@ -164,7 +164,7 @@ def _build_cell(sheet: str, place: tuple[int, int], value: object, named: str) -
 
 
 def change_values(
-    workbook: Workbook, change: Change
+    workbook: Workbook, change: Change, *, is_list: bool = False
 ) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
     """Workbook with other values of some net rows: a what-if.
 
@@ -175,6 +175,9 @@ def change_values(
     change : mapping of str to mapping of str to object
         Values by id of the net row and key of the column, in the column's unit. A
         column of the row's net type is changed for every row of that type.
+    is_list : bool
+        The workbook is what an office's list makes: its sheets have the names of the
+        template and cells of the list. They get the columns that the list has not.
 
     Raises
     ------
@@ -184,9 +187,13 @@ def change_values(
     """
     if not change:
         return workbook, ()
+    if is_list:
+        keys = {key for values in change.values() for key in values}
+        sheets = tuple(_add_columns(one, keys) for one in workbook.sheets)
+        workbook = replace(workbook, sheets=sheets)
     lines, nets = _read_lines(workbook)
     findings: list[Finding] = []
-    found: dict[str, tuple[Cell, object]] = {}
+    found: dict[str, tuple[Cell, object, str]] = {}
     for name, values in change.items():
         if name not in lines:
             fault = workbook.finding(say("frames.no_row"))
@@ -194,31 +201,51 @@ def change_values(
             findings.append(replace(fault, text=name, accepted=accepted))
             continue
         for key, value in values.items():
-            cell = _find_cell(lines[name], nets, key)
+            table, cell = _find_cell(lines[name], nets, key)
             if cell is None:
                 fault = workbook.finding(say("frames.no_column"))
                 findings.append(replace(fault, text=f"{name}: {key}"))
                 continue
             others = _list_others(cell, key, change, lines, nets)
+            sheet = load_plan(table).name_in("en") if is_list else cell.sheet
             if others or found.get(cell.place, (cell, value))[1] != value:
                 rule = say("frames.shared", key=key, rows=others or (name,))
                 findings.append(cell.finding(rule))
-            found[cell.place] = (cell, value)
+            found[cell.place] = (cell, value, sheet)
     if findings:
         raise SiteDataError(findings)
     return _put(workbook, found)
 
 
+def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
+    """Sheet of rows or net types with the columns of some keys, empty if not there."""
+    table = next((x for x in _CHANGED if load_plan(x).name_in("en") == sheet.name), "")
+    head = min(sheet.rows)
+    known = {normalise(cell.text.partition("[")[0]) for cell in sheet.row(head)}
+    rows, number = dict(sheet.rows), max(map(max, sheet.rows.values()))
+    for column in load_columns(table) if table else ():
+        if column.field.key in keys and column.field.names.isdisjoint(known):
+            number += 1
+            heading = _build_cell(
+                sheet.name, (head, number), _write_heading(column), sheet.name
+            )
+            rows[head] = {**rows[head], number: replace(heading, file=sheet.file)}
+    return replace(sheet, rows=rows)
+
+
+_CHANGED = ("rows", "net_types")
+
+
 def _put(
-    workbook: Workbook, found: Mapping[str, tuple[Cell, object]]
+    workbook: Workbook, found: Mapping[str, tuple[Cell, object, str]]
 ) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
     sheets = {one.name: one for one in workbook.sheets}
     told = []
-    for cell, value in found.values():
+    for cell, value, sheet in found.values():
         now = replace(cell, value=_take(value), formula="")
         if now.text == cell.text:  # the row as built, beside others
             continue
-        sheets[cell.sheet] = put_cell(sheets[cell.sheet], now)
+        sheets[sheet] = put_cell(sheets[sheet], cell, now.value)
         told.append(ReplacedCell(cell=cell.place, was=cell.text, now=now.text))
     return replace(workbook, sheets=tuple(sheets.values())), tuple(told)
 
@@ -233,12 +260,12 @@ def _read_lines(workbook: Workbook) -> tuple[dict[str, Row], dict[str, Row]]:
     )
 
 
-def _find_cell(line: Row, nets: Mapping[str, Row], key: str) -> Cell | None:
-    """Cell of a net row, or of its net type; None where no sheet has the column."""
-    reading = line.get(key)
+def _find_cell(line: Row, nets: Mapping[str, Row], key: str) -> tuple[str, Cell | None]:
+    """Cell of a net row, or of its net type, with its table; None of no column."""
+    table, reading = "rows", line.get(key)
     if reading is None and "net_type" in line:
-        reading = nets.get(line["net_type"].word, {}).get(key)
-    return reading.cell if reading and key != "id" else None
+        table, reading = "net_types", nets.get(line["net_type"].word, {}).get(key)
+    return table, reading.cell if reading and key != "id" else None
 
 
 def _list_others(
@@ -253,6 +280,6 @@ def _list_others(
         name
         for name, line in lines.items()
         if key not in change.get(name, {})
-        and (other := _find_cell(line, nets, key))
+        and (other := _find_cell(line, nets, key)[1])
         and other.place == cell.place
     )

@@ -98,16 +98,18 @@ def read_site(
     else:
         cells = read_cells(path, text_format)
     workbook, replaced = replace_cells(cells, instead)
-    workbook, changed = change_values(workbook, change)
-    replaced += changed
+    if not found:
+        workbook, changed = change_values(workbook, change)
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
     if found:
         used = say("map.used", file=found.answers.file, sha256=found.answers.sha256)
         findings.append(note_file(workbook.file, used))
         workbook = join_list(workbook, found, findings)
+        workbook, changed = change_values(workbook, change, is_list=True)
     else:
         findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
+    replaced += changed
     library = read_library(net_types, text_format, findings) if net_types else None
     content = read_office(workbook, findings, library)
     return replace(_build_site(content, replaced, findings), text_format=text_format)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
 
@@ -26,6 +26,7 @@ from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_to_check import (
+    CaseSolver,
     RowToCheck,
     list_layouts,
     place_variant,
@@ -69,8 +70,8 @@ def settle(
     forces_at: dict[object, RowForces | None] = {
         _name(forces.row): forces for forces in variants
     }
-    ends = _BestEnds(task=task, forces_at=forces_at)
-    return [ends.settle(member_check) for member_check in judged]
+    ends = (_BestEnds(task=task, forces_at=forces_at, judged=each) for each in judged)
+    return [each.settle() for each in ends]
 
 
 def _take_off_ropes(forces: RowForces) -> RowForces:
@@ -112,12 +113,16 @@ class _Option:
         return replace(self.assumed, low=value, high=value).text
 
 
-@dataclass(slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _BestEnds:
-    """Row at other values of what is assumed of it; each is worked out once."""
+    """Check of a member at other values of what is assumed of its row.
+
+    ``forces_at`` keeps the forces at each of them, for all checks of the row.
+    """
 
     task: RowToCheck
-    forces_at: dict[object, RowForces | None] = field(default_factory=dict)
+    forces_at: dict[object, RowForces | None]
+    judged: MemberCheck
 
     @property
     def searched(self) -> list[Assumed]:
@@ -125,85 +130,83 @@ class _BestEnds:
         assumed = (self.task.row.find_assumed(key) for key in SEARCHED)
         return [each for each in assumed if each is not None and each.is_range]
 
-    def settle(self, member_check: MemberCheck) -> MemberCheck:
+    @property
+    def best(self) -> RowForces:
+        """Forces of the variant on which the member is least used."""
+        return self.judged.best or self.judged.forces
+
+    @property
+    def row(self) -> NetRow:
+        """Variant on which the check is worst."""
+        return self.judged.forces.row
+
+    def settle(self) -> MemberCheck:
         """Check at the best ends, with the value that decides it."""
-        check = member_check.check
+        check = self.judged.check
         high = check.utilisation_band[1]
         is_beyond = check.is_unbounded or (high is not None and high > 1.0)
-        if is_beyond and self._is_rope_of_assumed_sag(check):
-            return replace(member_check, check=_leave_to_sags(check))
-        if member_check.again is None or not is_beyond:
-            return member_check
-        if check.verdict is Verdict.FAIL and self._has_open_pull(member_check):
-            check = self._ease(member_check, _take_off_ropes, "assumed.by_ropes")
-        if check.verdict is Verdict.FAIL and _has_open_truss(member_check.forces.row):
-            check = self._ease(member_check, take_off_truss, "assumed.by_stiffness")
+        if is_beyond and self._is_rope_of_assumed_sag():
+            return replace(self.judged, check=_leave_to_sags(check))
+        if self.judged.again is None or not is_beyond:
+            return self.judged
+        if check.verdict is Verdict.FAIL and self._has_open_pull():
+            check = self._ease(_take_off_ropes, "assumed.by_ropes")
+        if check.verdict is Verdict.FAIL and _has_open_truss(self.row):
+            check = self._ease(take_off_truss, "assumed.by_stiffness")
         is_open = bool(self.searched or self.task.row.panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
-            check = check.ease(self._find_least(member_check))
-        if check.verdict is not Verdict.FAIL and (deciding := self._tell(member_check)):
+            check = check.ease(self._find_least())
+        if check.verdict is not Verdict.FAIL and (deciding := self._tell()):
             check = check.with_open(OpenKind.ASSUMED_DECIDES, deciding)
-        return replace(member_check, check=check)
+        return replace(self.judged, check=check)
 
     @property
     def _are_sags_assumed(self) -> bool:
         return any(map(self.task.row.find_assumed, _SAGS))
 
-    def _is_rope_of_assumed_sag(self, check: Check) -> bool:
+    def _is_rope_of_assumed_sag(self) -> bool:
         """A border rope or end guy whose pull follows from a sag that is assumed.
 
         Such pulls lie far above the one that was measured: they leave a part of the
         structure open, and never make it fail.
         """
+        check = self.judged.check
         is_rope = check.member in ROPE_OF and is_of_structure(check)
         return is_rope and self._are_sags_assumed
 
-    def _has_open_pull(self, member_check: MemberCheck) -> bool:
+    def _has_open_pull(self) -> bool:
         """A border rope pulls the member, and its sag or its sliding is assumed."""
-        end = member_check.forces.row.row_end
-        if end is None or member_check.check.member in ROPE_OF:
+        end, check = self.row.row_end, self.judged.check
+        if end is None or check.member in ROPE_OF:
             return False
-        may_slide = member_check.width.position == "second" and end.ropes_slide is None
-        is_pulled = not _PULLS.isdisjoint(member_check.check.step_of)
+        may_slide = self.judged.width.position == "second" and end.ropes_slide is None
+        is_pulled = not _PULLS.isdisjoint(check.step_of)
         return is_pulled and (may_slide or self._are_sags_assumed)
 
-    def _ease(
-        self,
-        member_check: MemberCheck,
-        take_off: Callable[[RowForces], RowForces],
-        key: str,
-    ) -> Check:
+    def _ease(self, take_off: Callable[[RowForces], RowForces], key: str) -> Check:
         """Ease the check where it passes without the pull that an assumption brings."""
-        low = _find_low(
-            self._judge(
-                member_check, take_off(member_check.best or member_check.forces)
-            )
-        )
-        worst = _rate(member_check.check)
+        check, low = self.judged.check, _find_low(self._judge(take_off(self.best)))
+        worst = _rate(check)
         if not 0.0 < low <= 1.0 or math.isinf(worst):
-            return member_check.check
+            return check
         deciding = say(key, used=worst, without=low)
-        return member_check.check.ease(low).with_open(
-            OpenKind.ASSUMED_DECIDES, deciding
-        )
+        return check.ease(low).with_open(OpenKind.ASSUMED_DECIDES, deciding)
 
-    def _find_least(self, member_check: MemberCheck) -> float:
+    def _find_least(self) -> float:
         """Low end of the utilisation at the best corner of what is searched [-].
 
         In the case that governs the check, at its density, friction and inclination:
         over all cases it is no less. Of an assumed panel what any brings at least. 0
         where that cannot be calculated.
         """
-        row = (member_check.best or member_check.forces).row
+        row = self.best.row
         if not self.searched:
-            return _find_low(self._judge(member_check, self._find_best_panels(row)))
+            return _find_low(self._judge(self._find_best_panels(row)))
         names = [each.key for each in self.searched]
         corners = product(*((each.low, each.high) for each in self.searched))
         at = (dict(zip(names, corner, strict=True)) for corner in corners)
-        at_corners = (
-            self._find_at(row, member_check, x, find_least_forces) for x in at
-        )
-        return min(_find_low(self._judge(member_check, x)) for x in at_corners)
+        at_corners = (self._find_at(row, values, find_least_forces) for values in at)
+        return min(_find_low(self._judge(forces)) for forces in at_corners)
 
     def _find_best_panels(self, row: NetRow) -> RowForces | None:
         """Forces at a corner over all cases, with the best of the assumed panels."""
@@ -214,22 +217,17 @@ class _BestEnds:
             self.forces_at[key] = find_least_forces(self.task, row, solved)
         return self.forces_at[key]
 
-    def _judge(
-        self, member_check: MemberCheck, forces: RowForces | None
-    ) -> Check | None:
-        if forces is None or member_check.again is None:
+    def _judge(self, forces: RowForces | None) -> Check | None:
+        if forces is None or self.judged.again is None:
             return None
-        return member_check.again(forces).check
+        return self.judged.again(forces).check
 
-    def _tell(self, member_check: MemberCheck) -> Message | None:
+    def _tell(self) -> Message | None:
         """Name the assumed value that lowers the utilisation most, if one does."""
-        worst = _rate(member_check.check)
-        options = [
-            *self._vary_statics(member_check),
-            *self._vary_searched(member_check),
-        ]
+        worst = _rate(self.judged.check)
+        options = [*self._vary_statics(), *self._vary_searched()]
         rated = [(each.rate(1.0), each) for each in options]
-        least, option = min(rated, key=lambda x: x[0], default=(math.inf, None))
+        least, option = min(rated, key=lambda each: each[0], default=(math.inf, None))
         if option is None or not least < _BETTER * worst:
             return None
         numbers: dict[str, Message | float] = {
@@ -238,98 +236,68 @@ class _BestEnds:
             "used": least if math.isinf(worst) else worst,
         }
         if least > 1.0:
-            return say(
-                "check.assumed_lowers",
-                **numbers,
-                other=option.show(option.other),
-                least=least,
-            )
+            other = option.show(option.other)
+            return say("check.assumed_lowers", **numbers, other=other, least=least)
         bound = option.show(_round(option, _find_share(option.rate)))
         return say("check.assumed_decides", **numbers, bound=bound)
 
-    def _vary_statics(self, member_check: MemberCheck) -> Iterator[_Option]:
+    def _vary_statics(self) -> Iterator[_Option]:
         """Other ends of what is assumed of the row's statics, each alone."""
-        values = read_values(member_check.forces.row)
-        for key, worst in values.items():
+        for key, worst in read_values(self.row).items():
             assumed = self.task.row.find_assumed(key)
             if assumed is None or not assumed.is_range:
                 continue
             if key == "guy_count" and worst == assumed.high:
                 continue  # a single guy holds nothing along the row
             other = assumed.low if worst == assumed.high else assumed.high
-            option = _Option(
-                assumed=assumed,
-                worst=worst,
-                other=other,
-                rate=partial(self._rate_statics, member_check, key, worst, other),
-            )
-            yield option
+            rate = partial(self._rate_statics, key, worst, other)
+            yield _Option(assumed=assumed, worst=worst, other=other, rate=rate)
 
     def _rate_statics(
-        self,
-        member_check: MemberCheck,
-        key: str,
-        worst: float,
-        other: float,
-        share: float,
+        self, key: str, worst: float, other: float, share: float
     ) -> float:
         """Utilisation at another value: at the end over all cases, else in proportion.
 
         That is to the governing case, at the same value of all else.
         """
-        values = read_values(member_check.forces.row)
+        values = read_values(self.row)
         values[key] = worst + share * (other - worst)
         if key == "guy_count":
             splay = self.task.row.find_assumed("guy_splay")
             if splay is not None:
                 values["guy_splay"] = splay.high
-        row = place_variant(self.task.row, values)
+        row, force = place_variant(self.task.row, values), self.judged.force
         if share == 1.0:
-            return _rate(self._judge(member_check, self.forces_at.get(_name(row))))
-        if key == "guy_count" or member_check.force is None:
+            return _rate(self._judge(self.forces_at.get(_name(row))))
+        if key == "guy_count" or force is None:
             return math.inf
         here, there = (
-            _rate(self._judge(member_check, self._find_alone(at, member_check.force)))
-            for at in (member_check.forces.row, row)
+            _rate(self._judge(self._find_alone(at, force))) for at in (self.row, row)
         )
-        return _scale(member_check.check, here, there)
+        return _scale(self.judged.check, here, there)
 
-    def _vary_searched(self, member_check: MemberCheck) -> Iterator[_Option]:
+    def _vary_searched(self) -> Iterator[_Option]:
         """Other ends of what is searched with the cases, each alone."""
-        if member_check.check.case is None:
-            return
-        values = read_point(member_check.check.case).values
+        case = self.judged.check.case
+        values = read_point(case).values if case else {}
         for assumed in self.searched:
             worst = values.get(assumed.key)
             if worst is None:
                 continue
             middle = 0.5 * (assumed.low + assumed.high)
             other = assumed.low if worst > middle else assumed.high
-            yield _Option(
-                assumed=assumed,
-                worst=worst,
-                other=other,
-                rate=partial(
-                    self._rate_searched, member_check, assumed.key, worst, other
-                ),
-            )
+            rate = partial(self._rate_searched, assumed.key, worst, other)
+            yield _Option(assumed=assumed, worst=worst, other=other, rate=rate)
 
     def _rate_searched(
-        self,
-        member_check: MemberCheck,
-        key: str,
-        worst: float,
-        other: float,
-        share: float,
+        self, key: str, worst: float, other: float, share: float
     ) -> float:
         """Utilisation at another value, in proportion to that of the governing case."""
-        row = member_check.forces.row
-        at = {key: worst + share * (other - worst)}
-        rated = (
-            _rate(self._judge(member_check, self._find_at(row, member_check, values)))
-            for values in ({key: worst}, at)
+        here, there = (
+            _rate(self._judge(self._find_at(self.row, {key: value})))
+            for value in (worst, worst + share * (other - worst))
         )
-        return _scale(member_check.check, *rated)
+        return _scale(self.judged.check, here, there)
 
     def _find_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
         """Forces on a variant of the row by the case that governs one force."""
@@ -345,34 +313,38 @@ class _BestEnds:
     def _find_at(
         self,
         row: NetRow,
-        member_check: MemberCheck,
         values: Mapping[str, float],
         find: _FindForces = find_forces_alone,
     ) -> RowForces | None:
-        """Forces on a variant by the governing case of a check, at other values."""
-        task = self.task
-        if task.solver is None or member_check.check.case is None:
+        """Forces on a variant by the governing case of the check, at other values."""
+        point, solver = self.judged.check.case, self.task.solver
+        if solver is None or point is None:
             return None
-        case = read_point(member_check.check.case)
+        case = read_point(point)
         for name, value in values.items():
             case = case.with_value(name, value)
         key = (_name(row), case, find.__name__)
         if key not in self.forces_at:
-            self.forces_at[key] = self._find_in_case(row, case, values, find)
+            result = self._solve(case, solver)
+            forces = None
+            if result.is_converged:
+                forces = self._find_in_case(row, result, values, find)
+            self.forces_at[key] = forces
         return self.forces_at[key]
 
-    def _find_in_case(
-        self, row: NetRow, case: Case, values: Mapping[str, float], find: _FindForces
-    ) -> RowForces | None:
+    def _solve(self, case: Case, solver: CaseSolver) -> CaseResult:
         task = self.task
-        if task.solver is None:
-            return None
-        solved_here = (result for result in task.solved.results if result.case == case)
-        result = next(solved_here, None)
-        if result is None:
-            (result,) = task.solver.solve_all([(task.row, case, task.law)])
-        if not result.is_converged:
-            return None
+        solved = (result for result in task.solved.results if result.case == case)
+        return next(solved, None) or solver.solve_all([(task.row, case, task.law)])[0]
+
+    def _find_in_case(
+        self,
+        row: NetRow,
+        result: CaseResult,
+        values: Mapping[str, float],
+        find: _FindForces,
+    ) -> RowForces:
+        task = self.task
         ranges = task.site.ranges
         for name, value in values.items():
             ranges = ranges.with_value(name, value)

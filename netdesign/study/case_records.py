@@ -77,7 +77,6 @@ class GuidelineCase:
     height_vertical_m: float
     creep_factor: float | None
     glide_factor: float | None
-    rigid_kN_per_m: float | None  # S'_N on a rigid wall
     loaded_share: float = 1.0  # of the net's height, from the foot
 
 

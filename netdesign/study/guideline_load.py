@@ -449,7 +449,6 @@ def _record_case(result: GuidelineResult, net: NetGeometry[float]) -> GuidelineC
         loaded_share=result.case.settled * min(filled, 1.0),
         creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
-        rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
         reason=result.reason,
         load_kN_per_m=kilonewton_if_known(along),
         foot_anchor_kN=kilonewton_if_known(forces.get(Member.FOOT_ANCHOR)),

@@ -68,7 +68,7 @@ class MemberCheck:
 
     ``force`` is None where no case gives it. ``forces`` are those of the variant on
     which the check is worst, ``best`` those of the variant on which it is least used.
-    ``again`` judges the same member on another variant.
+    ``again`` judges the same member on another variant, by its numbers alone.
     """
 
     forces: RowForces
@@ -210,7 +210,6 @@ def judge_force(
         beside=force.on.by_model if force and standard.is_by_guideline else (),
     )
     least = forces.find_least(resistance.member) if force else None
-    is_doubtful = check.has_open(OpenKind.RESISTANCE_IN_DOUBT)
     check = replace(
         check,
         id=check.id + AT_SUPPORT[width.position],
@@ -219,9 +218,6 @@ def judge_force(
         load_case=least.load_case if least else "",
         load_inclination_deg=least.inclination_deg if least else None,
         resistance_derivation=resistance.derivation,
-        resistance_years=forces.row.design_life
-        if resistance.wear and not is_doubtful
-        else None,
         tests=_record_tests(resistance, standard),
         proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
     )

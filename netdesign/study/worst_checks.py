@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from netdesign.checks import Check
 from netdesign.outcome import Verdict
@@ -122,18 +123,21 @@ def _judge_worst(
         used = find(forces, resistance, width)
         return judge_member(forces, used, width, is_size=is_size)
 
+    size = partial(judge, is_size=True)
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
-        return replace(judge(apart[0]), again=judge)
-    return _compare([judge(forces, is_size=True) for forces in apart], judge)
+        return replace(judge(apart[0]), again=size)
+    return replace(_compare(list(map(size, apart)), judge), again=size)
 
 
 def _compare(judged: Sequence[MemberCheck], judge: _Judge) -> MemberCheck:
     """Worst of a member's checks on several variants, eased to the best of them."""
     best = min(judged, key=lambda each: _find_least(each.check))
-    worst = judge(take_worst(judged).forces)
+    least = _find_least(best.check)
+    eased = [replace(each, check=each.check.ease(least)) for each in judged]
+    worst = judge(take_worst(eased).forces)
     check = replace(
-        worst.check.ease(_find_least(best.check)),
+        worst.check.ease(least),
         assumed=describe_variant(worst.forces.row),
     )
     return replace(worst, check=check, best=best.forces, again=judge)

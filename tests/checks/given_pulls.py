@@ -4,19 +4,19 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-import openpyxl
-
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
+from netdesign.site.columns.office import load_columns
 from netdesign.site.reader import read_site
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import place_support
-from netdesign.structure.members import NetPart
+from netdesign.structure.members import Member, NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from tests.grid import build_cases, wrap_results
+from tests.make import write_site
 
 
 def find_second(gap):
@@ -27,73 +27,51 @@ def find_second(gap):
     return 1.0 + 0.85 * gap * (0.3 * gap) ** 2 / (2.0 * 3.5**2)
 
 
-NETS = {
+ROW = {
     "id": "R",
-    "slope angle [deg]": 35,
-    "snow thickness [m]": 2.8,
-    "upslope length [m]": 18,
-    "ground law": "no-slip",
-    "net height [m]": 3.0,
-    "net stiffness [kN/m]": 10000,
-    "post spacing [m]": 3.5,
-    "number of posts": 12,
-    "post tilt [deg]": 15,
-    "uphill anchor distance [m]": 3.0,
-    "downhill anchor distance [m]": 3.0,
-    "foot anchor": "A",
-    "uphill anchor": "A",
-    "downhill anchor": "A",
-    "uphill guy": "G",
-    "downhill guy": "G",
+    "slope_angle": 35,
+    "snow": 2.8,
+    "upslope_length": 18,
+    "glide_factor": 1.0,
+    "post_count": 12,
+    "net_type": "N",
+    "post_spacing": 3.5,
+    "foot_anchor": "A",
+    "uphill_anchor": "A",
+    "downhill_anchor": "A",
+    "ground": "till",
+}
+NET = {
+    "id": "N",
+    "net_height": 3.0,
+    "net_stiffness": 10000,
+    "slack": 5,
+    "post_tilt": 15,
+    "guy_count": 2,
+    "guy_splay": 30,
+    "uphill_anchor_distance": 3.0,
+    "downhill_anchor_distance": 3.0,
+    "guy_anchors": "own",
+    "mesh_strength": 300,
+    "uphill_guy": "G",
+    "downhill_guy": "G",
     "post": "P",
-    "guys on each side of the post": 2,
-    "splay of the guys [deg]": 30,
-    "slack [-]": 0.05,
-    "layers of the snow": "uniform",
-    "panel system": "none",
-    "axes of the anchors": "along the pull",
-    "anchors of the guys": "own",
-    "ground of the anchors": "till",
-    "design life in years": 50,
-    "distance to the next edge [m]": 20,
-    "mesh strength [kN/m]": 300,
 }
-AXES = ("foot anchor axis", "uphill anchor axis", "downhill anchor axis")
-ROPE = {
-    "id": "G",
-    "rope diameter [mm]": 20,
-    "construction": "6x36-IWRC",
-    "rope grade [MPa]": 1770,
-    "termination": "clips",
-    "protected for years": 60,
-}
+ROPE = {"id": "G", "rope": 252.048, "termination": "clips"}  # 0.356 * 20^2 * 1.77
 POST = {
     "id": "P",
-    "section area [cm2]": 34.0,
-    "second moment of area [cm4]": 318.0,
-    "buckling length [m]": 3.1,
-    "yield strength [MPa]": 235,
-    "buckling curve": "c",
-    "plate length [m]": 0.6,
-    "plate width [m]": 0.5,
-    "bearing stress [kPa]": 2000,
-    "post width [mm]": 120,
-    "section modulus [cm3]": 144,
-    "eccentricity at the head [mm]": 0,
-    "eccentricity at the foot [mm]": 0,
-    "efficiency factor η": 1,
-    "friction of the base": 0.6,
+    "area": 34.0,
+    "second_moment": 318.0,
+    "buckling_length": 3.1,
+    "yield_strength": 235,
+    "buckling_curve": "c",
+    "bearing": 271.23,
+    "post_width": 120,
+    "section_modulus": 144,
+    "head_eccentricity": 0,
+    "base_friction": 0.6,  # of the site
 }
-
-
-OF_ANCHOR = {  # where and how long it holds, unless a test says so itself
-    "ground": "till",
-    "corrosion protection": "cover",
-    "protected for years": 100,
-    "drilled length [m]": 5.5,
-    "least cover of the bond [m]": 0.5,
-    "least distance to an edge [m]": 2.0,
-}
+ANCHOR = {"id": "A", "ground": "till", "protection": "cover", "drilled_length": 5.5}
 
 
 def judge_row(tmp_path: Path, profile, **changes):
@@ -110,16 +88,13 @@ def study_row(
     foot,
     head,
     floor="none",
-    post=POST,
-    tests=(),
-    **nets,
+    **row,
 ):
     """Study of the row under a profile, given by its id or its folder.
 
     Without a floor by the guideline's load the given pulls are the demand.
     """
-    path = write_row(tmp_path, anchor=anchor, post=post, tests=tests, **nets)
-    site = read_site(path)
+    site = read_row(tmp_path, anchor=anchor, **row)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
     standard = replace(load_standard(profile), floor=floor)
@@ -128,49 +103,81 @@ def study_row(
     )
 
 
-def write_row(
-    tmp_path: Path, *, anchor, post=POST, tests=(), foot=None, head=None, **nets
-):
-    """Workbook of the row; pulls are none of its cells. ``tests``: force and result."""
-    line = NETS | {key.replace("_", " "): v for key, v in nets.items()}
-    line |= {"ground of the anchors": anchor.get("ground", "till")}
-    if any(key.startswith(AXES) for key in line):
-        del line["axes of the anchors"]
-    sheets = {
-        "Nets": line,
-        "Anchors": {"id": "A"} | OF_ANCHOR | anchor,
-        "Ropes": ROPE,
-        "Posts": post,
-        "Ends": {"row": "R", "types of the support": "as inside"},
+def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
+    """Site of the row; what no cell says is set, above all that it has no panel.
+
+    Of ``row`` the axes of anchors [deg], of ``post`` the efficiency factor.
+    """
+    axes = {key: row.pop(key) for key in AXES if key in row}
+    bare = {key: value for key, value in post.items() if key != "eta"}
+    path = write_row(tmp_path, anchor=anchor, post=bare, tests=tests, **row)
+    site = read_site(path)
+    (given,) = site.rows
+    changed = {
+        "resistances": tuple(
+            set_efficiency(one, post.get("eta", 1.0)) for one in given.resistances
+        ),
+        "axes": tuple((AXES[key], math.radians(angle)) for key, angle in axes.items())
+        or given.axes,
+        "panels": (),
+        "panel_assumed": (),
+        "panel_lack": None,
+        "row_end": None,
+        "net_parts": given.net_parts[:1],
+        "assumed": tuple(x for x in given.assumed if x.key in TOLD),
     }
-    workbook = openpyxl.Workbook()
-    workbook.remove(workbook.active)
-    for name, line in sheets.items():
-        sheet = workbook.create_sheet(name)
-        sheet.append(list(line))
-        sheet.append(list(line.values()))
-    links = workbook.create_sheet("Links")
-    links.append(["type", "link", "strength of the link [kN]", "chain"])
-    for kind in ("A", ROPE["id"]):
-        links.append([kind, "eye", 900, "complete"])
-    if tests:
-        sheet = workbook.create_sheet("Tests")
-        headings = ("pull-out force [kN]", "outcome of the test")
-        headings = ("anchor type", "ground", *headings, "planned proof load [kN]")
-        sheet.append(headings)
-        for line in tests:
-            sheet.append(["A", anchor.get("ground", "till"), *line])
-    ranges = workbook.create_sheet("Ranges")
-    for line in (
-        ["quantity", "low", "high"],
-        ["density [kg/m3]", 380, 380],
-        ["friction angle [deg]", 30, 30],
-        ["net inclination [deg]", 30, 30],
-    ):
-        ranges.append(line)
-    path = tmp_path / "site.xlsx"
-    workbook.save(path)
-    return path
+    links = {
+        name: tuple(replace(one, is_of_whole=True) for one in chain)
+        for name, chain in site.links.items()
+    }
+    return replace(site, rows=(replace(given, **changed),), links=links)
+
+
+TOLD = ("anchor_axes", "kind", "lever_arm", "efficiency")  # of what is assumed
+AXES = {
+    "foot_axis": Member.FOOT_ANCHOR,
+    "uphill_axis": Member.UPHILL_ANCHOR,
+    "downhill_axis": Member.DOWNHILL_ANCHOR,
+}
+
+
+def set_efficiency(resistance, eta):
+    """Resistance of a post that so many times its width of snow presses on."""
+    if resistance.mode != "compression_bending" or resistance.dimensions is None:
+        return resistance
+    dimensions = replace(resistance.dimensions, efficiency=eta)
+    return replace(resistance, dimensions=dimensions)
+
+
+def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):
+    """Workbook of the row. ``tests``: force, result and planned load."""
+    kind = dict(anchor)
+    if "strength" in kind:  # [MPa], of a bar
+        area = math.pi / 4.0 * kind["bar_diameter"] ** 2
+        kind["tendon"] = kind.pop("strength") * area / 1e3
+    if "test_count" in kind:
+        kind["proven"] = "tests"
+    kind = ANCHOR | kind
+    own = {one.field.key for one in load_columns("rows")}
+    of_row = {key: value for key, value in row.items() if key in own}
+    of_net = {key: value for key, value in row.items() if key not in own}
+    post = dict(post)
+    project = {"density": 380, "friction_angle": 30, "inclination": 30}
+    project |= {"design_life": 50, "base_friction": post.pop("base_friction", None)}
+    keys = ("force", "result", "proof_load")
+    of_test = {"type": "A", "ground": kind["ground"]}
+    link = {"link": "eye", "force": 900, "meaning": "strength"}
+    tables = {
+        "project": [project],
+        "rows": [ROW | {"ground": kind["ground"]} | of_row],
+        "net_types": [NET | of_net | {"post": post["id"]}],
+        "anchor_types": [kind],
+        "ropes": [ROPE],
+        "posts": [post],
+        "links": [{"type": one} | link for one in ("A", "G")],
+        "tests": [of_test | dict(zip(keys, one, strict=False)) for one in tests],
+    }
+    return write_site(tmp_path / "site.xlsx", tables)
 
 
 def give_pulls(site, foot, head) -> CaseResult:

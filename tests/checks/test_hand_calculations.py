@@ -30,16 +30,16 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         tmp_path,
         "nf-p-95-304-style",
         anchor={
-            "kind of anchor": "bar",
-            "bar diameter [mm]": 28,
-            "bar strength [MPa]": 500,
-            "number of tests": 3,
-            "least tested resistance [kN]": 270,
-            "mean tested resistance [kN]": 290,
+            "kind": "bar",
+            "bar_diameter": 28,
+            "strength": 500,
+            "test_count": 3,
+            "pull_out": 270,
+            "test_mean": 290,
         },
         foot=(20.0, 18.0),
         head=(5.0, -22.0),
-        **{"gap to next work [m]": 0.5},
+        **{"gap": 0.5},
     )
     # Geometry (structure/THEORY.md): head (3 tan 30, 3) = (1.7321, 3); post base at
     # 1.7321 - 3 tan 15 = 0.9282; uphill anchor at -3.
@@ -103,9 +103,9 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         utilisation=0.4373,
         verdict=Verdict.PASS,
     )
-    # Base plate: 0.9659 * 109.86 = 106.1 kN across it, 0.6 * 0.5 * 2000 = 600 kN under
-    # a load across it; leaning uphill (EN 1997-1, D.4) m = (2 + 5/6) / (1 + 5/6) =
-    # 1.5455, (1 - tan 15)^2.5455 = 0.73205^2.5455 = 0.45205: 271.2 kN; 1.4.
+    # Base plate: 0.9659 * 109.86 = 106.1 kN across it. It bears 0.6 * 0.5 * 2000 = 600
+    # kN of a load across it; leaning uphill (EN 1997-1, D.4) m = (2 + 5/6) / (1 + 5/6)
+    # = 1.5455, (1 - tan 15)^2.5455 = 0.73205^2.5455 = 0.45205: 271.2 kN typed; 1.4.
     expect(
         checks["post_base.bearing"],
         demand=1.5 * 0.96593 * post,
@@ -151,19 +151,16 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         tmp_path,
         "swiss-guideline-2007",
         anchor={
-            "kind of anchor": "bar",
-            "bar diameter [mm]": 32,
-            "bar strength [MPa]": 500,
-            "drill diameter [mm]": 90,
-            "bond length [m]": 5.0,
+            "kind": "bar",
+            "bar_diameter": 32,
+            "strength": 500,
+            "pull_out": 152.68,
+            "proven": "calculated",
             "ground": "gravel",
-            "grouting": "B",
-            "fabric sleeve": "no",
         },
         foot=(15.0, 12.0),
         head=(4.0, -15.0),
-        ground_law="sliding",
-        **{"glide factor [-]": 2.0, "post spacing [m]": 4.0},
+        **{"glide_factor": 2.0, "post_spacing": 4.0},
     )
     # No gap is given: a free end. f_R = 1.00 + 1.25 * 2.0 = 3.5 over D_K / 3 = 1.0 m:
     # edge 4 / 2 + 3.5 * 1.0 = 5.5 m > 4 m of those inside (all recalled, UV-0704).
@@ -180,8 +177,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         utilisation=0.5347,
         verdict=Verdict.PASS,
     )
-    # Bond: pi * 0.09 * 5.0 * 120 kPa (FHWA, gravel, type B, least) = 169.65 kN;
-    # of 5.5 m drilled 0.5 m are free, so that 4.5 m count: 152.68 kN.
+    # Bond: pi * 0.09 * 4.5 * 120 kPa (FHWA, gravel, type B, least) = 152.68 kN typed.
     # 1.35 * 1.40 * 1.25 = 2.3625: 64.63 kN.
     expect(
         checks["foot_anchor.pull_out.end"],
@@ -230,16 +226,16 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
         tmp_path,
         "onr-24805-style",
         anchor={
-            "kind of anchor": "bar",
-            "bar diameter [mm]": 25,
-            "bar strength [MPa]": 500,
-            "number of tests": 1,
-            "least tested resistance [kN]": 180,
-            "mean tested resistance [kN]": 180,
+            "kind": "bar",
+            "bar_diameter": 25,
+            "strength": 500,
+            "test_count": 1,
+            "pull_out": 180,
+            "test_mean": 180,
         },
         foot=(18.0, 20.0),
         head=(-12.0, -20.0),
-        **{"gap to next work [m]": 1.0},
+        **{"gap": 1.0},
     )
     # Head pull on 3.5 m: (-42, -70) kN, upslope of the post: the uphill guy is slack.
     # Downhill guy: anchor at 0.9282 + 3 = 3.9282; head to anchor (2.1962, -3) / 3.7179

@@ -13,8 +13,6 @@ from netdesign.coupling.scene import (
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.creep_law import compute_fluidity, compute_shear_factor
 from netdesign.snow.law import linearise_sliding
-from netdesign.snow.mesh import build_template, place_nodes
-from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.each import each
 
@@ -54,25 +52,6 @@ def test_equal_layers_are_uniform_snow(a_scene):
         first, second = getattr(one, end), getattr(three, end)
         apart = math.hypot(first.x - second.x, first.y - second.y)
         assert apart <= first.error + second.error
-
-
-@each("tops", [(0.5,), (0.1, 0.3, 0.8), (0.02, 0.98)])
-@each("level", MESH_LEVELS[1:3])
-def test_no_triangle_crosses_an_interface_and_no_mass_is_lost(tops, level):
-    template = build_template(3.0, level, tops)
-    heights = template.nodes[1, template.triangles[:3]]
-    for top in tops:
-        crosses = (heights.min(axis=0) < top - 1e-9) & (
-            heights.max(axis=0) > top + 1e-9
-        )
-        assert not crosses.any()
-    fractions = template.net_fractions
-    straight = np.array([0.0 * fractions, fractions])
-    mesh = build_placed_mesh(template, place_nodes(template, straight))
-    for low, high in zip((0.0, *tops), (*tops, 1.0), strict=True):
-        inside = (heights.mean(axis=0) > low) & (heights.mean(axis=0) < high)
-        found = mesh.weights[inside].sum()
-        assert found == pytest.approx(3.0 * (high - low), rel=1e-12)
 
 
 def test_layered_snow_hangs_its_weight_on_the_net(a_scene):

@@ -260,7 +260,6 @@ def build_guideline(extreme: LargestForce) -> GuidelineRecord:
     numbers = {
         "creep_factor": 0.741,
         "glide_factor": 1.0,
-        "rigid_kN_per_m": 10.0,
         "load_kN_per_m": 12.0,
         "foot_anchor_kN": 90.0,
         "uphill_guy_kN": 20.0,

@@ -48,14 +48,6 @@ def test_dense_branch_is_duva_and_crow():
     )
 
 
-def test_branches_meet():
-    """The fit was made to: FACTS.md, section 2 (a 1.549 / 1.5455)."""
-    below = math.nextafter(LAW.branch, 0.0)
-    for compute in (compute_shear_factor, compute_bulk_factor):
-        step = compute(LAW, below) / compute(LAW, LAW.branch) - 1.0
-        assert abs(step) < 3e-3  # of a fit to two decimals
-
-
 def test_ice_is_the_limit():
     """a tends to 1, b to 0: (N4) at the densest snow that is accepted."""
     void = (1.0 - DENSEST_SNOW) ** (1 / 3)

@@ -7,37 +7,35 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.checks.check import OpenKind
 from netdesign.checks.comparison import find_action_factor
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.site.reader import read_site
 from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.posts import ask_efficiency, find_post_resistance
+from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
-from tests.checks.given_pulls import POST, find_second, judge_row, study_row, write_row
+from tests.checks.given_pulls import POST, find_second, judge_row, read_row, study_row
 
 SECOND = find_second(0.5)
 
 SWISS = "swiss-guideline-2007"
-GUYS, SPLAY = "guys on each side of the post", "splay of the guys [deg]"
-FOOT_AXIS = "foot anchor axis [deg]"
+GUYS, SPLAY = "guy_count", "guy_splay"
+FOOT_AXIS = "foot_axis"
 BAR = {
-    "kind of anchor": "bar",
-    "bar diameter [mm]": 32,
-    "bar strength [MPa]": 500,
-    "pull-out resistance [kN]": 380,
-    "basis": "tested",
+    "kind": "bar",
+    "bar_diameter": 32,
+    "strength": 500,
+    "pull_out": 380,
+    "proven": "tests",
 }
 ROW = {
     "anchor": BAR,
     "foot": (20.0, 18.0),  # 41.99 degrees out of the ground
     "head": (5.0, -22.0),
-    "gap to next work [m]": 0.5,
+    "gap": 0.5,
 }
 FOOT = math.degrees(math.atan2(18.0, 20.0))
 ALONG_ROW = math.acos(1.0 / math.hypot(1.0, 0.1))  # turn by the load along the row
@@ -55,8 +53,8 @@ def told(check):
     ("changes", "reason"),
     [
         ({GUYS: 1}, "single guy in the plane of the section"),
-        ({"uphill anchor distance [m]": 0.0}, "do not end at the net's foot"),
-        ({"downhill anchor distance [m]": 0.0, "head": (0.4, -22.0)}, "cannot hold"),
+        ({"uphill_anchor_distance": 0.0}, "do not end at the net's foot"),
+        ({"downhill_anchor_distance": 0.0, "head": (0.4, -22.0)}, "cannot hold"),
     ],
 )
 def test_load_along_the_row_that_nothing_holds_is_not_proven(tmp_path, changes, reason):
@@ -104,7 +102,7 @@ def test_pull_along_the_post_loads_guys_of_both_sides_and_the_post(tmp_path):
 
 
 def test_anchor_of_net_and_guy_carries_both(tmp_path):
-    checks = judge(tmp_path, **{"uphill anchor distance [m]": 0.0})
+    checks = judge(tmp_path, **{"uphill_anchor_distance": 0.0})
     both = checks["foot_anchor.tendon"].read("E_s")
     foot = judge(tmp_path)["foot_anchor.tendon"].read("E_s")
     assert foot == pytest.approx(3.5 * math.hypot(20, 18), rel=1e-12)
@@ -117,7 +115,7 @@ def test_anchor_of_net_and_guy_carries_both(tmp_path):
     [(FOOT, Verdict.PASS), (14.0, Verdict.PASS), (10.0, Verdict.NOT_PROVEN)],
 )
 def test_rope_anchor_turns_up_to_the_angle_of_the_profile(tmp_path, axis, verdict):
-    anchor = BAR | {"kind of anchor": "rope anchor"}
+    anchor = BAR | {"kind": "rope anchor"}
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: axis})
     found = checks["foot_anchor.direction"]
     turn = math.radians(abs(FOOT - axis))
@@ -143,7 +141,7 @@ def foot_across(angle):
 @pytest.mark.parametrize("kind", ["rope anchor", None])
 def test_a_head_takes_the_force_across_beyond_the_angle_of_a_rope(tmp_path, kind, head):
     """E_d sin(delta) against R / 1.4; 32.4 degrees: 76.10 kN of 106.5."""
-    anchor = BAR | {"kind of anchor": kind, "head resistance across [kN]": head}
+    anchor = BAR | {"kind": kind, "head_across": head}
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: 10.0})
     angle = math.degrees(
         math.acos(math.cos(math.radians(FOOT - 10.0)) * math.cos(ALONG_ROW))
@@ -157,32 +155,13 @@ def test_a_head_takes_the_force_across_beyond_the_angle_of_a_rope(tmp_path, kind
 
 
 def test_a_rope_anchor_that_is_pushed_fails_whatever_its_head(tmp_path):
-    anchor = BAR | {"kind of anchor": "rope anchor"}
-    anchor |= {"head resistance across [kN]": 5000}
+    anchor = BAR | {"kind": "rope anchor"}
+    anchor |= {"head_across": 5000}
     foot = (-20.0, 1.0)  # 177 degrees
     checks = judge(tmp_path, anchor=anchor, foot=foot, **{FOOT_AXIS: 40.0})
     verdict, text = told(checks["foot_anchor.direction"])
     assert verdict is Verdict.FAIL
     assert "a rope anchor is pushed there" in text
-
-
-@pytest.mark.parametrize(
-    ("axis", "tested", "is_proven"),
-    [
-        *((45.0, None, True), (44.9, None, False), (20.0, None, False)),
-        *((44.9, 9.9, True), (44.9, 9.95, False), (20.0, -15.0, True)),
-        *((19.9, -15.0, False), (60.0, 40.0, True)),
-    ],
-)
-def test_a_flat_bore_is_proven_by_tests_in_bores_as_flat(
-    tmp_path, axis, tested, is_proven
-):
-    """On a slope of 35 degrees; below 10 degrees mortar may run out."""
-    anchor = BAR | {"flattest tested bore [deg]": tested}
-    checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: axis})
-    verdict, text = told(checks["foot_anchor.pull_out"])
-    assert verdict is (Verdict.PASS if is_proven else Verdict.NOT_PROVEN)
-    assert ("grout may run out" in text) is not is_proven
 
 
 def test_a_profile_without_a_least_dip_proves_no_bond(tmp_path, folder_without):
@@ -195,7 +174,7 @@ def test_a_profile_without_a_least_dip_proves_no_bond(tmp_path, folder_without):
 @pytest.mark.parametrize(("slope", "axis"), [(35, 50.0), (25.5, FOOT), (50, 65.0)])
 def test_anchors_along_the_pull_are_drilled_15_degrees_down(tmp_path, slope, axis):
     """The foot is pulled at 42 degrees; flatter than that only below 27 degrees."""
-    changes = {"slope angle [deg]": slope}
+    changes = {"slope_angle": slope}
     study = study_row(tmp_path, SWISS, **(ROW | changes))
     foot, uphill, downhill = study.rows[0].pulls
     assert foot.axis_deg == pytest.approx(axis)
@@ -211,13 +190,11 @@ def test_anchors_along_the_pull_are_drilled_15_degrees_down(tmp_path, slope, axi
 @pytest.mark.parametrize("kind", ["bar", "micropile"])
 def test_a_bar_without_a_free_length_has_the_longest_usual_one(tmp_path, kind, turn):
     """Three diameters; any shorter one is better, none is as good."""
-    anchor = BAR | {"kind of anchor": kind}
-    if kind == "micropile":
-        anchor["inner diameter of a tube [mm]"] = 18
+    anchor = BAR | {"kind": kind}
     axis = {FOOT_AXIS: FOOT - turn}
 
     def bend(lever):
-        typed = anchor | {"lever arm [mm]": lever}
+        typed = anchor | {"lever_arm": lever}
         return judge(tmp_path, anchor=typed, **axis)["foot_anchor.bending"].read("R_k")
 
     assert bend(None) == pytest.approx(bend(96), rel=1e-12)
@@ -225,7 +202,7 @@ def test_a_bar_without_a_free_length_has_the_longest_usual_one(tmp_path, kind, t
 
 
 def test_an_anchor_of_no_kind_is_judged_as_a_bar_and_as_a_rope(tmp_path):
-    anchor = BAR | {"kind of anchor": None}
+    anchor = BAR | {"kind": None}
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 31.0})
     assert checks["foot_anchor.bending"].verdict is Verdict.NOT_PROVEN
     found = checks["foot_anchor.direction"]  # of a rope
@@ -237,7 +214,7 @@ def test_an_anchor_of_no_kind_is_judged_as_a_bar_and_as_a_rope(tmp_path):
 def test_an_anchor_without_axis_and_kind_is_a_rope_and_a_bar_along_the_pull(
     tmp_path, splay
 ):
-    anchor = BAR | {"kind of anchor": None, "tendon resistance [kN]": 402}
+    anchor = BAR | {"kind": None, "tendon": 402}
     unsaid = {SPLAY: splay, "axes of the anchors": None, "anchor": anchor}
     study = study_row(tmp_path, SWISS, **(ROW | unsaid))
     (row,) = study.rows
@@ -254,7 +231,7 @@ def test_an_anchor_without_axis_and_kind_is_a_rope_and_a_bar_along_the_pull(
     assert 0.0 < downhill.least_deg < 90.0
 
 
-TUBE = {"tube at the head [mm]": 114.3, "wall of the tube [mm]": 12.5}
+TUBE = {"tube_diameter": 114.3, "tube_wall": 12.5}
 
 
 @pytest.mark.parametrize(
@@ -262,17 +239,15 @@ TUBE = {"tube at the head [mm]": 114.3, "wall of the tube [mm]": 12.5}
     [
         (5, {}, 96.0, Verdict.FAIL),  # 3 D in till
         (5, {"ground": "granite"}, 32.0, Verdict.FAIL),
-        (0, {"modulus of the ground [MPa]": 20000}, 12.362, Verdict.PASS),
         (5, TUBE, 305.18, Verdict.FAIL),  # 3 D of the tube, hollow
-        (5, TUBE | {"modulus of the ground [MPa]": 40}, 185.84, Verdict.PASS),
     ],
 )
 def test_bar_with_a_lever_arm_bends(tmp_path, lever, anchor, added, verdict):
     """20 degrees off and k = 0.1: cos d = cos 20 / 1.00499, by (R7) to (R9b)."""
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": lever} | anchor
+    anchor = BAR | {"kind": "bar", "lever_arm": lever} | anchor
     checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 20.0})
     angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
-    has_tube = "wall of the tube [mm]" in anchor
+    has_tube = "tube_wall" in anchor
     outer, inner, steel = (114.3, 89.3, 235.0) if has_tube else (32.0, 0.0, 500.0)
     area = math.pi * (outer**2 - inner**2) / 4.0
     modulus = math.pi * (outer**4 - inner**4) / (32.0 * outer)
@@ -295,9 +270,9 @@ def test_a_bar_in_a_block_is_fixed_there_and_the_block_holds_what_is_across(
     tmp_path, holds
 ):
     """The lever is the typed one alone; E_d sin(delta) against R / 1.4."""
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 20}
+    anchor = BAR | {"kind": "bar", "lever_arm": 20}
     axis = {FOOT_AXIS: FOOT - 20.0}
-    block = {"head resistance across [kN]": holds}
+    block = {"head_across": holds}
     checks = judge(tmp_path, anchor=anchor | block, **axis)
     angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
     used = math.cos(angle) / (math.pi * 16.0**2)
@@ -314,9 +289,9 @@ def test_a_bar_in_a_block_is_fixed_there_and_the_block_holds_what_is_across(
 
 def test_a_block_that_does_not_hold_is_none_to_a_bar(tmp_path):
     """Typed or left empty: the ground yields at the mouth of the bore."""
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 20}
+    anchor = BAR | {"kind": "bar", "lever_arm": 20}
     axis = {FOOT_AXIS: FOOT - 20.0}
-    weak = judge(tmp_path, anchor=anchor | {"head resistance across [kN]": 60}, **axis)
+    weak = judge(tmp_path, anchor=anchor | {"head_across": 60}, **axis)
     without = judge(tmp_path, anchor=anchor, **axis)
     assert "foot_anchor.direction" not in weak
     found, bare = weak["foot_anchor.bending"], without["foot_anchor.bending"]
@@ -326,13 +301,13 @@ def test_a_block_that_does_not_hold_is_none_to_a_bar(tmp_path):
 
 def test_a_block_that_holds_inside_alone_changes_no_check_of_another_anchor(tmp_path):
     """The second support's check of that block goes, as the bar bends there."""
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 20}
+    anchor = BAR | {"kind": "bar", "lever_arm": 20}
     gap, beside = 3.0, find_second(3.0)
     angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
     of_second = 1.4 * foot_across(math.degrees(angle)) * beside / SECOND
-    anchor |= {"head resistance across [kN]": of_second * (0.3 + 0.7 / beside)}
-    axes = {FOOT_AXIS: FOOT - 20.0, "uphill anchor axis [deg]": 78.0}
-    axes |= {"downhill anchor axis [deg]": 20.0, "gap to next work [m]": gap}
+    anchor |= {"head_across": of_second * (0.3 + 0.7 / beside)}
+    axes = {FOOT_AXIS: FOOT - 20.0, "uphill_axis": 78.0}
+    axes |= {"downhill_axis": 20.0, "gap": gap}
     checks = judge(tmp_path, anchor=anchor, **axes)
     turned = {one: each for one, each in checks.items() if each.mode == "direction"}
     assert all(name.startswith(one.member) for name, one in turned.items())
@@ -344,7 +319,7 @@ def test_a_block_that_holds_inside_alone_changes_no_check_of_another_anchor(tmp_
 
 
 def test_a_row_says_how_long_its_tubes_are_at_least(tmp_path):
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5} | TUBE
+    anchor = BAR | {"kind": "bar", "lever_arm": 5} | TUBE
     (row,) = study_row(tmp_path, SWISS, **(ROW | {"anchor": anchor})).rows
     notes = [str(one) for one in row.notes if "the tube at the head" in str(one)]
     assert len(notes) == 3
@@ -356,7 +331,7 @@ def test_a_row_says_how_long_its_tubes_are_at_least(tmp_path):
 
 
 def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):
-    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": 5}
+    anchor = BAR | {"kind": "bar", "lever_arm": 5}
 
     def bear(ground):
         in_it = {"anchor": anchor | {"ground": ground}, "ground of the anchors": ground}
@@ -368,23 +343,23 @@ def test_a_bar_in_ground_that_nobody_names_stands_in_soil(tmp_path):
 
 @pytest.mark.parametrize("lever", [None, 5, 40])
 def test_a_bar_without_dimensions_is_the_worst_with_its_tendon(tmp_path, lever):
-    anchor = {"tendon resistance [kN]": 402, "pull-out resistance [kN]": 380}
-    anchor |= {"basis": "tested", "kind of anchor": "bar", "lever arm [mm]": lever}
+    anchor = {"tendon": 402, "pull_out": 380}
+    anchor |= {"proven": "tests", "kind": "bar", "lever_arm": lever}
     axis = {FOOT_AXIS: FOOT - 7.0}
     found = judge(tmp_path, anchor=anchor, **axis)["foot_anchor.bending"].read("R_k")
     for diameter in (21, 28, 32, 40):
-        typed = anchor | {"bar diameter [mm]": diameter}
-        typed["bar strength [MPa]"] = 402e3 / (0.25 * math.pi * diameter**2)
+        typed = anchor | {"bar_diameter": diameter}
+        typed["strength"] = 402e3 / (0.25 * math.pi * diameter**2)
         bar = judge(tmp_path, anchor=typed, **axis)["foot_anchor.bending"]
         assert found <= bar.read("R_k") * (1.0 + 1e-6)
-    del anchor["tendon resistance [kN]"]
+    del anchor["tendon"]
     verdict, text = told(judge(tmp_path, anchor=anchor, **axis)["foot_anchor.bending"])
     assert verdict is Verdict.NOT_PROVEN
     assert "diameter and strength of the bar are not given" in text
 
 
 def test_post_without_width_is_not_proven_and_its_base_slides_by_0_35(tmp_path):
-    lost = ("post width [mm]", "friction of the base")
+    lost = ("post_width", "base_friction")
     post = {key: value for key, value in POST.items() if key not in lost}
     checks = judge(tmp_path, post=post)
     verdict, text = told(checks["post.compression_bending"])
@@ -394,67 +369,10 @@ def test_post_without_width_is_not_proven_and_its_base_slides_by_0_35(tmp_path):
 
 
 def test_moment_of_the_snow_that_is_too_much_alone_fails(tmp_path):
-    post = POST | {"section modulus [cm3]": 6, "post width [mm]": 300}
+    post = POST | {"section_modulus": 6, "post_width": 300}
     verdict, text = told(judge(tmp_path, post=post)["post.compression_bending"])
     assert verdict is Verdict.FAIL
     assert "alone is too much" in text
-
-
-@pytest.mark.parametrize(
-    ("tilt", "typed"), [(15.0, None), (10.0, None), (15.0, 210.0), (0.0, None)]
-)
-def test_a_plate_bears_the_load_that_leans_as_the_post_does(tmp_path, tilt, typed):
-    """0.6 x 0.5 m, 2 MPa; m = 2.8333 / 1.8333 = 1.5455: (1 - tan 15)^2.5455 = 0.4521.
-
-    A typed resistance is one to that load already.
-    """
-    post = POST | {"bearing resistance [kN]": typed}
-    for key in ("plate length [m]", "plate width [m]", "bearing stress [kPa]"):
-        if typed:
-            del post[key]
-    found = judge(tmp_path, post=post, **{"post tilt [deg]": tilt})["post_base.bearing"]
-    expected = typed or 600.0 * (1.0 - math.tan(math.radians(tilt))) ** 2.545455
-    assert found.read("R_k") == pytest.approx(expected, rel=1e-6)
-    assert typed or f"a load that leans by {tilt:g}°" in str(
-        found.resistance_derivation
-    )
-
-
-@pytest.mark.parametrize(
-    ("stress", "verdict"), [(900, Verdict.NOT_PROVEN), (300, Verdict.FAIL)]
-)
-def test_a_plate_under_a_post_that_leans_uphill_is_not_proven(
-    tmp_path, stress, verdict
-):
-    post = POST | {"bearing stress [kPa]": stress}
-    found = judge(tmp_path, post=post, **{"post tilt [deg]": -5.0})["post_base.bearing"]
-    assert told(found)[0] is verdict
-    assert "leans downhill" in told(found)[1]
-    assert found.read("R_k") == pytest.approx(0.3 * stress)
-
-
-def test_a_plate_under_a_post_that_leans_by_half_a_right_angle_bears_nothing(tmp_path):
-    """Head 1.732 m downslope of the foot, 3 m up: base 1.2 m and 1.4 m uphill of it."""
-    for base, is_beyond in ((-1.2, False), (-1.4, True)):
-        row = {"post tilt [deg]": None, "post base distance [m]": base}
-        found = judge(tmp_path, **row)["post_base.bearing"]
-        assert found.verdict is Verdict.FAIL
-        assert found.is_unbounded is is_beyond
-
-
-def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
-    tmp_path,
-):
-    lost = "friction of the base"
-    post = {key: value for key, value in POST.items() if key != lost}
-    post["sliding resistance of the base [kN]"] = 51.5
-    found = judge(tmp_path, post=post)["post_base.sliding"]
-    across = judge(tmp_path, post=post)["post_base.bearing"].demand_kN
-    assert found.demand_kN == pytest.approx(
-        across * math.tan(math.radians(15)), rel=1e-12
-    )
-    assert found.resistance_kN == pytest.approx(51.5 / 1.1, rel=1e-12)
-    assert found.resistance_basis == "declared"
 
 
 @pytest.mark.parametrize("lost", ["post.efficiency", "post.efficiency.per_glide"])
@@ -468,16 +386,13 @@ def test_profile_without_snow_on_posts_proves_none_of_them(
     assert f"its value {lost}," in text
 
 
-ETA, HEAD, FOOT_END = (
-    *("efficiency factor η", "eccentricity at the head [mm]"),
-    "eccentricity at the foot [mm]",
-)
-GLIDES = {"ground law": "sliding", "glide factor N": 2.4}  # eta up to 3.4
+ETA, HEAD = "eta", "head_eccentricity"
+GLIDES = {"glide_factor": 2.4}  # eta up to 3.4
 
 
 def judge_post(tmp_path, eta, **changes):
     post = POST | {ETA: eta} | changes.pop("post", {})
-    row = {"gap to next work [m]": 0.5} | GLIDES | changes
+    row = {"gap": 0.5} | GLIDES | changes
     return judge(tmp_path, post=post, **row)
 
 
@@ -513,42 +428,10 @@ def test_an_efficiency_that_nobody_gives_is_not_proven_where_it_decides(
 
 
 @pytest.mark.parametrize(
-    ("eta", "glide", "asked"),
-    [(3.4, 2.4, None), (3.41, 2.4, "3.4"), (1.0, 1.2, None), (1.1, 1.2, "1")],
-)
-def test_an_efficiency_beyond_what_an_empty_cell_takes_is_asked_about(
-    tmp_path, eta, glide, asked
-):
-    """1 + 2 (N - 1.2) is 3.4 at N = 2.4: beyond it, an empty cell would help."""
-    row = {"glide factor N": glide, "head": (1.0, -4.0)}
-    check = judge_post(tmp_path, eta, **row)["post.compression_bending"]
-    (cell,) = [f"Posts!{chr(65 + list(POST).index(ETA))}2"]
-    text = f"{cell}: an efficiency factor of {eta:.3g} is more than the {asked} that"
-    assert check.verdict is (Verdict.NOT_PROVEN if asked else Verdict.PASS)
-    assert check.has_open(OpenKind.VALUE_ASKED) is bool(asked)
-    assert not asked or text in str(check.reason)
-
-
-def test_an_efficiency_that_somebody_confirms_is_not_asked_about(tmp_path):
-    post = POST | {ETA: 2}
-    site = read_site(write_row(tmp_path, anchor=BAR, post=post))
-    (row,), standard = site.rows, load_standard(SWISS)
-    (given,) = (one for one in row.resistances if one.mode == "compression_bending")
-    width = LoadedWidth(
-        position="intermediate", width=3.5, end_factor=0.0, end_length=0.0
-    )
-    basis = Basis(site=site, row=row, standard=standard, law=BOUTILLIER_2004)
-    place = given.dimensions.efficiency_place
-    assert place in str(ask_efficiency(given, basis, width))
-    said = replace(basis, site=replace(site, confirmed=(place,)))
-    assert ask_efficiency(given, said, width) is None
-
-
-@pytest.mark.parametrize(
     ("pull", "verdict"), [(-12.0, Verdict.NOT_PROVEN), (-98.0, Verdict.FAIL)]
 )
 def test_snow_that_may_be_too_much_alone_proves_nothing(tmp_path, pull, verdict):
-    thin = {"section modulus [cm3]": 45, "post width [mm]": 150}
+    thin = {"section_modulus": 45, "post_width": 150}
     head = {"head": (1.0, pull), "post": thin}
     alone = judge_post(tmp_path, 3.4, **head)["post.compression_bending"]
     assert alone.is_unbounded
@@ -563,7 +446,7 @@ def test_snow_that_may_be_too_much_alone_proves_nothing(tmp_path, pull, verdict)
 @pytest.mark.parametrize("eta", [1.0, 2.1, None])
 def test_the_end_post_has_the_larger_of_end_effect_and_efficiency(tmp_path, gap, eta):
     """Their line loads are the same snow: the larger one, never the product."""
-    row = {"gap to next work [m]": gap, "head": (1.0, -15.0)}
+    row = {"gap": gap, "head": (1.0, -15.0)}
     checks = judge_post(tmp_path, eta, **row)
     inside, end = (checks[f"post.compression_bending{one}"] for one in ("", ".end"))
     factor = end.read("f_R")
@@ -580,7 +463,7 @@ def test_an_end_effect_that_reaches_the_second_post_presses_it(
     tmp_path, position, length, used
 ):
     """Posts stand 3.5 m apart; f_R = 2.5."""
-    site = read_site(write_row(tmp_path, anchor=BAR))
+    site = read_row(tmp_path, anchor=BAR)
     (row,), law = site.rows, BOUTILLIER_2004
     (given,) = (one for one in row.resistances if one.mode == "compression_bending")
     width = LoadedWidth(position=position, width=3.5, end_factor=2.5, end_length=length)
@@ -590,32 +473,27 @@ def test_an_end_effect_that_reaches_the_second_post_presses_it(
 
 
 @pytest.mark.parametrize(
-    ("post", "head", "foot"),
+    ("post", "ends"),
     [
-        ({}, 84.7, 84.7),  # 4 W / A of a section that nobody names
-        ({"foot_joint": "hinge"}, 84.7, 0.0),
-        ({"foot_joint": "ball joint", FOOT_END: 20}, 84.7, 20.0),
-        ({"foot_joint": "plate", HEAD: 0}, 0.0, 84.7),
-        ({"profile": "HEB120"}, 60.0, 60.0),
-        ({"profile": "HEB120", HEAD: 25, FOOT_END: 10}, 25.0, 10.0),
+        ({}, 84.7),  # 4 W / A of a section that nobody names
+        ({HEAD: 0}, 0.0),
+        ({"id": "HEB120"}, 60.0),
+        ({"id": "HEB120", HEAD: 25}, 25.0),
     ],
 )
-def test_a_post_whose_eccentricities_nobody_gives_rests_on_its_edges(
-    tmp_path, post, head, foot
+def test_a_post_whose_eccentricity_nobody_gives_rests_on_its_edges(
+    tmp_path, post, ends
 ):
-    post = POST | {HEAD: None, FOOT_END: None} | post
-    joint = post.pop("foot_joint", None)
-    post["joint of the foot"] = joint
+    post = POST | {HEAD: None} | post
     checks = judge(tmp_path, post=post, head=(1.0, -9.0))
     derived = checks["post.compression_bending"].resistance_derivation
     told = derived.arguments
-    assert (told["head"], told["foot"]) == pytest.approx((head, foot), abs=0.05)
-    assert ("assumed: eccentricity at the head" in str(derived)) is (post[HEAD] is None)
+    assert (told["head"], told["foot"]) == pytest.approx((ends, ends), abs=0.05)
 
 
 def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):
     mine = folder_without("limits.toml", "anchor.angle.rope")
-    anchor = BAR | {"kind of anchor": "rope anchor"}
+    anchor = BAR | {"kind": "rope anchor"}
     verdict, text = told(judge(tmp_path, mine, anchor=anchor)["foot_anchor.direction"])
     assert verdict is Verdict.NOT_PROVEN
     assert "no limit anchor.angle.rope" in text
@@ -642,40 +520,18 @@ def folder_without(tmp_path):
 @pytest.mark.parametrize(
     ("cell", "value", "accepted"),
     [
-        (FOOT_AXIS, -31, "-30 to 90 deg"),
-        (FOOT_AXIS, 91, "-30 to 90 deg"),
         (SPLAY, 0, "5 to 60 deg"),
         (GUYS, 3, "whole numbers, 1 to 2"),
     ],
 )
-def test_impossible_axis_splay_and_count_are_one_finding_each(
+def test_impossible_splay_and_count_are_one_finding_each(
     tmp_path, cell, value, accepted
 ):
     with pytest.raises(SiteDataError) as caught:
         judge(tmp_path, **{cell: value})
     (finding,) = [one for one in caught.value.findings if one.severity == "error"]
-    assert finding.sheet == "Nets"
+    assert finding.sheet == "Net types"
     assert accepted in str(finding.accepted)
-
-
-@pytest.mark.parametrize(
-    ("post", "anchor", "place"),
-    [
-        ({"sliding resistance of the base [kN]": 60}, {}, "Posts"),
-        (
-            {},
-            {"kind of anchor": "micropile", "inner diameter of a tube [mm]": 32},
-            "Anchors",
-        ),
-    ],
-)
-def test_what_is_given_twice_or_is_no_tube_is_one_finding(
-    tmp_path, post, anchor, place
-):
-    with pytest.raises(SiteDataError) as caught:
-        judge(tmp_path, post=POST | post, anchor=BAR | anchor)
-    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
-    assert finding.sheet == place
 
 
 def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path):
@@ -690,45 +546,35 @@ def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path)
         text.replace('"piles-in-tension-da2"', '"grouted-anchors-2013"'), "utf-8"
     )
     bond = {
-        "bar diameter [mm]": 32,
-        "bar strength [MPa]": 500,
-        "drill diameter [mm]": 110,
-        "bond length [m]": 9.0,
-        "ground": "gravel",
-        "fabric sleeve": "no",
+        "bar_diameter": 32,
+        "strength": 500,
+        "pull_out": 380,
+        "proven": "calculated",
     }
     computed = judge(tmp_path, mine, anchor=bond)["foot_anchor.pull_out"]
     assert computed.verdict is Verdict.NOT_PROVEN
     assert 'basis "computed"' in str(computed.reason)
-    tests = {"number of tests": 3, "least tested resistance [kN]": 270}
-    tests["mean tested resistance [kN]"] = 290
-    steel = {key: bond[key] for key in ("bar diameter [mm]", "bar strength [MPa]")}
+    tests = {"test_count": 3, "pull_out": 270}
+    tests["test_mean"] = 290
+    steel = {key: bond[key] for key in ("bar_diameter", "strength")}
     study = study_row(tmp_path, mine, **(ROW | {"anchor": steel | tests}))
     checks = {check.id: check for check in study.rows[0].checks}
     found = checks["foot_anchor.pull_out"]
     assert found.resistance_kN == pytest.approx(270.0 / 1.1, rel=1e-12)
     proof = f"acceptance test to {math.ceil(1.1 * found.read_band('E_d')[1])} kN"
     assert proof in " ".join(map(str, study.rows[0].notes))
-    few = steel | tests | {"number of tests": 2}
+    few = steel | tests | {"test_count": 2}
     verdict, text = told(judge(tmp_path, mine, anchor=few)["foot_anchor.pull_out"])
     assert verdict is Verdict.NOT_PROVEN
     assert "no correlation factors for 2 tests" in text
 
 
-# Net height, tilt, and base downslope of the foot in the tilt's place: a longer post.
-@pytest.mark.parametrize(
-    ("height", "tilt", "base"),
-    [(2.917, 11.3, None), (3.371, 26.9, None), (3.0731, None, -0.273)],
-)
+@pytest.mark.parametrize(("height", "tilt"), [(2.917, 11.3), (3.371, 26.9)])
 @pytest.mark.parametrize("share", [0.71, 0.987, 0.992, 1.37])
-def test_a_post_passes_by_no_buckling_length_but_its_own(
-    tmp_path, height, tilt, base, share
-):
-    aside = height * math.tan(math.radians(30)) - base if base else None
-    true = math.hypot(height, aside) if base else height / math.cos(math.radians(tilt))
-    post = POST | {ETA: 1.0, "buckling length [m]": round(share * true, 4)}
-    row = {"net height [m]": height, "post tilt [deg]": tilt, "head": (1.0, -4.0)}
-    row["post base distance [m]"] = base
+def test_a_post_passes_by_no_buckling_length_but_its_own(tmp_path, height, tilt, share):
+    true = height / math.cos(math.radians(tilt))
+    post = POST | {ETA: 1.0, "buckling_length": round(share * true, 4)}
+    row = {"net_height": height, "post_tilt": tilt, "head": (1.0, -4.0)}
     checks = judge(tmp_path, post=post, **row)
     for mode in ("compression", "compression_bending"):
         verdict, text = told(checks[f"post.{mode}"])
@@ -739,13 +585,13 @@ def test_a_post_passes_by_no_buckling_length_but_its_own(
 
 
 def test_a_post_that_fails_by_a_short_buckling_length_fails(tmp_path):
-    post = POST | {"buckling length [m]": 2.173}
+    post = POST | {"buckling_length": 2.173}
     checks = judge(tmp_path, post=post, head=(31.7, -190.3))
     assert checks["post.compression"].verdict is Verdict.FAIL
 
 
 def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
-    site = read_site(write_row(tmp_path, **ROW))
+    site = read_row(tmp_path, **ROW)
     (row,), (given,) = site.rows, (
         one for one in site.rows[0].resistances if one.mode == "compression"
     )  # fmt: skip
@@ -760,7 +606,7 @@ def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
 
 
 LIFTED = (5.0, 22.0)  # the net pulls the head away from the slope
-HELD = "foot tension resistance [kN]"
+HELD = "foot_tension"
 
 
 @pytest.mark.parametrize("head", [(5.0, -22.0), (5.0, 0.0)])
@@ -838,7 +684,7 @@ def test_a_foot_can_be_declared():
 
 def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
     """Nobody knows before a solve whether a post lifts."""
-    site = read_site(write_row(tmp_path, anchor=BAR))
+    site = read_row(tmp_path, anchor=BAR)
     keys = [str(one.key) for one in list_missing(site.rows[0], site.links)]
     assert "column.Posts.foot_tension" not in keys
 
@@ -848,11 +694,11 @@ def test_what_nobody_says_of_a_bar_fails_only_where_its_best_fails_too(tmp_path,
     axis = {FOOT_AXIS: FOOT - turn}
 
     def bend(**changes):
-        anchor = BAR | {"tendon resistance [kN]": 402} | changes
+        anchor = BAR | {"tendon": 402} | changes
         return judge(tmp_path, anchor=anchor, **axis)["foot_anchor.bending"]
 
-    best = bend(**{"lever arm [mm]": 0})
-    unsaid, of_no_kind = bend(), bend(**{"kind of anchor": None})
+    best = bend(**{"lever_arm": 0})
+    unsaid, of_no_kind = bend(), bend(**{"kind": None})
     assert unsaid.utilisation_band[0] == pytest.approx(best.utilisation_band[0])
     assert (unsaid.verdict is Verdict.FAIL) is (best.verdict is Verdict.FAIL)
     assert of_no_kind.verdict is not Verdict.FAIL

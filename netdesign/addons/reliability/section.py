@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from netdesign.addons.charts import draw_rectangle
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
     Block,
@@ -65,7 +66,7 @@ def draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -
         base = top + 0.5 * _BAR + 0.35 * TEXT_PT
         shown = words("reliability.percent", share=words.show_fixed(100.0 * share, 0))
         sketch.text(left - _BETWEEN_BARS, base, label, anchor="end")
-        sketch.rectangle(left, top, max(0.5, room * share), _BAR, ACCENT)
+        draw_rectangle(sketch, left, top, max(0.5, room * share), _BAR, ACCENT)
         sketch.text(left + room * share + _BETWEEN_BARS, base, shown)
         texts.append(words("show.label", label=label, text=shown))
     description = words("drawing.with_values", what=title, values=tuple(texts))

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from contourpy import contour_generator
 
+from netdesign.addons.charts import draw_rectangle, draw_tiles
 from netdesign.addons.terrain.coverage import Coverage
 from netdesign.addons.terrain.measure import (
     MeasuredRow,
@@ -145,7 +146,7 @@ def draw_slopes(extract: Extract, rows: Sequence[MeasuredRow]) -> str:
     for place in range(len(SLOPE_CLASSES) + 1):
         left = extract.frame.left + place * width
         fill = _grey(1.0 - 0.7 * place / len(SLOPE_CLASSES))
-        chart.rectangle(left, below, width, 9.0, fill)
+        draw_rectangle(chart, left, below, width, 9.0, fill)
         first = f"{SLOPE_CLASSES[place - 1]}°" if place else "0°"
         chart.text(left + 1.0, below + 10.0 + TEXT_PT, first)
     return chart.write(below + 16.0 + TEXT_PT, "Slope classes")
@@ -210,7 +211,7 @@ def _paint(chart: Chart, extract: Extract, light: Floats) -> None:
     frame, side = extract.frame, extract.side
     width, height = (side * frame.width / (frame.x_high - frame.x_low),) * 2
     levels = np.round(np.where(np.isfinite(light), light, 2.0) * 24.0) / 24.0
-    chart.tiles(
+    tiles = (
         (
             frame.left + column * width,
             frame.top + frame.height - (first + count) * height,
@@ -221,6 +222,7 @@ def _paint(chart: Chart, extract: Extract, light: Floats) -> None:
         for column in range(levels.shape[1])
         for first, count, level in _list_runs(levels[:, column])
     )
+    draw_tiles(chart, tiles)
 
 
 def _list_runs(values: Floats) -> Iterator[tuple[int, int, float]]:

@@ -239,9 +239,9 @@ class Writer:
         captions = [one.caption for one in block.figures if one.caption]
         look = "<w:keepNext/>" if captions else ""
         self._add(write_paragraph(runs, self._ids[styles.TEXT], look))
-        told = tuple(x for one in captions for x in (*list_runs(one), Piece(" ")))
-        if told:
-            self._add_paragraph(told, styles.SMALL)
+        texts = tuple(x for one in captions for x in (*list_runs(one), Piece(" ")))
+        if texts:
+            self._add_paragraph(texts, styles.SMALL)
 
     def _add(self, markup: str) -> None:
         """Put a paragraph or table at the end of the text."""

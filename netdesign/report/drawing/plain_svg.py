@@ -99,31 +99,6 @@ class Chart:
     language: Language = "en"  # of its numbers
     role: str = "img"  # a picture; with links in it a group of these
 
-    def rectangle(
-        self, left: float, top: float, width: float, height: float, fill: str
-    ) -> None:
-        """Filled rectangle [pt]."""
-        self.shapes.append(
-            f'<rect x="{left:.2f}" y="{top:.2f}" width="{width:.2f}" '
-            f'height="{height:.2f}" fill="{fill}"/>'
-        )
-
-    def tiles(self, cells: Iterable[tuple[float, float, float, float, str]]) -> None:
-        """Many filled rectangles: left, top, width, height [pt] and fill of each.
-
-        A map has hundreds: each is a thick line, those of one fill are one path, and
-        paths of one width in turn share it.
-        """
-        paths: dict[str, dict[str, str]] = {}
-        for left, top, width, height, fill in cells:
-            of_width = paths.setdefault(show_place(width), {})
-            middle, start = show_place(left + width / 2), show_place(top)
-            tile = f"M{middle} {start}v{show_place(height)}"
-            of_width[fill] = of_width.get(fill, "") + tile
-        for width_pt, fills in paths.items():
-            lines = "".join(f'<path stroke="{f}" d="{d}"/>' for f, d in fills.items())
-            self.shapes.append(f'<g stroke-width="{width_pt}">{lines}</g>')
-
     def line(
         self,
         points: Iterable[tuple[float, float]],

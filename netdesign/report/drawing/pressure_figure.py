@@ -90,8 +90,8 @@ def draw_pressure(
         sample = [(_LEFT, y - 2.6), (_LEFT + _SAMPLE, y - 2.6)]
         sketch.line(sample, stroke=stroke, width=1.4, dash=dash)
         sketch.text(_LEFT + _SAMPLE + 4.0, y, words(key))
-    told = tuple(_describe(words, key, points) for key, *_, points in lines)
-    title = words("drawing.with_values", what=words("drawing.pressures"), values=told)
+    texts = tuple(_describe(words, key, points) for key, *_, points in lines)
+    title = words("drawing.with_values", what=words("drawing.pressures"), values=texts)
     return sketch.write(_HEIGHT + 4.0, title, _WIDTH)
 
 

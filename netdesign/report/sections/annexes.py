@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 
 from netdesign.checks.check import CasePoint
 from netdesign.outcome import Outcome
@@ -32,6 +32,7 @@ from netdesign.report.words import (
     add_unit,
     show_member,
     show_own,
+    show_text,
     show_unit,
     show_verdict,
 )
@@ -51,7 +52,8 @@ def list_annexes(study: Study, words: Words) -> Iterator[Part]:
     yield section(
         "annex-cases",
         words("heading.annex_cases"),
-        stack_rows(words("caption.cases"), study, build_cases, words).shown("extremes"),
+        *(build_cases(row, words).shown("extremes") for row in study.rows),
+        *(() if study.rows else (_say_none(words),)),
     )
     yield basis.show_profile(study, words)
     yield section(
@@ -66,11 +68,11 @@ def _name_symbols(study: Study, words: Words) -> Paragraph:
     """Symbols of the calculations of the study, each with its name and unit."""
     steps = (step for row in study.rows for check in row.checks for step in check.steps)
     units = {step.symbol: step.unit for step in steps}
-    told = [
+    texts = [
         words("show.label", label=symbol, text=_name_symbol(symbol, unit, words))
         for symbol, unit in units.items()
     ]
-    return Paragraph(text=symbols(words.join(told)), look="small")
+    return Paragraph(text=symbols(words.join(texts)), look="small")
 
 
 def _name_symbol(symbol: str, unit: str, words: Words) -> str:
@@ -156,12 +158,17 @@ def explain_case(case: CaseRecord, words: Words) -> Cell:
     )
 
 
+def _say_none(words: Words) -> Paragraph:
+    return Paragraph(text=words("heading.no_rows"), look="none")
+
+
 def build_cases(row: RowStudy, words: Words) -> Table:
     """Every case of a row with its forces or the reason why there are none."""
     keys = [f"{member}_kN" for member in REPORTED_MEMBERS]
     keys += ["error_percent", "balance_residual"]
+    caption, name = words("caption.cases"), show_text(row.id)
     return Table(
-        caption=words("caption.cases"),
+        caption=words("show.label", label=name, text=caption),
         columns=(
             *list_case_columns(words, row),
             *(quantity_column(words, key) for key in keys),
@@ -254,54 +261,3 @@ def _describe_model_form(record: ModelFormRecord | None, words: Words) -> str:
         band=words.show_band("solved_kN", *ends),
         count=sum(variant.ratio is not None for variant in record.variants),
     )
-
-
-def stack_rows(
-    caption: str,
-    study: Study,
-    build: Callable[[RowStudy, Words], Table],
-    words: Words,
-) -> Table:
-    """One table out of those of the net rows."""
-    return stack_tables(caption, [(x.id, build(x, words)) for x in study.rows], words)
-
-
-def stack_tables(
-    caption: str, parts: Sequence[tuple[str, Table]], words: Words
-) -> Table:
-    """One table out of several, told apart by their net row.
-
-    A column that only some of them have is empty for the others.
-    """
-    columns = _join_columns([table for _, table in parts])
-    return Table(
-        caption=caption,
-        columns=(Column(heading=words("heading.net_row")), *columns),
-        rows=tuple(
-            (text_cell(name), *_place_cells(part, row, columns))
-            for name, part in parts
-            for row in part.rows
-        ),
-        empty=parts[0][1].empty if parts else words("show.none"),
-    )
-
-
-def _join_columns(tables: Sequence[Table]) -> list[Column]:
-    """Columns of all tables, each once, every one behind those that stand before it."""
-    joined: list[Column] = []
-    for table in tables:
-        place = 0
-        for column in table.columns:
-            if column in joined:
-                place = joined.index(column) + 1
-            else:
-                joined.insert(place, column)
-                place += 1
-    return joined
-
-
-def _place_cells(
-    table: Table, row: Sequence[Cell], columns: Sequence[Column]
-) -> list[Cell]:
-    found = dict(zip(table.columns, row, strict=True))
-    return [found.get(column, text_cell("")) for column in columns]

@@ -54,11 +54,11 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
                 found.setdefault(name, {})[shown] = None
     yield from (x for x in _list_ranges(study, words) if x.name not in rows)
     for name, ids in rows.items():
-        told = list(found.get(name, {}))
+        texts = list(found.get(name, {}))
         if name in ends:
-            told.append(_show_ends(ends[name], units[name], words))
+            texts.append(_show_ends(ends[name], units[name], words))
         some = () if len(ids) == len(study.rows) else tuple(ids)
-        yield AssumedLine(name=name, value=words.join(told), rows=some)
+        yield AssumedLine(name=name, value=words.join(texts), rows=some)
 
 
 def _show_ends(ends: list[float], unit: str, words: Words) -> str:

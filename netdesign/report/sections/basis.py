@@ -138,8 +138,8 @@ def _number_sources(table: Table) -> tuple[Table, tuple[str, ...]]:
     rows = tuple(
         (*cells[:-1], text_cell(numbers[cells[-1].text])) for cells in table.rows
     )
-    told = tuple(f"{number} {source}" for source, number in numbers.items())
-    return replace(table, rows=rows), told
+    texts = tuple(f"{number} {source}" for source, number in numbers.items())
+    return replace(table, rows=rows), texts
 
 
 def name_profile(study: Study, words: Words) -> str:
@@ -232,9 +232,9 @@ _DOCUMENTS = ("snow_document", "glide_document", "ground_document")
 def _list_documents(study: Study, words: Words) -> Iterator[Pair]:
     """Where snow heights, glide factors and the ground come from."""
     project = study.project
-    told = (project.snow_document, project.glide_document, project.ground_document)
+    texts = (project.snow_document, project.glide_document, project.ground_document)
     lacking = []
-    for key, text in zip(_DOCUMENTS, told, strict=True):
+    for key, text in zip(_DOCUMENTS, texts, strict=True):
         name = words(f"documents.{key}")
         if text:
             yield Pair(name=name, text=show_text(text))
@@ -391,8 +391,8 @@ def name_rows(names: Sequence[str], study: Study, words: Words) -> str:
     if len(ids) <= most or len(others) > _FEW_ROWS or is_short:
         return ", ".join(names)
     key = "show.all_rows_but" if others else "show.all_rows"
-    told = words(key, count=len(ids), others=", ".join(others))
-    return ", ".join([*beside, told])
+    text = words(key, count=len(ids), others=", ".join(others))
+    return ", ".join([*beside, text])
 
 
 def describe_cases(study: Study, words: Words) -> str:

@@ -110,20 +110,20 @@ def _show_title(study: Study, words: Words, *, is_verified: bool) -> Iterator[Bl
         yield Paragraph(text=strong(words("what_if.mark")), look="word")
         yield build_what_if(study, words)
     overall = words("show.overall", verdict=verdict.word)
-    told = f"{overall}. {verdict.meaning}"
-    yield Paragraph(text=told, look="meaning")
+    text = f"{overall}. {verdict.meaning}"
+    yield Paragraph(text=text, look="meaning")
 
 
 def _name_rows_by_state(study: Study, words: Words) -> Content:
     """Rows of each verdict, the worst first."""
-    told: list[Content] = []
+    texts: list[Content] = []
     for verdict in SEVERITY:
         ids = [row.id for row in study.rows if row.verdict is verdict]
         if ids:
             named = show_text(name_rows(ids, study, words))
             state = words("show.label", label=words(f"verdict.{verdict}"), text="")
-            told.append((sign(verdict, words), Piece(state), *strong(named)))
-    return tuple(one for content in told for one in (*content, Piece("   ")))
+            texts.append((sign(verdict, words), Piece(state), *strong(named)))
+    return tuple(one for content in texts for one in (*content, Piece("   ")))
 
 
 def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
@@ -194,12 +194,12 @@ def show_structure(row: RowStudy, words: Words) -> Content:
 def _describe_row(row: RowStudy, words: Words) -> str:
     """Slope and height of the net, by which a reader knows a row."""
     slope, height = find_input(row, "slope_angle"), find_input(row, "net_height")
-    told = []
+    texts = []
     if slope is not None:
-        told.append(f"{words.show_given(slope)}°")
+        texts.append(f"{words.show_given(slope)}°")
     if height is not None:
-        told.append(f"D_K {words.show_fixed(height, 1)} m")
-    return " · ".join(told)
+        texts.append(f"D_K {words.show_fixed(height, 1)} m")
+    return " · ".join(texts)
 
 
 def _tell_governing(row: RowStudy, words: Words) -> Content:
@@ -221,14 +221,14 @@ def _compare(check: Check, words: Words) -> str:
         return describe_cause(check, words)
     force = words.show_number("demand_kN", demand)
     if resistance is None:
-        told = f"{force} kN"
+        text = f"{force} kN"
         if check.declared:
-            return words.join((told, show_text(check.declared.document)))
+            return words.join((text, show_text(check.declared.document)))
         needed = show_need(check, words)
-        return words.join((told, needed or describe_cause(check, words)))
+        return words.join((text, needed or describe_cause(check, words)))
     relation = ">" if demand > resistance else "≤"
-    told = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
-    return words.join(filter(None, (told, show_need(check, words))))
+    text = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
+    return words.join(filter(None, (text, show_need(check, words))))
 
 
 def _show_to_do(study: Study, words: Words) -> Iterator[Block]:
@@ -254,15 +254,15 @@ def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
     assumed, count = count_assumed(study)
     if assumed:
         floor.append(words("todo.unconfirmed", assumed=assumed, count=count))
-    told = (
+    texts = (
         *floor,
         *list_conditions(study, words),
         *list_exceeding(study, words),
         *filter(None, [words.join(list_limits(study, words))]),
     )
-    if told:
+    if texts:
         yield Heading(text=words("heading.conditions"), level=3)
-        yield Items(items=tuple(map(symbols, told)), look="conditions")
+        yield Items(items=tuple(map(symbols, texts)), look="conditions")
 
 
 def _show_assumed(study: Study, words: Words) -> Part:

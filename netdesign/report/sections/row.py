@@ -121,9 +121,9 @@ class RowPage:
     def _tell(self, shown: Check | None) -> str:
         """``passes, 0.95: Net anchor (foot), pull-out``."""
         t = self.words
-        told = t(f"row_page.{self.row.verdict}")
+        text = t(f"row_page.{self.row.verdict}")
         if shown is None:
-            return told
+            return text
         used = t.show_number("utilisation", shown.used)
         if shown.used is None and shown.declared:
             used = show_text(shown.declared.document)
@@ -132,7 +132,7 @@ class RowPage:
         named = t.show(name_check(shown.member, shown.mode))
         if used == MISSING:
             used = describe_cause(shown, t)
-        return t("row_page.title", verdict=told, used=used, check=named)
+        return t("row_page.title", verdict=text, used=used, check=named)
 
     def _list_facts(self) -> str:
         """What a reader knows the row by."""
@@ -146,17 +146,17 @@ class RowPage:
             ("upslope", find_input(row, "upslope_length"), 1),
             ("altitude", find_input(row, "altitude"), 0),
         ]
-        told = [
+        texts = [
             t(f"row_page.{key}", value=t.show_fixed(value, decimals))
             for key, value, decimals in pairs
             if value is not None
         ]
         slope = find_input(row, "slope_angle")
         if slope is not None:
-            told.insert(0, t("row_page.slope", value=t.show_given(slope)))
+            texts.insert(0, t("row_page.slope", value=t.show_given(slope)))
         ground = f"N {t.show_given(glide)}" if glide is not None else self._name_law()
-        told[4:4] = [ground] if ground else []
-        return " · ".join(told)
+        texts[4:4] = [ground] if ground else []
+        return " · ".join(texts)
 
     def _name_law(self) -> str:
         """Law of the ground, in the reader's language; "" where none is given."""
@@ -205,12 +205,12 @@ class RowPage:
         )
         loads["same"] = same
         shown = {k: t.show_number("load_kN_per_m", x) for k, x in loads.items()}
-        told = [t("row_page.load_model", **shown)]
+        texts = [t("row_page.load_model", **shown)]
         if larger is not None:
             load = t.show_number("load_kN_per_m", larger.load_kN_per_m)
             case = t(f"load_case.{larger.name}")
-            told.append(t("row_page.load_guideline", load=load, case=case, **shown))
-        return " ".join(told)
+            texts.append(t("row_page.load_guideline", load=load, case=case, **shown))
+        return " ".join(texts)
 
     def _show_checks(self) -> Iterator[Block]:
         row, t = self.row, self.words
@@ -277,31 +277,33 @@ class RowPage:
             if check.verdict is not Verdict.PASS:
                 reason = "" if _says_all(check) else t.show(check.plain_reason)
                 others.setdefault((check.verdict, reason), []).append(check)
-        told: list[Content] = []
+        texts: list[Content] = []
         for (verdict, reason), shared in list(others.items())[:_MOST_REASONS]:
             named = name_few(shared, t)
             text = t("show.label", label=named, text=reason) if reason else named
             if not reason:
                 text = self._name_used(shared)
-            told.append((Badge(show_verdict(verdict, t), "sign"), Piece(text)))
-        rest = len(others) - len(told)
+            texts.append((Badge(show_verdict(verdict, t), "sign"), Piece(text)))
+        rest = len(others) - len(texts)
         if rest > 0:
-            told.append((Piece(t("row_page.more", count=rest)),))
+            texts.append((Piece(t("row_page.more", count=rest)),))
         met = sum(check.verdict is Verdict.PASS for check in checks)
-        if told:
-            yield Items(items=tuple(told), look="reasons")
+        if texts:
+            yield Items(items=tuple(texts), look="reasons")
         if met:
             yield Paragraph(text=t("row_page.met", count=met), look="small")
 
     def _name_used(self, checks: Sequence[Check]) -> str:
         """Checks that say no more than their utilisations, with these."""
         t = self.words
-        told = [
+        texts = [
             f"{show_check(t, x)} {t.show_number('utilisation', x.used)}"
             for x in checks[:_MOST_REASONS]
         ]
-        rest = len(checks) - len(told)
-        return t.join(told + ([t("to_do.more_checks", count=rest)] if rest > 0 else []))
+        rest = len(checks) - len(texts)
+        return t.join(
+            texts + ([t("to_do.more_checks", count=rest)] if rest > 0 else [])
+        )
 
     def _show_worked(self, shown: Check | None) -> tuple[str, Block]:
         t = self.words

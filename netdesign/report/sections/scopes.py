@@ -25,13 +25,13 @@ def describe_study_scopes(study: Study, words: Words) -> str:
     Each scope stands with the row that decides it, where there are several.
     """
     rows = {row.id: row for row in study.rows}
-    told = []
+    texts = []
     for scope, record in study.scopes.items():
         row = rows.get(record.row or "")
         text = _describe(scope, record, _find_check(row, record), words)
         is_open = record.verdict is not Verdict.PASS and len(rows) > 1 and row
-        told.append(f"{text}, {show_text(row.id)}" if row and is_open else text)
-    return _BETWEEN.join(told)
+        texts.append(f"{text}, {show_text(row.id)}" if row and is_open else text)
+    return _BETWEEN.join(texts)
 
 
 def _find_check(row: RowStudy | None, record: ScopeRecord) -> Check | None:
@@ -80,11 +80,11 @@ def list_exceeding(study: Study, words: Words) -> Iterator[str]:
         if not beyond:
             continue
         worst = max(beyond, key=lambda one: one.utilisation_by_model or 0.0)
-        told = words(
+        text = words(
             "scopes.exceeds",
             check=show_check(words, worst),
             times=words.show_number("utilisation", worst.utilisation_by_model),
             count=len(beyond),
         )
-        found.setdefault(told, []).append(row.id)
+        found.setdefault(text, []).append(row.id)
     yield from label_rows(found, study, words)

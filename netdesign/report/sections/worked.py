@@ -173,14 +173,14 @@ def _describe_check(check: Check, words: Words) -> Content:
     mark = show_verdict(check.verdict, words).symbol
     label = words("show.label", label=f"{mark} {show_check(words, check)}", text="")
     known = (step for step in check.steps if step.value is not None)
-    told = [_describe_step(one, check, words) for one in known]
+    texts = [_describe_step(one, check, words) for one in known]
     beside = [describe_resistance(check, words), name_case(check, words)]
     beside += [one for one in [describe_eased(check, words)] if one]
     if check.is_unbounded:
         beside.append(words.show(check.reason))
     return (
         Piece(label, "name"),
-        Piece(words.join(told), has_symbols=True),
+        Piece(words.join(texts), has_symbols=True),
         Piece("\n" + words.join(x for x in beside if x != MISSING)),
     )
 
@@ -212,8 +212,8 @@ def _list_further(row: RowStudy, words: Words) -> tuple[str, ...]:
             continue
         mark = show_verdict(check.verdict, words).symbol
         clause = f" ({check.clause})" if check.clause not in ("", MISSING) else ""
-        told = (mark, clause, words.show(check.reason))
-        alike.setdefault(told, []).append(check)
+        texts = (mark, clause, words.show(check.reason))
+        alike.setdefault(texts, []).append(check)
     return tuple(
         words(
             "show.label",

@@ -126,13 +126,13 @@ def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> N
 
 def _tell_reason(check: Check, words: Words) -> str:
     """Clause, case and reason of a check; the worst come first."""
-    told = (
+    texts = (
         words.show(check.reason),
         describe_eased(check, words),
         check.clause,
         name_case(check, words),
     )
-    return words.join(one for one in told if one not in ("", MISSING))
+    return words.join(one for one in texts if one not in ("", MISSING))
 
 
 def _write_reason(

@@ -70,9 +70,6 @@ def uneven(body, seed=6):
     )
 
 
-# --- topology ----------------------------------------------------------------
-
-
 # --- undeformed snow ---------------------------------------------------------
 
 
@@ -92,16 +89,6 @@ LAYERS = (
 
 def layered(law):
     return replace(law, layers=LAYERS)
-
-
-def test_layers_keep_their_mass_and_warmth(a_flow_problem):
-    body = a_body(layered(a_flow_problem()), tops=(0.4,))
-    heights = body.vertices[1, body.topology.triangles].mean(axis=1)
-    below = heights < 0.4
-    np.testing.assert_allclose(body.density[below], 1.2, rtol=1e-13)
-    np.testing.assert_array_equal(body.warmth, np.where(below, 2.0, 0.5))
-    assert body.mass[below].sum() == pytest.approx(1.2 * 0.4 * ASPECT, rel=1e-12)
-    assert body.mass.sum() == pytest.approx(ASPECT, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -133,6 +133,3 @@ def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
     with pytest.raises(SolveError, match="the net touches the ground") as failure:
         begin(scene, "sagged")
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
-
-
-# --- mean pressure -----------------------------------------------------------

@@ -186,10 +186,3 @@ def test_iterations_that_do_not_suffice_are_an_error(monkeypatch):
     with pytest.raises(SolveError, match="friction of the net") as failure:
         settle(yielding_nodes(place, 1e-3), place, lengths_of(place), 0.2)
     assert failure.value.outcome is Outcome.MAX_ITERATIONS
-
-
-def test_rounds_that_do_not_suffice_are_an_error(monkeypatch):
-    monkeypatch.setattr(yielding, "_MOST_ROUNDS", 0)
-    place = bulge(5)
-    with pytest.raises(SolveError, match="friction of the net"):
-        settle(yielding_nodes(place, 1e-3), place, lengths_of(place), 0.2)

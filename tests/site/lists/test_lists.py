@@ -170,3 +170,25 @@ def test_an_answer_in_another_unit_than_the_list_is_refused(tmp_path):
         read_site(path)
     keys = {one.rule.key for one in refused.value.findings}
     assert "list_map.other_unit" in keys
+
+
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_a_row_of_a_list_is_changed_by_its_own_id_and_our_keys(office, tmp_path):
+    built = read_answered(office, tmp_path)
+    draw = random.Random(office.file)
+    name = draw.choice(built.rows).id
+    spacing, tilt = round(draw.uniform(2.6, 3.2), 2), round(draw.uniform(11, 19), 1)
+    change = {row.id: {"post_tilt": tilt} for row in built.rows}  # of no column there
+    change[name] |= {"post_spacing": spacing, "foot_anchor": "", "gap": 0.7}
+    site = read_site(tmp_path / office.file, change=change)
+    for now, was in zip(site.rows, built.rows, strict=True):
+        assert now.layout.post_tilt == pytest.approx(math.radians(tilt))
+        assert now.net_height == was.net_height
+        if now.id == name:
+            assert (now.layout.post_spacing, now.gap) == (spacing, 0.7)
+            assert now.find_anchor_type("foot_anchor") is None
+        else:
+            assert now.layout.post_spacing == was.layout.post_spacing
+            assert now.gap == was.gap
+    known = {one.cell for one in site.what_if}
+    assert len(known) == len(site.what_if) > 2

@@ -8,7 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign import __version__
-from netdesign.addons.charts import GREYS, Line, Mark, Panel, draw_panels, shade
+from netdesign.addons.charts import (
+    GREYS,
+    Line,
+    Mark,
+    Panel,
+    draw_panels,
+    draw_rectangle,
+    shade,
+)
 from netdesign.addons.evidence.paper.runs import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
@@ -157,7 +165,9 @@ def _draw_scale(sketch: Chart, limits: tuple[float, float], height: float) -> No
     step = _SCALE_PT / len(GREYS)
     for place in range(len(GREYS)):
         fill = _shade(low + (place + 0.5) / len(GREYS) * (high - low), limits)
-        sketch.rectangle(10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill)
+        draw_rectangle(
+            sketch, 10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill
+        )
     for share in (0.0, 0.5, 1.0):
         at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"
         sketch.text(at, height - 4.0, shown, anchor="middle")

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from typing import Any
 
 from netdesign import __version__
-from netdesign.addons.charts import draw_decades
+from netdesign.addons.charts import draw_decades, draw_rectangle
 from netdesign.addons.evidence.table import NUMBER_TEXTS, RANGES, TEXTS, tabulate_items
 from netdesign.addons.evidence.validation.structure import (
     Measurement,
@@ -81,7 +81,7 @@ def _draw_bar(
     """Band of a member, its middle, and what was measured."""
     for ends, color in (((band.low, band.high), PALE), (band.middle, GREY)):
         left, right = (frame.x(math.log10(max(end, _FEEBLE))) for end in ends)
-        chart.rectangle(left, y - 3.5, max(right - left, 0.5), 7.0, color)
+        draw_rectangle(chart, left, y - 3.5, max(right - left, 0.5), 7.0, color)
     x = frame.x(math.log10(max(value, _FEEBLE)))
     chart.line(((x, y - 5.5), (x, y + 5.5)), stroke=ACCENT, width=2.2)
 
