@@ -98,11 +98,11 @@ def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkey
     Two minutes: ``python -m pytest -m robustness tests/commands/test_check_again.py``.
     """
     drawn = random.Random(24)
-    nets = (place / "site" / "Nets.csv").read_text(encoding="utf-8")
+    nets = (place / "site" / "Rows.csv").read_text(encoding="utf-8")
     for k in range(60):
         thickness = drawn.choice(["2.5", "2.41"])
         changed = nets.replace(",2.5,", f",{thickness},", 1)
-        (place / "site" / "Nets.csv").write_text(changed, encoding="utf-8")
+        (place / "site" / "Rows.csv").write_text(changed, encoding="utf-8")
         monkeypatch.setenv("OMP_NUM_THREADS", drawn.choice("12"))
         asked = [*SITE, "--language", drawn.choice(["en", "de"])]
         asked += drawn.choice([["--annexes"], []])

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from tests.make import write_tiny
+from tests.make import write_site, write_tiny
 from tests.program import QUICK
 
 SHOWN = ("foot_anchor", "uphill_anchor", "downhill_anchor")
@@ -92,22 +92,20 @@ def test_a_row_that_is_not_there_is_a_refusal(call, beside):
     assert call("table").code == 2
 
 
-OFFICE = (
-    ("id", "R1"),
-    ("slope angle [deg]", 36.7),
-    ("snow height [m]", 3.31),
-    ("glide factor [-]", 1.83),
-    ("net height [m]", 3.02),
-    ("post spacing [m]", 3.47),
-    ("altitude [m]", 2113),
-)
+OFFICE = {
+    "project": [{}],
+    "rows": [
+        {"id": "R1", "slope_angle": 36.7, "snow": 3.31, "glide_factor": 1.83}
+        | {"altitude": 2113, "net_type": "N", "post_spacing": 3.47}
+    ],
+    "net_types": [{"id": "N", "net_height": 3.02}],
+}
 
 
 def test_office_data_alone_are_enough(call, tmp_path):
     """No net, no support, no anchors, no ranges, no length: nobody has solved it."""
-    lines = (",".join(map(str, one)) for one in zip(*OFFICE, strict=True))
-    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
-    ended = call("table", "site.csv", "--json")
+    write_site(tmp_path / "office.xlsx", OFFICE)
+    ended = call("table", "office.xlsx", "--json")
     assert ended.code == 0, ended.err
     (row,) = json.loads(ended.out)["rows"]
     forces = {(x["anchor"], x["position"]): x["guideline_kN"] for x in row["anchors"]}

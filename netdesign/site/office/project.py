@@ -37,7 +37,7 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
         assert table is not None
         item = line["item"]
         if not item.word:
-            if line["value"].word and item.state == "blank":
+            if table.sheet.is_delimited and line["value"].word:  # cut at a wrong place
                 refuse(item, say("cell.empty"), item.field.accepted, findings)
             continue
         field = match_item(item, table.plan.items, findings)

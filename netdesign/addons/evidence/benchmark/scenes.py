@@ -155,7 +155,7 @@ def _log_uniform(rng: np.random.Generator, bounds: tuple[float, float]) -> float
 
 _LESS_SNOW = 0.03  # of a row's snow, each time it is used again, at most
 _LEAST_SNOW = 0.5  # of it at last
-_SCALED = ("snow thickness [m]", "upslope length [m]")
+_SCALED = ("snow height [m normal]", "upslope length L [m]")
 
 
 def write_site(folder: Path, count: int) -> None:
@@ -164,17 +164,17 @@ def write_site(folder: Path, count: int) -> None:
     The rows are those of the first example; used again, each has less snow.
     """
     shutil.copytree(INPUTS / "site", folder)
-    nets = folder / "Nets.csv"
-    rows = list(csv.DictReader(nets.read_text(encoding="utf-8").splitlines()))
+    path = folder / "Rows.csv"
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
     less_snow = min(_LESS_SNOW, (1.0 - _LEAST_SNOW) * len(rows) / count)
-    with nets.open("w", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, rows[0])
         writer.writeheader()
         for number in range(count):
             again, place = divmod(number, len(rows))
             row, share = rows[place], 1.0 - less_snow * again
             less = {name: f"{share * float(row[name]):.4f}" for name in _SCALED}
-            writer.writerow({**row, "id": f"{row['id']}.{again + 1}", **less})
+            writer.writerow({**row, "row": f"{row['row']}.{again + 1}", **less})
 
 
 def change_value(site: Path, sheet: str, column: str, text: str) -> None:

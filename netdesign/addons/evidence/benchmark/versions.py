@@ -50,8 +50,8 @@ _HEIGHTS, _WINTERS = "heights.csv", 35
 
 # Sites beside the first one, each with another value in one of its cells.
 CHANGED = {
-    "length": ("Nets", "upslope length [m]", "17.3"),
-    "resistance": ("Anchors", "tendon resistance [kN]", "823"),
+    "length": ("Rows", "upslope length L [m]", "17.3"),
+    "resistance": ("Anchors", "tendon R_k [kN]", "823"),
 }
 
 Command = list[str]
