@@ -491,11 +491,11 @@ class Check:
         if self.finding is not None and self._is_found:
             return self.finding
         reasons = self.open_reasons
-        if self._met is Verdict.FAIL and reasons:
-            return say("check.fails_besides", gaps=reasons)
-        if self._met is Verdict.FAIL:
-            return say("check.fails")
+        is_failed = self._met is Verdict.FAIL
         if reasons:
-            return say("check.not_proven", gaps=reasons)
+            key = "check.fails_besides" if is_failed else "check.not_proven"
+            return say(key, gaps=reasons)
+        if is_failed:
+            return say("check.fails")
         is_slack = self.read_band("E_k")[1] == 0.0
         return say("check.slack") if is_slack else say("check.passes")
