@@ -351,8 +351,7 @@ class Check:
     def open_reasons(self) -> tuple[Message, ...]:
         """What its numbers leave open, each once; its reason says them.
 
-        None where nothing is left to resist, or its comparison has a sentence of its
-        own.
+        None where no resistance is left, or where the comparison has its own sentence.
         """
         if self.is_unbounded or self._is_found:
             return ()
