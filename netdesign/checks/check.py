@@ -188,7 +188,7 @@ class TestSeries:
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """One check: of a force against a resistance, or of what no force enters.
+    """Check of a force against a resistance, or of a geometry.
 
     ``steps`` is the whole calculation of a utilisation, from what is given and solved;
     a check that compares no force has ``met`` and ``finding`` in its place. What
@@ -310,7 +310,7 @@ class Check:
 
     @property
     def is_unbounded(self) -> bool:
-        """Nothing is left to resist: the utilisation is beyond any number."""
+        """No resistance is left, so that the utilisation has no bound."""
         return self.has_open(OpenKind.FAILS)
 
     @property
@@ -325,7 +325,7 @@ class Check:
 
     @cached_property
     def verdict(self) -> Verdict:
-        """By the whole interval and all that is open."""
+        """Verdict by the whole interval and all open points."""
         return merge_open(self._met, self.open)
 
     @property
@@ -339,7 +339,7 @@ class Check:
         return SEVERITY.index(self.verdict), is_information, used
 
     def has_open(self, *kinds: OpenKind) -> bool:
-        """Some open point is of one of these kinds."""
+        """Whether some open point is of one of these kinds."""
         return any(point.kind in kinds for point in self.open)
 
     @property
@@ -348,11 +348,10 @@ class Check:
         return next((point.proof for point in self.open if point.proof), None)
 
     @property
-    def gaps(self) -> tuple[Message, ...]:
+    def open_reasons(self) -> tuple[Message, ...]:
         """What its numbers leave open, each once; its reason says them.
 
-        None where nothing is left to resist, or its comparison has a sentence of its
-        own.
+        None where no resistance is left, or where the comparison has its own sentence.
         """
         if self.is_unbounded or self._is_found:
             return ()
@@ -401,7 +400,7 @@ class Check:
 
     @property
     def is_of_force(self) -> bool:
-        """It compares a force that is known with a resistance."""
+        """Whether it compares a known force with a resistance."""
         return self._has_section or bool({"T_r", "T_b"} & self.step_of.keys())
 
     @property
@@ -463,7 +462,7 @@ class Check:
 
     @property
     def reason(self) -> Message:
-        """Why it has its verdict, in one sentence, with the load that governs."""
+        """Sentence on its verdict, with the load that governs."""
         loads = [load for load in "cptgm" if self.name_force(load) in self.step_of]
         is_alone = len(loads) < 2 or not self._has_section
         if is_alone or not any(map(self._find_high, loads)):
@@ -482,7 +481,7 @@ class Check:
         return say(key, reason=reason, proof=self.declared.describe())
 
     def _explain(self) -> Message:
-        """The reason by numbers and open points, without a proof elsewhere.
+        """Explain the verdict by numbers and open points, without a proof elsewhere.
 
         Without digits, so that rounding cannot contradict it.
         """
@@ -490,10 +489,12 @@ class Check:
             return next(x.message for x in self.open if x.kind is OpenKind.FAILS)
         if self.finding is not None and self._is_found:
             return self.finding
-        gaps = self.gaps
-        if self._met is Verdict.FAIL:
-            return say("check.fails_besides", gaps=gaps) if gaps else say("check.fails")
-        if gaps:
-            return say("check.not_proven", gaps=gaps)
+        reasons = self.open_reasons
+        is_failed = self._met is Verdict.FAIL
+        if reasons:
+            key = "check.fails_besides" if is_failed else "check.not_proven"
+            return say(key, gaps=reasons)
+        if is_failed:
+            return say("check.fails")
         is_slack = self.read_band("E_k")[1] == 0.0
         return say("check.slack") if is_slack else say("check.passes")

@@ -182,7 +182,7 @@ def compare(
 def leave_open(
     mode: str, kind: OpenKind, *reasons: Message, member: str = _NET
 ) -> Check:
-    """Check of which something is missing, so that nothing is compared."""
+    """Check that compares nothing, since something is missing."""
     return compare(mode, Verdict.NOT_PROVEN, None, member=member).with_open(
         kind, *reasons
     )
@@ -295,12 +295,12 @@ def _name_place(resistance: GivenResistance) -> Message:
 
 
 def lack_factor(factor: str) -> Message:
-    """Lack of a profile's value, by its name and its id."""
+    """Message that a profile lacks a value, by its name and its id."""
     return say("check.no_factor", factor=name("factor", factor), id=factor)
 
 
 def _lack_resistance_factor(mode: str, basis: str, bases: Sequence[str]) -> Message:
-    """Lack of a factor of a mode; it may have one on other bases, which are known."""
+    """Message that a profile lacks a factor of a mode, with the bases that have one."""
     if not bases:
         factor = say("factor.resistance", mode=name_mode(mode))
         return say("check.no_factor", factor=factor, id=f"resistance.{mode}")

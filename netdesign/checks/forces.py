@@ -39,7 +39,7 @@ def find_lateral_factor(share: Quantity) -> Quantity:
 def load_guy(
     part: Quantity, share: Quantity, pull: Quantity, splay: Quantity, *, mark: str = ""
 ) -> MemberLoad:
-    """One of two splayed guys, which hold the load along the row.
+    """Load one of two splayed guys, which hold the load along the row.
 
     ``mark`` ends the symbol of what is added, here and below.
     """
@@ -61,7 +61,7 @@ def load_shared_anchor(guys: Quantity, *along: Quantity, mark: str = "") -> Memb
 def load_shared_anchor_in_line(
     guys: Quantity, *along: Quantity, mark: str = ""
 ) -> MemberLoad:
-    """The same, the pulls of both guys added as numbers, as if they were in line."""
+    """Load a shared anchor by the sum of both pulls, as if they were in line."""
     of_one = load_guy(*along, mark=mark)
     if of_one.share is None or of_one.added is None:
         raise ValueError("a guy holds no load along the row")
@@ -411,7 +411,7 @@ def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:
 
 
 def _find_push(leaves: Leaves, support: Support, mark: str = "") -> Quantity | None:
-    """What the ropes' pull along the row adds at the row's end, or beside it."""
+    """Find what the ropes' pull along the row adds at its end, or beside it."""
     if "T_r" not in leaves:
         return None
     rope, splay = _take_rope(leaves), leaves.get("β") if "c" in leaves else None

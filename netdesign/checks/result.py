@@ -81,7 +81,7 @@ class Proof:
     cell: str
 
     def describe(self) -> Message:
-        """All of it as one phrase."""
+        """Document, author and date as one phrase."""
         if not self.author:
             return say("approval.proof", document=self.document, cell=self.cell)
         details = {"document": self.document, "author": self.author, "cell": self.cell}
@@ -92,7 +92,7 @@ class Proof:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
-    """Somebody's word that a check is proven elsewhere.
+    """Declaration of the workbook that a check is proven elsewhere.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class Declaration:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Support:
-    """Support of a row: what makes of a force inside the row that on it.
+    """Support of a row: the factors from a force inside the row to that on it.
 
     Attributes
     ----------

@@ -156,7 +156,7 @@ class SolvedState:
 
     @property
     def is_finite(self) -> bool:
-        """Every number from which a force follows is one, and no error is negative."""
+        """Whether every number behind a force is finite, and no error is negative."""
         parts = (
             getattr(part, key)
             for part in (self.foot, self.head, self.balance)
@@ -175,7 +175,7 @@ CaseEnd = SolvedState | FailedSolution  # end of one solve
 
 
 def is_stuck(end: CaseEnd) -> bool:
-    """More friction would change nothing."""
+    """Whether more friction would change nothing."""
     return isinstance(end, SolvedState) and end.sticks
 
 

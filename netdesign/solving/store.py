@@ -174,7 +174,7 @@ def name_case(scene: object, settings: Hashable) -> str:
 
 @lru_cache(maxsize=32)
 def _write_settings(settings: Hashable) -> str:
-    """Text of settings, kept: all cases of a search have the same, and it is long."""
+    """Text of settings; it is kept, since all cases of a search share it."""
     return write_parts(settings)
 
 
@@ -384,7 +384,7 @@ def _unpack(name: str, packed: bytes, seal: str) -> list[str] | None:
 
 
 def _may_be_ours(path: Path) -> bool:
-    """A database by its name or its first bytes: anything else is a user's file."""
+    """Whether a file is a database by its name or its first bytes."""
     with path.open("rb") as file:
         begins = file.read(len(_SQLITE)) == _SQLITE
     return begins or path.suffix in _SUFFIXES

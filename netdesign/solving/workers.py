@@ -91,7 +91,7 @@ class Workers(Protocol):
         """Solve all batches."""
 
     def close(self) -> None:
-        """Let go of what was held; what still runs is stopped."""
+        """Release the workers, and stop what still runs."""
 
 
 def _call_packed(packed: bytes) -> Any:
@@ -254,7 +254,7 @@ class ProcessPool:
 
     @property
     def pool(self) -> ProcessPool | None:
-        """Itself, if its processes run, or would at once."""
+        """The pool itself, if its processes run or start at once."""
         return self if self._pool is not None or can_fork() else None
 
     def _start(self) -> ProcessPoolExecutor:
@@ -475,7 +475,7 @@ def can_fork() -> bool:
 
 
 def _begin(*collection: int) -> None:
-    """First act of a worker: it leaves Ctrl-C to its parent, and ends with it.
+    """Begin a worker: it leaves Ctrl-C to its parent, and ends with it.
 
     It looks for unused objects as seldom as its parent does.
     """

@@ -168,6 +168,13 @@ def test_all_that_is_missing_is_told_at_once():
         assert part in str(result.reason)
 
 
+def test_no_solved_case_is_not_proven():
+    result = check_member(no_force(), a_resistance(), plain_standard())
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "no case could be calculated" in str(result.reason)
+    assert [result.read(one) for one in ("E_k", "E_d", "μ")] == [None] * 3
+
+
 def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
     result = check_member(a_force(0.0), a_resistance(7e3), plain_standard())
     assert result.verdict is Verdict.PASS

@@ -85,7 +85,7 @@ def test_checks_agree(page, book):
             assert line.verdict == ENGLISH(f"verdict.{check.verdict}")
             assert (line.resistance or "-") == describe_resistance(check, ENGLISH)
             assert ENGLISH.show(check.reason) in line.told
-            if check.verdict is not Verdict.PASS and (check.open or check.gaps):
+            if check.verdict is not Verdict.PASS and (check.open or check.open_reasons):
                 assert ENGLISH.show(check.plain_reason) in told(page)
 
 

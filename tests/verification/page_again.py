@@ -217,7 +217,7 @@ def _work_out_derived(what, check, again):
 
 def work_out_bar(told):
     built, _, corroded = told.partition("; ")
-    if " mm" not in built:  # a resistance that is given
+    if "π" not in built:  # a resistance that is given
         corroded = built
         return leave_steel(corroded) * list_numbers(corroded)[0]
     *diameters, strength = list_numbers(built.replace("π/4", "π"))

@@ -45,7 +45,7 @@ def draw_site(draw):
         "soils": [
             {
                 "ground": _GROUND,
-                "soil_cohesion": vary(23.0),
+                "soil_cohesion": vary(71.0),
                 "soil_friction": vary(34.0),
                 "soil_weight": vary(20.7),
             }

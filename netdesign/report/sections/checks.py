@@ -85,9 +85,9 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
         return words.show(row.reasons[0]) if row.reasons else words("todo.row_open")
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
-    gaps = [_leave_out_cell(gap) for gap in check.gaps]
-    if gaps and check.verdict is not Verdict.FAIL:
-        return words.join(words.show(gap) for gap in gaps)
+    reasons = [_leave_out_cell(reason) for reason in check.open_reasons]
+    if reasons and check.verdict is not Verdict.FAIL:
+        return words.join(map(words.show, reasons))
     return describe_cause(check, words)
 
 
@@ -108,8 +108,8 @@ def describe_cause(check: Check, words: Words) -> str:
     if check.verdict is Verdict.FAIL and has_numbers and check.demand_kN is not None:
         demand, resistance = _show_apart(check.demand_kN, check.resistance_kN, words)
         return words("show.exceeds", demand=demand, resistance=resistance)
-    if check.gaps:
-        return words.join(map(words.show, check.gaps))
+    if check.open_reasons:
+        return words.join(map(words.show, check.open_reasons))
     return words.show(shorten_reason(check.plain_reason))
 
 

@@ -338,7 +338,7 @@ class RowPage:
 
 def _says_all(check: Check) -> bool:
     """The numbers of a check are all that it says."""
-    return check.verdict is Verdict.PASS or not (check.open or check.gaps)
+    return check.verdict is Verdict.PASS or not (check.open or check.open_reasons)
 
 
 def _find_height(row: RowStudy) -> float | None:
