@@ -269,11 +269,13 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
 
 
 def record_floor(
-    floor: Floor | None, row: NetRow, on_ropes: tuple[float, float] = (1.0, 1.0)
+    floor: Floor | None,
+    row: NetRow,
+    factors: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> FloorRecord | None:
     """Floor of a row in engineer's units, each force with what it follows from.
 
-    ``on_ropes`` are its factors on lower and ridge rope.
+    ``factors`` are those on lower rope, ridge rope and heads.
     """
     if floor is None:
         return None
@@ -283,8 +285,9 @@ def record_floor(
         altitude_factor=find_altitude_factor(row),
         assumed=list_assumed(row),
         reason=floor.reason,
-        lower_rope=on_ropes[0],
-        ridge_rope=on_ropes[1],
+        lower_rope=factors[0],
+        ridge_rope=factors[1],
+        heads=factors[2],
     )
 
 

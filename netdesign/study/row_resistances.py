@@ -403,7 +403,7 @@ def connect(
     if not type_id:
         return weakest_link
     if not links:
-        lack = say("connection.no_links", type=type_id, sheet=say("sheet.Links"))
+        lack = say("connection.no_links", type=type_id, sheet=say("sheet.parts"))
         return replace(weakest_link, lack=lack)
     on_action = find_action_factor(standard).value
     factor = standard.find_resistance_factor(CONNECTION, "declared")
@@ -436,7 +436,7 @@ def _add_usual_link(resistance: Resistance, strength: float | None) -> Resistanc
     It is a shackle as strong as the steel or rope of its type, pulled at a right angle.
     """
     open_point = say(
-        "connection.incomplete", type=resistance.type_id, sheet=say("sheet.Links")
+        "connection.incomplete", type=resistance.type_id, sheet=say("sheet.parts")
     )
     if strength is None:
         return replace(resistance, open=open_point)

@@ -183,7 +183,7 @@ def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
     _, checks = judge(solved, links=links)
     check = checks["uphill_guy.connection"]
     assert check.verdict is Verdict.NOT_PROVEN
-    assert "no link of type G28 is given on sheet Links" in str(check.reason)
+    assert "no link of type G28 is given on sheet Parts" in str(check.reason)
 
 
 @each("seed", range(10))

@@ -98,7 +98,7 @@ def _rewrite_post(line: Row, told: Told) -> Line:
 
 
 def _rewrite_link(line: Row, told: Told) -> Line:
-    made = copy_cells(line, ("type", "link", "count", "angle"), told)
+    made = copy_cells(line, ("type", "link", "count", "angle", "chain"), told)
     for key, meaning in (("strength", "strength"), ("working_limit", "limit")):
         if line[key].state != "blank":
             told.take(line[key])

@@ -218,7 +218,7 @@ class Row:
 
     def floor_scale(self, rope):
         """The guideline's pull on foot or head over the panel's, at least 1 (B4)."""
-        name = {"lower": "lower_rope", "upper": "ridge_rope"}[rope]
+        name = {"lower": "lower_rope", "upper": "ridge_rope", "head": "heads"}[rope]
         return self.study["floor"][name]
 
     @property
@@ -337,8 +337,10 @@ class Row:
         of the uphill one. The error of a force is at most the largest of all.
         """
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
-        width *= self.floor_scale("upper")  # the guideline's pull on the head, (B4)
+        width *= self.floor_scale("head")  # the guideline's pull on the head, (B4)
         along, angle, place = self.end_guy
+        more = max(1.0, self.floor_scale("head") / self.floor_scale("upper"))
+        along = tuple(more * one for one in along)  # (P13): as its heads
         pulls = [
             (self.solved[f"{model}uphill_guy"], self.solved[f"{model}post"])
             for model in ("", "panel_")  # by the section, and by the panel
