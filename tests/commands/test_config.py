@@ -6,8 +6,8 @@ import pytest
 
 
 @pytest.fixture
-def jobs(call, tmp_path):
-    """Processes that a dry run of the example plans with."""
+def rows(call, tmp_path):
+    """Number of net rows that a dry run of the example plans with."""
     (tmp_path / "inner").mkdir()
     site = tmp_path / "inner" / "site.xlsx"
     assert call("init", site, "--example").code == 0
@@ -15,7 +15,7 @@ def jobs(call, tmp_path):
     def plan(*options):
         ended = call("check", site, "--dry-run", "--json", *options)
         assert ended.code == 0, ended.err
-        return json.loads(ended.out)["jobs"]
+        return json.loads(ended.out)["net_rows"]
 
     return plan
 
@@ -25,10 +25,10 @@ def write(path, text):
     return path
 
 
-def test_an_option_overrules_the_file(jobs, tmp_path):
-    write(tmp_path / "inner" / "netdesign.toml", "[check]\njobs = 2\n")
-    assert jobs() == 2
-    assert jobs("--jobs", "5") == 5
+def test_an_option_overrules_the_file(rows, tmp_path):
+    write(tmp_path / "inner" / "netdesign.toml", '[check]\nrow = ["A1", "A2"]\n')
+    assert rows() == 2
+    assert rows("--row", "B3") == 1
 
 
 @pytest.mark.parametrize(
