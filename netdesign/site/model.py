@@ -112,8 +112,6 @@ class NetRow:
     row_end: RowEnd | None = None  # of a row with panel and end
     # mesh, and border ropes where there are some
     net_parts: tuple[Resistance, ...] = field(default=(), hash=False)
-    # why the pull of its ropes is not known; None also without ropes
-    panel_lack: Message | None = None
     ranges: Ranges = NO_RANGES  # in the place of those of the site
     assumed: tuple[Assumed, ...] = field(default=(), hash=False)  # of empty columns
     # numbers that can hardly be meant, on which it rests: it is not proven

@@ -166,7 +166,6 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         panels=(),
         panel_assumed=(),
         row_end=None,
-        panel_lack=None,
         assumed=(),
         ranges=NO_RANGES,
         questions=(),

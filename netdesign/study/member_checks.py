@@ -11,13 +11,8 @@ from netdesign.checks.comparison import find_missing_force, find_proof_factor
 from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
-from netdesign.site.model import NetRow, Resistance
-from netdesign.structure.members import (
-    ROPE_OF,
-    EndMember,
-    Member,
-    NetPart,
-)
+from netdesign.site.model import Resistance
+from netdesign.structure.members import ROPE_OF
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.anchor_pulls import (
     find_open_dip,
@@ -43,7 +38,6 @@ from netdesign.study.row_to_check import Basis
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 
-_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
 UNBOUNDED = (
@@ -119,9 +113,9 @@ def judge_member(
 
     With ``is_size`` the check has its numbers alone: its steps begin at E_k.
     """
-    open_force = _find_open_force(forces, resistance, width)
-    if open_force:  # whatever else is missing
-        points = [Open(kind=OpenKind.UNSOLVED, message=open_force)]
+    open_end = forces.effects.open_end
+    if resistance.member in ROPE_OF and open_end:  # whatever else is missing
+        points = [Open(kind=OpenKind.UNSOLVED, message=open_end)]
         check = replace(
             judge_force(forces, resistance, None, width, points), open=points
         )
@@ -178,7 +172,6 @@ def _list_open(
         forces.open_cases,
         forces.open_panel,
         None if resistance.member in ROPE_OF else forces.open_floor,
-        _find_other_panel(forces.row, resistance, width.position),
         _find_loose_end(forces, resistance.member, width.position),
     )
     for message in filter(None, open_forces):
@@ -266,26 +259,6 @@ def find_lasting(
     return lasting, open_lasting or find_open_dip(resistance, pull, basis.standard)
 
 
-def _find_open_force(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> Message | None:
-    """Reason why a force is not known at all; None where it is."""
-    row = forces.row
-    if resistance.member in ROPE_OF and forces.effects.open_end is not None:
-        return forces.effects.open_end
-    is_inside = width.position != "edge" and resistance.member in tuple(Member)
-    return None if is_inside else _find_open_input(row, resistance)
-
-
-def _find_open_input(row: NetRow, resistance: Resistance) -> Message | None:
-    """Empty input that leaves a rope or a member of the row's end open."""
-    if resistance.member in _ROPES:
-        return None if row.panels else row.panel_lack
-    if row.row_end is None or resistance.member not in (*EndMember, *PUSHED):
-        return None
-    return None if row.panels else row.panel_lack
-
-
 def _find_loose_end(
     forces: RowForces, member: str, position: Position
 ) -> Message | None:
@@ -294,33 +267,16 @@ def _find_loose_end(
     return forces.end_guy if is_pushed and isinstance(forces.end_guy, Message) else None
 
 
-def _find_other_panel(
-    row: NetRow, resistance: Resistance, position: Position
-) -> Message | None:
-    """Reason why the ropes between the posts may differ from those computed.
-
-    It concerns the members that the ropes load more than the section does.
-    """
-    pulled = [Member.UPHILL_GUY, Member.UPHILL_ANCHOR, *_ROPES]
-    if row.layout.is_foot_shared or (position == "second" and row.row_end):
-        pulled.append(Member.FOOT_ANCHOR)
-    at_end = (*EndMember, *PUSHED) if position != "intermediate" and row.row_end else ()
-    return row.panel_lack if resistance.member in (*pulled, *at_end) else None
-
-
-def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
+def find_open(judged: Sequence[MemberCheck]) -> Message | None:
     """Reason why the forces of the row are not proven; None where they are.
 
     What is not known of the row's end alone leaves no other check open.
     """
-    members = [member_check for member_check in judged if not member_check.is_of_end]
-    of_end = [
-        _find_open_input(row, member.resistance) or row.panel_lack for member in members
-    ]
     points = (
         point.message
-        for member in members
+        for member in judged
+        if not member.is_of_end
         for point in member.check.open
-        if point.kind is OpenKind.UNSOLVED and point.message not in of_end
+        if point.kind is OpenKind.UNSOLVED
     )
     return next(points, None)

@@ -179,8 +179,6 @@ def list_row_notes(forces: RowForces) -> list[Message]:
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
     notes += [*_list_end_notes(forces), *list_assumed(row)]
-    if row.panel_lack is not None:
-        notes.append(say("panel.plain_figure", lack=row.panel_lack))
     if row.panel_assumed and row.panels:
         notes.append(say("panel.assumed", names=row.panel_assumed))
     return [*notes, *_list_pull_notes(forces.pulls)]

@@ -253,7 +253,7 @@ def _check_without_force(
     variants: Sequence[RowForces], judged: Sequence[MemberCheck]
 ) -> Iterator[Check]:
     """Checks that compare no force: load along the row, geometry; each at its worst."""
-    open_cases = find_open(variants[0].row, judged)
+    open_cases = find_open(judged)
     yield _take_gravest(_check_sideways(forces, open_cases) for forces in variants)
     apart = _list_anchor_places(variants)
     for check_ground in (check_anchor_distance, check_cover):

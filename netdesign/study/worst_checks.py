@@ -50,7 +50,7 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
         *_place_second(forces, of_supports),
         *_judge_at(variants, at_end, (*parts, *held)),
     ]
-    open_cases = find_open(row, judged)
+    open_cases = find_open(judged)
     turned: dict[str, list[MemberCheck]] = {
         width.position: _judge_directions(
             variants, row.resistances_at(width.position), width, open_cases

@@ -121,7 +121,6 @@ def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
         or given.axes,
         "panels": (),
         "panel_assumed": (),
-        "panel_lack": None,
         "row_end": None,
         "net_parts": given.net_parts[:1],
         "assumed": tuple(x for x in given.assumed if x.key in TOLD),

@@ -25,7 +25,6 @@ from tests.small_site import (
     RUN,
     build_row,
     build_site,
-    name_force_checks,
     resist,
 )
 from tests.study.test_panel_study import (
@@ -127,39 +126,6 @@ def test_a_profile_that_lacks_values_loses_no_row_and_improves_no_check(
         assert less["end_guy.rope"].verdict is Verdict.NOT_PROVEN
         assert "no end effect" in str(less["end_guy_anchor.tendon"].reason)
         assert less["foot_anchor.tendon"].verdict is full["foot_anchor.tendon"].verdict
-
-
-def is_loaded(name):
-    """The check is of what a rope pulls along the row: at the end, or beside it."""
-    if name == "downhill_anchor.direction.end":
-        return False
-    at_end = name.startswith(("post", "uphill", "downhill")) and name.endswith(".end")
-    return at_end or name.endswith(".second")
-
-
-def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
-    """A system that is not computed must not turn a row with an end guy into a pass."""
-    row = with_panel(a_panel(), end=an_end(angle=37.0))
-    row = replace(row, panels=(), panel_assumed=(), panel_lack=say("panel.triangular"))
-    _, study = judge(row)
-    checks = checks_of(study)
-    bare = {"row_end": None, "panel_lack": None, "net_parts": row.net_parts[:1]}
-    _, plain = judge(replace(row, **bare))
-    assert plain.rows[0].verdict is Verdict.PASS
-    open_checks = {
-        name for name, one in checks.items() if one.verdict is Verdict.NOT_PROVEN
-    }
-    assert open_checks == {
-        *name_force_checks(has_ropes=True, has_end=True)[-12:],
-        *filter(is_loaded, checks),
-        *(name for name in checks if name.startswith("uphill_")),
-        "lateral_anchor.direction.end",  # pulled at 80 degrees to its axis
-    }
-    for name in open_checks:
-        assert "triangular nets are not covered" in str(checks[name].reason)
-    for name, one in checks_of(plain).items():
-        if name not in open_checks:
-            assert checks[name].verdict is one.verdict
 
 
 def test_what_the_end_guy_presses_holds_the_base_too():
