@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain, product
 
 from netdesign.checks import Check, OpenKind
@@ -146,13 +147,15 @@ def check_cover(forces: RowForces, open_cases: Message | None) -> Check | None:
     """Check the ground around the bonds against what the geotechnical engineer asks.
 
     What the workbook leaves empty is a condition, see `study/conditions.py`. The check
-    is left out where the profile leaves it to others and where nothing is given.
+    is left out where the profile leaves it to others and where nothing is given; an
+    anchor without a type may lie as badly as any.
     """
     row, pulls = forces.row, forces.pulls
     if "anchor_ground" in forces.standard.not_checked:
         return None
     bonds = list_bonds(row, pulls)
-    if not any(bond.is_checked for bond in bonds):
+    untyped = next(filter(partial(_has_no_type, row), pulls), None)
+    if untyped is None and not any(bond.is_checked for bond in bonds):
         return None
     short = next((text for bond in bonds for text in bond.list_short()), None)
     if short is not None:
@@ -160,6 +163,9 @@ def check_cover(forces: RowForces, open_cases: Message | None) -> Check | None:
     asked = next(filter(None, (bond.ask_edge() for bond in bonds)), None)
     if asked is not None:
         return leave_open("cover", OpenKind.VALUE_ASKED, asked)
+    if untyped is not None:
+        lack = say("check.no_resistance", what=name_member(untyped.anchor))
+        return leave_open("cover", OpenKind.RESISTANCE_MISSING, lack)
     if open_cases is not None:
         return leave_open("cover", OpenKind.UNSOLVED, open_cases)
     return compare("cover", Verdict.PASS, say("bores.covered"))
@@ -226,6 +232,10 @@ class BondInGround:
             return None
         named, least = name_member(self.anchor), self.length or 0.0
         return say("bores.edge_asked", anchor=named, edge=self.edge, length=least)
+
+
+def _has_no_type(row: NetRow, pull: PullRecord) -> bool:
+    return row.find_anchor_type(pull.anchor, pull.position) is None
 
 
 def list_bonds(row: NetRow, pulls: Sequence[PullRecord]) -> list[BondInGround]:

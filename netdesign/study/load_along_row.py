@@ -285,34 +285,54 @@ def find_rope_factors(
 ) -> RopeFactors:
     """Factors by which the guideline's load raises what pulls along the row.
 
-    Of several panels that may be built each is raised by its own. Theory:
-    panel/THEORY.md, (P12), (P13).
+    Of several panels that may be built each is raised by its own. What pulls at one
+    inclination is not lowered by more load at another: the cases at the least and the
+    largest one are raised alone, too. Theory: panel/THEORY.md, (P12), (P13).
     """
-    cases = [panels for result in results if (panels := list_panels(result))]
+    solved = [result for result in results if list_panels(result)]
+    cases = list(map(list_panels, solved))
     foot = floor.find(Member.FOOT_ANCHOR) if floor else None
     if not cases or floor is None or floor.head is None or foot is None:
         return RopeFactors()
-    heads, feet = [], []
+    angles = [result.case.inclination for result in solved]
+    groups = [cases] + [
+        [panels for panels, angle in zip(cases, angles, strict=True) if angle == end]
+        for end in {min(angles), max(angles)}
+    ]
+    lower, ridge, head = [], [], []
+    for group in groups:
+        feet, heads = _find_panel_factors(group, foot.force, floor.head.pull)
+        lower += [_raise_rope(cases, group, rope, feet) for rope in _OF_LOWER]
+        ridge += [_raise_rope(cases, group, rope, heads) for rope in _OF_RIDGE]
+        head += heads
+    return RopeFactors(lower=max(lower), ridge=max(ridge), head=max(head))
+
+
+_OF_LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+_OF_RIDGE = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
+
+
+def _find_panel_factors(
+    cases: Sequence[Sequence[PanelForces]], foot: float, head: float
+) -> tuple[list[float], list[float]]:
+    """Pull on foot and on head [N] over the largest ones of each panel, at least 1."""
+    feet, heads = [], []
     for variant in zip(*cases, strict=True):
         solutions = [panel.solution for panel in variant]
         pulls = (map(sum, zip(a.foot, a.mid_foot, strict=True)) for a in solutions)
-        at_foot = max(math.hypot(*pull) for pull in pulls)
+        feet.append(max(1.0, foot / max(math.hypot(*pull) for pull in pulls)))
         at_head = max(math.hypot(*solution.head) for solution in solutions)
-        feet.append(max(1.0, foot.force / at_foot))
-        heads.append(max(1.0, floor.head.pull / at_head))
-    of_lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
-    of_ridge = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
-    return RopeFactors(
-        lower=max(_raise_rope(cases, rope, feet) for rope in of_lower),
-        ridge=max(_raise_rope(cases, rope, heads) for rope in of_ridge),
-        head=max(heads),
-    )
+        heads.append(max(1.0, head / at_head))
+    return feet, heads
 
 
 def _raise_rope(
-    cases: Sequence[Sequence[PanelForces]], rope: str, factors: Sequence[float]
+    every: Sequence[Sequence[PanelForces]],
+    cases: Sequence[Sequence[PanelForces]],
+    rope: str,
+    factors: Sequence[float],
 ) -> float:
-    """Largest force of a rope, each panel's raised by its own factor, over that of all.
+    """Largest force of a rope in some cases, each panel's raised, over that of all.
 
     Where a panel's force is largest, it has a share of the largest of all panels:
     envelope/THEORY.md, (E3).
@@ -325,7 +345,8 @@ def _raise_rope(
         pairs = zip(own, largest, strict=True)
         shares = (force / most for force, most in pairs if most >= near)
         raised.append(factor * max(shares))
-    return max(raised)
+    of_all = max(panel.bands[rope].value for panels in every for panel in panels)
+    return max(raised) * (max(largest) / of_all if of_all else 1.0)
 
 
 def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:

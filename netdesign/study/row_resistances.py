@@ -78,7 +78,7 @@ def find_resistance_for_force(
 
     ``force`` is the characteristic one [kN].
     """
-    if resistance.mode == "direction":
+    if resistance.mode == "direction" and resistance.type_id:
         return _find_head_resistance(resistance, basis.standard, pull, force)
     match resistance.dimensions:
         case AnchorType(soil=Soil() as soil) as anchor if resistance.mode == "wedge":

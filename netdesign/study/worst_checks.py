@@ -192,9 +192,11 @@ def _judge_direction(
     width: LoadedWidth,
     open_cases: Message | None,
 ) -> MemberCheck:
-    """Check a rope anchor's angle; beyond the limit check its head."""
+    """Check a rope anchor's angle; beyond the limit, or of no type, check its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
-    check = check_direction(pull, forces.standard, open_cases) if pull else None
+    check = None
+    if pull and resistance.type_id:
+        check = check_direction(pull, forces.standard, open_cases)
     if check is None:
         return judge_member(forces, resistance, width)
     check = replace(

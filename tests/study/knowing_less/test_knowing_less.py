@@ -37,7 +37,7 @@ PARTS = tuple(NetPart)
 SITES_IN_SUITE, SETS_A_SITE = 30, 10
 LYING = "lie on the ground"
 BEYOND_LENGTH = 1e-3  # of a force, by snow beyond the assumed upslope length
-FOUND = (1005, 1016, 1025, 1149)  # sites that showed a fault once
+FOUND = (1005, 1016, 1025, 1149, 2019, 3016)  # sites that showed a fault once
 
 
 def judge_tables(path, tables):
@@ -77,7 +77,8 @@ def list_improvements(before, after):
             is_open |= any(one.key == "ground" for one in now.conditions)
             if check.mode == "wedge" and check.id not in checks and is_open:
                 continue  # of no type, or a condition: nobody says what ground bears
-            if check.id == "geometry.cover" and check.id not in checks:
+            is_met = check.verdict is not Verdict.FAIL
+            if check.id == "geometry.cover" and check.id not in checks and is_met:
                 continue  # nobody says what it has to be: a condition
             if check.id == "geometry.anchors" and states_row_above(now):
                 continue
