@@ -90,6 +90,8 @@ class Assumed:
                 for x in (low, high)
             )
             return say("assumed.ends", ends=ends) if self.is_range else ends[0]
+        if self.key in _SAGS:
+            return say("assumed.range", low=100.0 * low, high=100.0 * high, unit=" %")
         if self.low == self.high:
             return say("assumed.value", value=low, unit=self._unit)
         return say("assumed.range", low=low, high=high, unit=self._unit)
@@ -109,6 +111,7 @@ class Assumed:
         return _SIGNS.get(self.unit, f" {self.unit}")
 
 
+_SAGS = ("ridge_sag", "lower_sag")  # makers state them in percent
 _MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
 _SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
 

@@ -42,9 +42,8 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
         for value in row.assumed:
             name = words.show(value.input)
             rows.setdefault(name, {})[row.id] = None
-            if value.low is None or value.high is None:
-                found.setdefault(name, {})[words.show(value.text)] = None
-            else:
+            found.setdefault(name, {})[words.show(value.text)] = None
+            if value.low is not None and value.high is not None:
                 ends.setdefault(name, []).extend((value.low, value.high))
                 units[name] = value.unit.removeprefix("-")
         for echo in row.inputs:
@@ -54,9 +53,9 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
                 found.setdefault(name, {})[shown] = None
     yield from (x for x in _list_ranges(study, words) if x.name not in rows)
     for name, ids in rows.items():
-        texts = list(found.get(name, {}))
-        if name in ends:
-            texts.append(_show_ends(ends[name], units[name], words))
+        texts = list(found[name])
+        if name in ends and len(texts) > 1:
+            texts = [_show_ends(ends[name], units[name], words)]
         some = () if len(ids) == len(study.rows) else tuple(ids)
         yield AssumedLine(name=name, value=words.join(texts), rows=some)
 

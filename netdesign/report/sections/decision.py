@@ -38,7 +38,11 @@ from netdesign.report.sections.basis import (
     name_rows,
     show_line,
 )
-from netdesign.report.sections.checks import describe_briefly, describe_cause
+from netdesign.report.sections.checks import (
+    describe_briefly,
+    describe_cause,
+    describe_eased,
+)
 from netdesign.report.sections.rated import (
     ANCHORS,
     find_deciding,
@@ -228,7 +232,8 @@ def _compare(check: Check, words: Words) -> str:
         return words.join((text, needed or describe_cause(check, words)))
     relation = ">" if demand > resistance else "≤"
     text = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
-    return words.join(filter(None, (text, show_need(check, words))))
+    told = (text, describe_eased(check, words), show_need(check, words))
+    return words.join(filter(None, told))
 
 
 def _show_to_do(study: Study, words: Words) -> Iterator[Block]:

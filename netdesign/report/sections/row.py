@@ -75,7 +75,7 @@ _DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 
 @dataclass(frozen=True, slots=True)
 class RowPage:
-    """Builds the page of one row, the notes that are ``told`` elsewhere left out.
+    """Builds the page of one row, notes and conditions ``told`` elsewhere left out.
 
     ``anchor`` is its place in the page, ``ids`` are the names of all rows like it.
     """
@@ -319,7 +319,7 @@ class RowPage:
         flips = list_flips(shown, t) if shown else ()
         passes = self.row.verdict in (Verdict.PASS, Verdict.DECLARED)
         heading = t("row_page.passes_while" if passes else "row_page.would_pass")
-        lists = {heading: flips, t("heading.conditions"): tuple(self._list_notes())}
+        lists = {heading: flips, t("row_page.conditions"): tuple(self._list_notes())}
         for title, items in lists.items():
             empty = "row_page.no_value" if title == heading else "show.none"
             none = Paragraph(text=t(empty), look="none")
@@ -327,18 +327,21 @@ class RowPage:
             yield Part(kind="div", blocks=(Heading(text=title, level=3), blocks))
 
     def _list_notes(self) -> Iterator[str]:
-        """What has to hold of the row, and notes that it alone has, each once."""
-        t = self.words
-        if self.row.conditions:
-            yield t.join(t.show(condition.message) for condition in self.row.conditions)
-        for text in dict.fromkeys(t.show(x) for x in self.row.notes if is_of_row(x)):
+        """Conditions with a number of the row's own, and its notes, each once."""
+        t, row = self.words, self.row
+        own = [t.show(condition.message) for condition in row.conditions]
+        if own := [text for text in own if text not in self.told]:
+            yield t.join(own)
+        for text in dict.fromkeys(t.show(x) for x in row.notes if is_of_row(x)):
             if text not in self.told:
                 yield text
 
 
 def _says_all(check: Check) -> bool:
     """The numbers of a check are all that it says."""
-    return check.verdict is Verdict.PASS or not (check.open or check.open_reasons)
+    if check.verdict is Verdict.PASS:
+        return True
+    return check.used is not None and not (check.open or check.open_reasons)
 
 
 def _find_height(row: RowStudy) -> float | None:

@@ -47,7 +47,8 @@ def build_report(
 
 
 def _list_rows(study: Study, words: Words) -> Iterator[Block]:
-    told = frozenset(basis.share_notes(study, words))
+    conditions = (words.show(condition.message) for condition in study.conditions)
+    told = frozenset((*basis.share_notes(study, words), *conditions))
     anchors = basis.anchor_rows(study)
     rows = {anchors[row.id]: row for row in reversed(study.rows)}
     for anchor in dict.fromkeys(anchors.values()):
