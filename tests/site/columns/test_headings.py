@@ -27,6 +27,8 @@ NAMES = [
         ("rows", "  HANGNEIGUNG ψ (°) ", "slope_angle"),
         ("rows", "Entraxe des montants b", "post_spacing"),
         ("net_types", "effective height D_K", "net_height"),
+        ("net_types", "flèche câble infé-\nrieur [%]", "lower_sag"),  # of old templates
+        ("net_types", "câble supé-\nrieur", "ridge_rope"),
         ("rows", "Neigung [°]", None),
         ("rows", "uphill anchor (old)", None),  # behind a word no unit stands
         ("rows", "zul. Ankerkraft [kN]", None),
