@@ -53,8 +53,6 @@ class RowEnd:
     ----------
     guy_angle : float or None
         Between the end guy and the row [rad]; None where none is given.
-    guy_from_base : float or None
-        Of the end guy's anchor, as `EndGuy` has it [m].
     stiffnesses : tuple of tuple of float, shape (n, 4)
         EA that uphill guy, downhill guy, end guy and post there may have together [N].
     ropes_slide : bool or None
@@ -70,7 +68,6 @@ class RowEnd:
     """
 
     guy_angle: float | None
-    guy_from_base: float | None = None
     stiffnesses: tuple[tuple[float, ...], ...] = ()
     ropes_slide: bool | None = None
     lateral_distance: float | None = None
@@ -83,7 +80,7 @@ class RowEnd:
         """End guy in space; None where its angle is not given."""
         if self.guy_angle is None:
             return None
-        return EndGuy(angle=self.guy_angle, from_base=self.guy_from_base)
+        return EndGuy(angle=self.guy_angle)
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """What one of its anchors is; None where its type is not given."""

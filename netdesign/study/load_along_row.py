@@ -35,7 +35,7 @@ from netdesign.structure.splay import (
     weigh_splay,
 )
 from netdesign.study.case_records import EndGuyRecord, HeldSidewaysRecord
-from netdesign.study.row_to_check import Basis, RowToCheck, is_layout_assumed
+from netdesign.study.row_to_check import RowToCheck, is_layout_assumed
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
@@ -358,22 +358,6 @@ def place_row(row: NetRow, inclination: float) -> SupportPoints:
     """Points of a support of the row at an inclination of its net [m]."""
     height = row.net_height
     return place_support(row.layout, (height * math.tan(inclination), height))
-
-
-def ask_end_guy(task: Basis) -> Message | None:
-    """Ask about an end guy's anchor that stands farther down than the post's head.
-
-    An empty cell places it abreast of the head, which is more favourable.
-    """
-    row, span = task.row, task.site.ranges["inclination"]
-    place = row.row_end.guy_from_base if row.row_end else None
-    if place is None:
-        return None
-    points = [place_row(row, inclination) for inclination in (span.low, span.high)]
-    least = min(point.head[0] - point.post_base[0] for point in points)
-    if place <= least + 1e-9:
-        return None
-    return say("row_end.beyond_head", place=place, most=least)
 
 
 def find_tilt(row: NetRow, inclinations: Iterable[float]) -> float:

@@ -19,7 +19,6 @@ from netdesign.study.anchor_pulls import (
     find_pull,
 )
 from netdesign.study.case_records import PullRecord
-from netdesign.study.load_along_row import ask_end_guy
 from netdesign.study.member_force import (
     PUSHED,
     MemberForce,
@@ -176,8 +175,6 @@ def _list_open(
     )
     for message in filter(None, open_forces):
         yield Open(kind=OpenKind.UNSOLVED, message=message)
-    if width.position == "edge" and (asked := ask_end_guy(forces)):
-        yield Open(kind=OpenKind.VALUE_ASKED, message=asked)
 
 
 def judge_force(

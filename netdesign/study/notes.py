@@ -192,8 +192,7 @@ def _list_end_notes(forces: RowForces) -> Iterator[Message]:
     if end is None or forces.at_end is None:
         return
     yield say("row.end_guy_holds_all")
-    if end.guy_from_base is None:
-        yield say("row.end_guy_at_head")
+    yield say("row.end_guy_at_head")
     if forces.at_end.uphill_guy_kN and len(end.stiffnesses) > 1:
         yield say("row.end_stiffness")
 

@@ -142,14 +142,3 @@ def test_an_end_of_which_nobody_says_anything_has_all_its_checks_open():
     for one in bare:
         found = checks[f"{one.member}.{one.mode}.end"]
         assert found.verdict is Verdict.NOT_PROVEN
-
-
-@pytest.mark.parametrize(("place", "is_asked"), [(0.2, False), (3.9, True)])
-def test_an_end_guy_beyond_the_head_is_asked_about(place, is_asked):
-    """Left empty it stands abreast of the head, which loads the end less."""
-    end = replace(an_end(), guy_from_base=place)
-    _, study = judge(with_panel(a_panel(), end=end))
-    found = checks_of(study)["uphill_guy.rope.end"]
-    told = [one.message.key for one in found.open]
-    assert ("row_end.beyond_head" in told) is is_asked
-    assert not (is_asked and found.verdict is Verdict.PASS)

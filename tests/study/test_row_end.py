@@ -320,22 +320,10 @@ def test_what_is_assumed_of_the_end_is_told():
     assert {"row.end_guy_holds_all", "row.end_guy_at_head"} <= keys
     assert not {"row.posts_unknown", "row.end_stiffness"} & keys
     ways = ((5e6,) * 4, (40e6,) * 4)
-    wide = replace(row.row_end, stiffnesses=ways, guy_from_base=0.0)
+    wide = replace(row.row_end, stiffnesses=ways)
     loose = replace(row, post_count=None, row_end=wide)
     keys = {one.key for one in judge(loose)[1].rows[0].notes}
     assert {"row.posts_unknown", "row.end_stiffness"} <= keys
-    assert "row.end_guy_at_head" not in keys
-
-
-@pytest.mark.parametrize("from_base", [-1.5, 0.0, 0.3])
-def test_no_place_up_to_the_head_loads_the_end_more_than_none_given(from_base):
-    end = an_end(angle=37.0)
-    given_, empty = (
-        checks_of(judge(with_panel(a_panel(), end=one))[1])
-        for one in (replace(end, guy_from_base=from_base), end)
-    )
-    for name in ("post.compression", "post_base.bearing", "uphill_guy.rope"):
-        assert given_[f"{name}.end"].demand_kN <= empty[f"{name}.end"].demand_kN + 1e-9
 
 
 def test_the_foot_beside_the_end_is_pulled_farther_along_the_row():
