@@ -29,8 +29,6 @@ TURNS = AnchorType(
     section=None,
     lever=None,
     drilled=6.0,
-    least_cover=0.2,
-    least_edge=2.0,
     across=1e7,
 )
 LASTS = Wear(kind="rope", protected_years=100)
@@ -146,7 +144,6 @@ def build_row(name, **changes):
         "guys": Guys(count=2, splay=math.radians(29.0), are_shared=True),
         "has_row_above": False,
         "design_life": 50,
-        "edge_distance": 15.0,
         "resistances": resist(),
         "net_parts": list_net_parts(has_ropes=bool(changes.get("panels"))),
         "ground_type": "till",

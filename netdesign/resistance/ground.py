@@ -419,10 +419,8 @@ class AnchorType:
     across : float or None
         Resistance of a block or tube at its head to a force across the axis [N]; None
         where none is given.
-    least_cover, least_edge : float or None
-        As the geotechnical engineer asks of the ground around the bond [m].
     soil : Soil or None
-        Strength of that ground, which is given instead of a cover.
+        Strength of the ground around the bond.
     """
 
     kind: str
@@ -434,8 +432,6 @@ class AnchorType:
     across: float | None = None
     drilled: float | None = None
     bond: float | None = None
-    least_cover: float | None = None
-    least_edge: float | None = None
     soil: Soil | None = None
 
     @property

@@ -91,7 +91,6 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     ground_type: str = ""  # where its anchors stand; "" where nobody says it
-    edge_distance: float | None = None  # of any anchor to where the ground ends [m]
     design_life: int = 100  # [years]
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)

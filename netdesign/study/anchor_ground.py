@@ -143,95 +143,54 @@ def place_end_anchors(
             yield member, Bore(start=start, direction=pull.way, length=length)
 
 
-def check_cover(forces: RowForces, open_cases: Message | None) -> Check | None:
-    """Check the ground around the bonds against what the geotechnical engineer asks.
+def check_cover(forces: RowForces) -> Check | None:
+    """Check that the bores stay in the ground; None where all of them do.
 
-    What the workbook leaves empty is a condition, see `study/conditions.py`. The check
-    is left out where the profile leaves it to others and where nothing is given; an
-    anchor without a type may lie as badly as any.
+    How much ground is enough around a bond is a condition, see `study/conditions.py`.
+    The check is left out where the profile leaves the ground to others; an anchor
+    without a type may lie as badly as any.
     """
     row, pulls = forces.row, forces.pulls
     if "anchor_ground" in forces.standard.not_checked:
         return None
-    bonds = list_bonds(row, pulls)
+    for bond in list_bonds(row, pulls):
+        if bond.cover is not None and bond.leaves_ground:
+            named = name_member(bond.anchor)
+            told = say("bores.leaves_ground", anchor=named, height=-bond.cover)
+            return compare("cover", Verdict.FAIL, told)
     untyped = next(filter(partial(_has_no_type, row), pulls), None)
-    if untyped is None and not any(bond.is_checked for bond in bonds):
+    if untyped is None:
         return None
-    short = next((text for bond in bonds for text in bond.list_short()), None)
-    if short is not None:
-        return compare("cover", Verdict.FAIL, short)
-    asked = next(filter(None, (bond.ask_edge() for bond in bonds)), None)
-    if asked is not None:
-        return leave_open("cover", OpenKind.VALUE_ASKED, asked)
-    if untyped is not None:
-        lack = say("check.no_resistance", what=name_member(untyped.anchor))
-        return leave_open("cover", OpenKind.RESISTANCE_MISSING, lack)
-    if open_cases is not None:
-        return leave_open("cover", OpenKind.UNSOLVED, open_cases)
-    return compare("cover", Verdict.PASS, say("bores.covered"))
+    lack = say("check.no_resistance", what=name_member(untyped.anchor))
+    return leave_open("cover", OpenKind.RESISTANCE_MISSING, lack)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BondInGround:
-    """Bond of one anchor, and the ground around it.
+    """Bond of one anchor, and the ground above it.
 
     Attributes
     ----------
     anchor : Member or EndMember
         Which it is.
-    cover, edge : float or None
-        Ground above the bond's middle, normal to the slope, and beside the anchor, to
-        where it ends [m]; None where it is not known.
+    cover : float or None
+        Ground above the bond's middle, normal to the slope [m]; None where no length
+        is given.
     length : float or None
         Of the bore, or of the bond alone [m]; None where neither is given.
-    least_cover, least_edge : float or None
-        As the geotechnical engineer asks [m]; None where the cell is empty.
     has_soil : bool
         The strength of the ground is given: its wedge is checked instead of a cover.
     """
 
     anchor: Member | EndMember
     cover: float | None
-    edge: float | None
     length: float | None
-    least_cover: float | None
-    least_edge: float | None
     has_soil: bool
-
-    @property
-    def is_checked(self) -> bool:
-        """A cover or an edge distance is given together with its least value."""
-        return self._has_cover or self.edge is not None or self.leaves_ground
 
     @property
     def leaves_ground(self) -> bool:
         """The bore runs above the surface: nothing holds its bond."""
         return self.cover is not None and self.cover <= 0.0
-
-    @property
-    def _has_cover(self) -> bool:
-        return None not in (self.cover, self.least_cover)
-
-    def list_short(self) -> Iterator[Message]:
-        """List the bonds that lie too near to the surface or to an edge."""
-        named = {"anchor": name_member(self.anchor)}
-        cover, least = self.cover, self.least_cover
-        if cover is not None and self.leaves_ground:
-            yield say("bores.leaves_ground", **named, height=-cover)
-        elif cover is not None and least is not None and cover < least:
-            yield say("bores.too_shallow", **named, cover=cover, least=least)
-        edge, least = self.edge, self.least_edge
-        if edge is not None and least is not None and edge < least:
-            yield say("bores.too_near_edge", **named, edge=edge, least=least)
-
-    def ask_edge(self) -> Message | None:
-        """Ask about an edge that is nearer than the bore is long."""
-        if self.least_edge is not None or self.edge is None:
-            return None
-        if self.length is not None and self.edge >= self.length:
-            return None
-        named, least = name_member(self.anchor), self.length or 0.0
-        return say("bores.edge_asked", anchor=named, edge=self.edge, length=least)
 
 
 def _has_no_type(row: NetRow, pull: PullRecord) -> bool:
@@ -250,10 +209,7 @@ def list_bonds(row: NetRow, pulls: Sequence[PullRecord]) -> list[BondInGround]:
         bond = BondInGround(
             anchor=pull.anchor,
             cover=cover,
-            edge=row.edge_distance,
             length=length,
-            least_cover=kind.least_cover,
-            least_edge=kind.least_edge,
             has_soil=kind.soil is not None,
         )
         bonds.append(bond)

@@ -36,7 +36,6 @@ Key = Literal[
     "hangs_free",
     "one_construction",
     "axes",
-    "depth",
     "edge",
     "apart",
     "row_above",
@@ -56,7 +55,6 @@ _WHO: Mapping[Key, Who] = {
     "hangs_free": "supplier",
     "one_construction": "supplier",
     "axes": "site",
-    "depth": "site",
     "edge": "site",
     "apart": "site",
     "row_above": "site",
@@ -177,16 +175,13 @@ def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
 
 
 def _list_of_ground(forces: RowForces) -> Iterator[Condition]:
-    """List the covers and edge distances for which no least value is given."""
+    """List the covers and edge distances that the ground has to have."""
     if "anchor_ground" in forces.standard.not_checked:
         return
     for bond in list_bonds(forces.row, forces.pulls):
-        if bond.least_cover is None and not bond.has_soil and not bond.leaves_ground:
+        if not bond.has_soil and not bond.leaves_ground:
             yield _state("cover", bond.cover)
-        elif bond.least_cover is not None and bond.cover is None:
-            yield _state("depth", bond.least_cover)
-        if bond.edge is None:
-            yield _state("edge", bond.least_edge or bond.length)
+        yield _state("edge", bond.length)
 
 
 def _list_of_bores(forces: RowForces) -> Iterator[Condition]:

@@ -256,8 +256,10 @@ def _check_without_force(
     open_cases = find_open(judged)
     yield _take_gravest(_check_sideways(forces, open_cases) for forces in variants)
     apart = _list_anchor_places(variants)
-    for check_ground in (check_anchor_distance, check_cover):
-        checks = [check_ground(forces, open_cases) for forces in apart]
+    for checks in (
+        [check_anchor_distance(forces, open_cases) for forces in apart],
+        [check_cover(forces) for forces in apart],
+    ):
         if present := [check for check in checks if check is not None]:
             yield _take_gravest(present)
     yield from check_row_geometry(variants[0])

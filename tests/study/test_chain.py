@@ -40,17 +40,13 @@ def solved(tmp_path_factory):
 def state_all(site):
     """Site of which somebody says what an office leaves to conditions of the study."""
     (row,) = site.rows
-    anchors = tuple(
-        (member, replace(kind, least_cover=0.8, least_edge=3.0))
-        for member, kind in row.anchors
-    )
     end = replace(row.row_end, lateral_distance=1.6)
     links = {
         name: tuple(replace(one, is_of_whole=True) for one in chain)
         for name, chain in site.links.items()
     }
     net = {"panels": row.panels[1:2], "panel_assumed": ()}  # of one cut
-    row = replace(row, edge_distance=12.0, anchors=anchors, row_end=end, **net)
+    row = replace(row, row_end=end, **net)
     return replace(site, rows=(row,), links=links)
 
 
@@ -76,7 +72,7 @@ def test_as_built_all_of_the_chain_passes_and_can_be_judged_again(solved):
         *("mesh.mesh.end", "ridge_rope.rope.end", "lower_rope.rope.end"),
         *("foot_anchor.connection", "uphill_guy.connection.end"),
         *("lower_rope.connection.end", "end_guy.connection.end"),
-        *("geometry.anchors", "geometry.cover", "foot_anchor.tendon"),
+        *("geometry.anchors", "foot_anchor.tendon"),
     ]
     assert {checks[one].verdict for one in named} == {Verdict.PASS}
 
@@ -277,29 +273,23 @@ def test_a_shared_anchor_has_more_than_one_of_its_own(solved):
     assert shared["uphill_guy.rope"].demand_kN == own["uphill_guy.rope"].demand_kN
 
 
-def test_a_bond_too_near_to_the_surface_or_an_edge_fails(solved):
-    row = solved[0].rows[0]
-
-    def demand(**asked):
-        return tuple((member, replace(kind, **asked)) for member, kind in row.anchors)
-
-    deep = judge(solved, anchors=demand(least_cover=4.0))[1]["geometry.cover"]
-    near = judge(solved, anchors=demand(least_edge=13.0))[1]["geometry.cover"]
-    assert (deep.verdict, near.verdict) == (Verdict.FAIL, Verdict.FAIL)
-    assert "4 m is asked" in str(deep.reason)
-    assert "next edge is 12 m away" in str(near.reason)
-    asked = judge(solved, edge_distance=3.0, anchors=demand(least_edge=None))
-    assert asked[1]["geometry.cover"].verdict is Verdict.NOT_PROVEN
+@each("seed", range(4))
+def test_a_bore_that_runs_out_of_the_ground_fails(solved, seed):
+    """Axes against the slope: a bond lies in the ground where its axis is above 0."""
+    draw = random.Random(seed)
+    axis = math.radians(draw.uniform(3.0, 40.0))
+    member = draw.choice((Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR))
+    assert "geometry.cover" not in judge(solved, axes=((member, axis),))[1]
+    check = judge(solved, axes=((member, -axis),))[1]["geometry.cover"]
+    assert check.verdict is Verdict.FAIL
+    assert check.reason.key == "bores.leaves_ground"
 
 
 def stand_in(solved, cohesion):
     """Study of the row in ground of that cohesion [Pa] instead of under a cover."""
     row = solved[0].rows[0]
     soil = Soil(cohesion=cohesion, friction=math.radians(34.3), weight=19.7e3)
-    anchors = tuple(
-        (member, replace(kind, soil=soil, least_cover=None))
-        for member, kind in row.anchors
-    )
+    anchors = tuple((member, replace(kind, soil=soil)) for member, kind in row.anchors)
     held = tuple(
         Resistance(
             member=member,
@@ -319,7 +309,7 @@ def stand_in(solved, cohesion):
 
 def test_ground_with_a_strength_is_checked_by_a_wedge_instead_of_a_cover(solved):
     study, checks, soil = stand_in(solved, 61e3)
-    assert checks["geometry.cover"].verdict is Verdict.PASS
+    assert "cover" not in {one.key for one in study.conditions if one.value is None}
     row = solved[0].rows[0]
     pulls = {one.anchor: one for one in study.rows[0].pulls}
     for anchor in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR):
@@ -390,7 +380,6 @@ def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
     row = solved[0].rows[0]
     changes = {
         "design_life": draw.choice((50, 80, 100, 130)),
-        "edge_distance": draw.choice((None, 1.0, 12.0)),
         "net_parts": change(row.net_parts, "mesh", value=draw.choice((90e3, 500e3))),
         "guys": replace(row.guys, are_shared=draw.choice((None, True, False))),
     }

@@ -20,42 +20,33 @@ def state(study):
     return {one.key: one for one in study.rows[0].conditions}
 
 
-def leave_out(row, **asked):
-    """Changes of the row whose anchors lack what is None."""
-    return {
-        "anchors": tuple((m, replace(kind, **asked)) for m, kind in row.anchors),
-        "end_anchors": None,
-    }
-
-
-def test_with_typed_cells_only_documents_and_bores_are_left(solved):
+def test_only_what_no_cell_says_is_left_as_a_condition(solved):
     study, _ = judge(solved)
-    assert set(state(study)) <= {"snow_height", "glide_factor", "axes"}
+    left = {"snow_height", "glide_factor", "axes"}
+    assert set(state(study)) - left == {"cover", "edge", "protected", "rectangular"}
     assert study.conditions == study.rows[0].conditions
 
 
-def test_an_edge_that_nobody_gives_is_a_condition_with_the_number_asked(solved):
+def test_the_distance_to_an_edge_is_a_condition_of_the_longest_bore(solved):
     row = solved[0].rows[0]
-    study, _ = judge(solved, edge_distance=None)
-    least = max(kind.least_edge for _, kind in row.anchors)
-    of_end = [kind.least_edge for _, kind in row.row_end.anchors]
-    assert state(study)["edge"].value == max(least, *of_end)
+    study, _ = judge(solved)
+    kinds = [kind for _, kind in (*row.anchors, *row.row_end.anchors)]
+    assert state(study)["edge"].value == max(kind.drilled for kind in kinds)
     assert state(study)["edge"].who == "site"
 
 
-def test_a_cover_that_nobody_asks_for_is_told_as_it_is_calculated(solved):
+def test_the_cover_is_told_as_it_is_calculated(solved):
     row = solved[0].rows[0]
-    study, checks = judge(solved, **leave_out(row, least_cover=None))
+    study, checks = judge(solved, end_anchors=None)
     found = state(study)["cover"]
-    kinds = dict(row.anchors)
     depths = [
         (kind.drilled - 0.5 * (kind.bond or kind.drilled)) * math.sin(pull.axis)
         for pull in study.rows[0].pulls
-        if (kind := kinds.get(pull.anchor))
+        if (kind := row.find_anchor_type(pull.anchor, "intermediate"))
     ]
     assert found.value == pytest.approx(min(depths))
     assert found.who == "ground"
-    assert checks["geometry.cover"].verdict is Verdict.PASS  # what is typed of the end
+    assert "geometry.cover" not in checks
 
 
 @pytest.mark.parametrize(

@@ -84,7 +84,6 @@ def test_study_is_complete(results, standard):
             *name_directions(),
             "post.lateral",
             "geometry.anchors",
-            "geometry.cover",
             "geometry.inclination",
             "geometry.slope",
             "geometry.height",
