@@ -58,9 +58,8 @@ class RowEnd:
     ropes_slide : bool or None
         The border ropes slide at the supports; None, and the worse of both, where
         nobody says it.
-    lateral_distance, lateral_axis : float or None
-        Of the lateral anchor from the foot anchor [m], and its inclination against the
-        slope [rad]; None where none is given.
+    lateral_axis : float or None
+        Of the lateral anchor against the slope [rad]; None where none is given.
     resistances : tuple of Resistance
         Of all ``END_MODES``, given or not, and what follows the demand.
     anchors : tuple of (EndMember, AnchorType)
@@ -70,7 +69,6 @@ class RowEnd:
     guy_angle: float | None
     stiffnesses: tuple[tuple[float, ...], ...] = ()
     ropes_slide: bool | None = None
-    lateral_distance: float | None = None
     lateral_axis: float | None = None
     resistances: tuple[Resistance, ...]
     anchors: tuple[tuple[EndMember, AnchorType], ...] = ()

@@ -119,28 +119,23 @@ def _list_beside(
 def place_end_anchors(
     row: NetRow, points: SupportPoints, pulls: Sequence[PullRecord]
 ) -> Iterator[tuple[str, Bore]]:
-    """List the anchors beyond the first post: outer guys, lateral anchor, end guy.
+    """List the anchors beyond the first post: outer guys and end guy.
 
-    They lie before that post along the row; one without a given place is left out.
+    They lie before that post along the row. Where the lateral anchor stands is not
+    known: its distance is a condition.
     """
     if row.guys.count > 1 and row.guys.are_shared:
         for anchor, bore in place_anchors(row, points, pulls):
             if anchor != Member.FOOT_ANCHOR:
                 x, y, z = bore.start
                 yield anchor, replace(bore, start=(x, y, -z))
-    end = row.row_end
-    if end is None:
+    end, member = row.row_end, EndMember.END_GUY_ANCHOR
+    pull = find_pull(pulls, member, "edge")
+    if end is None or end.guy is None or pull is None:
         return
-    starts = {}
-    if end.lateral_distance is not None:
-        starts[EndMember.LATERAL_ANCHOR] = (0.0, 0.0, -end.lateral_distance)
-    if end.guy is not None:
-        starts[EndMember.END_GUY_ANCHOR] = end.guy.find_anchor(points)
-    for member, start in starts.items():
-        pull, kind = find_pull(pulls, member, "edge"), end.find_anchor_type(member)
-        if pull is not None:
-            length = kind.drilled if kind else None
-            yield member, Bore(start=start, direction=pull.way, length=length)
+    kind = end.find_anchor_type(member)
+    start, length = end.guy.find_anchor(points), kind.drilled if kind else None
+    yield member, Bore(start=start, direction=pull.way, length=length)
 
 
 def check_cover(forces: RowForces) -> Check | None:

@@ -190,8 +190,7 @@ def _list_of_bores(forces: RowForces) -> Iterator[Condition]:
     if any(not pull.is_axis_given for pull in forces.pulls):
         yield _state("axes", given_degree_from_radian(USUAL_DIP))
     apart, gap = standard.find(ANCHOR_DISTANCE), standard.find(MAX_GAP)
-    end = row.row_end
-    if apart is not None and end is not None and end.lateral_distance is None:
+    if apart is not None and row.row_end is not None:
         yield _state("apart", apart.value)
     is_open = row.has_row_above and row.find_assumed("upslope_length") is not None
     if apart is not None and is_open:

@@ -266,13 +266,7 @@ def _check_without_force(
 
 
 def _list_anchor_places(variants: Sequence[RowForces]) -> Sequence[RowForces]:
-    """Variants whose anchors stand at different places, one of those that are alike.
-
-    The end guy's anchor is placed where the lateral anchor's place is given.
-    """
-    end = variants[0].row.row_end
-    if end is not None and end.lateral_distance is not None:
-        return variants
+    """Variants whose anchors stand at different places, one of those that are alike."""
     apart = {(each.row.layout, each.row.guys): each for each in reversed(variants)}
     return list(apart.values())
 

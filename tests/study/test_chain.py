@@ -13,8 +13,10 @@ from netdesign.resistance.ground import AnchorType, Soil, compute_wedge_resistan
 from netdesign.resistance.steel import find_loss, leave_area
 from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
+from netdesign.study.anchor_ground import place_end_anchors
 from netdesign.study.judge import judge_site
+from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import CheckRun
 from tests.each import each
 from tests.grid import solve_site
@@ -40,13 +42,12 @@ def solved(tmp_path_factory):
 def state_all(site):
     """Site of which somebody says what an office leaves to conditions of the study."""
     (row,) = site.rows
-    end = replace(row.row_end, lateral_distance=1.6)
     links = {
         name: tuple(replace(one, is_of_whole=True) for one in chain)
         for name, chain in site.links.items()
     }
     net = {"panels": row.panels[1:2], "panel_assumed": ()}  # of one cut
-    row = replace(row, row_end=end, **net)
+    row = replace(row, **net)
     return replace(site, rows=(row,), links=links)
 
 
@@ -356,11 +357,17 @@ def test_a_row_above_too_near_leaves_the_anchors_not_proven(solved):
     assert "a row above built alike" in str(near.reason)
 
 
-def test_anchors_of_the_end_are_compared_with_the_others(solved):
-    end = replace(solved[0].rows[0].row_end, lateral_distance=1.3)
-    check = judge(solved, row_end=end)[1]["geometry.anchors"]
-    assert check.verdict is Verdict.NOT_PROVEN
-    assert "as near as 1.30 m" in str(check.reason)
+@each("seed", range(6))
+def test_the_end_guys_anchor_is_compared_with_the_others(solved, seed):
+    """At the guy's angle to the row before the post's head, (S24)."""
+    row, study = solved[0].rows[0], judge(solved)[0]
+    points = place_row(row, math.radians(30.0))
+    angle = random.Random(seed).uniform(0.2, 1.2)
+    end = replace(row.row_end, guy_angle=angle)
+    placed = place_end_anchors(replace(row, row_end=end), points, study.rows[0].pulls)
+    (bore,) = (one for member, one in placed if member == EndMember.END_GUY_ANCHOR)
+    x, height = points.head
+    assert bore.start == pytest.approx((x, 0.0, -height / math.tan(angle)))
 
 
 def test_pulls_added_as_numbers_are_said_and_never_less(solved):

@@ -23,7 +23,13 @@ def state(study):
 def test_only_what_no_cell_says_is_left_as_a_condition(solved):
     study, _ = judge(solved)
     left = {"snow_height", "glide_factor", "axes"}
-    assert set(state(study)) - left == {"cover", "edge", "protected", "rectangular"}
+    assert set(state(study)) - left == {
+        "cover",
+        "edge",
+        "apart",
+        "protected",
+        "rectangular",
+    }
     assert study.conditions == study.rows[0].conditions
 
 
@@ -73,8 +79,7 @@ def test_steel_that_nobody_protects_has_a_condition_and_is_proven(solved, wear, 
 
 
 def test_the_place_of_a_lateral_anchor_is_a_condition_of_the_profile_s_distance(solved):
-    end = replace(solved[0].rows[0].row_end, lateral_distance=None)
-    study, checks = judge(solved, row_end=end)
+    study, checks = judge(solved)
     assert state(study)["apart"].value == NF.find("anchor.distance.min").value
     assert checks["geometry.anchors"].verdict is Verdict.PASS
 

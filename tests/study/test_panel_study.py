@@ -68,7 +68,6 @@ def an_end(angle=40.0, value=1e7):
     return RowEnd(
         guy_angle=None if angle is None else math.radians(angle),
         stiffnesses=((15e6, 15e6, 36e6, 700e6),),
-        lateral_distance=2.0,
         lateral_axis=math.radians(80.0),
         resistances=(*resistances, *turn(END_ANCHORS)),
         anchors=tuple((one, TURNS) for one in END_ANCHORS),
