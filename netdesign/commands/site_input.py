@@ -268,7 +268,7 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     """Write a workbook of version 0.1 again, as one with Rows and Net types."""
     from netdesign.edge.output import require_free, write_files
     from netdesign.site.office.rewrite import read_old, rewrite
-    from netdesign.site.template.office_workbook import render_input
+    from netdesign.site.template.rewritten import render_rewritten
 
     if new.suffix.lower() != ".xlsx" or new.absolute() == old.absolute():
         raise UsageRefusal(say("usage.map_out", file=str(new)))
@@ -277,8 +277,8 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     if workbook is None:
         raise UsageRefusal(say("usage.map_not_old", file=str(old)))
     made = rewrite(workbook, asked["language"])
-    content = render_input(made.tables, asked["language"], made.sheets, made.measures)
+    content, done = render_rewritten(made, asked["language"])
     write_files({new: content}, overwrite=asked["force"])
-    for one in made.done:
+    for one in done:
         tell(one)
     tell(say("cli.wrote", path=str(new)), err=True)

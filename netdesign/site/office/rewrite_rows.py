@@ -25,7 +25,7 @@ _OF_NET = (
 _PERCENT = ("slack", "ridge_sag", "lower_sag")  # that the new workbook has in per cent
 _RANGED_OF_NET = ("slack", "net_stiffness")
 _INCLINATIONS = (25.0, 35.0)  # of a net, from which a tilt follows [deg]
-_POST_TILTS = (-30.0, 45.0)
+_STEEPEST_POST = 45.0  # tilt that a cell takes [deg]
 
 
 def rewrite_rows(
@@ -169,24 +169,31 @@ def _rewrite_net(
             net[key] = ranged[key]
     if end is not None:
         net |= copy_cells(end, ("end_guy", "end_guy_angle", "ropes_at_supports"), told)
-    base, height = line["post_base_distance"], line["net_height"]
-    if base.state == "given" and height.state == "given":
-        net["post_tilt"] = _find_tilts(base, height)
-        told.do(say("rewrite.tilt"), base)
     if line["panel_system"].word == "rectangular":
         told.take(line["panel_system"])
     if line["anchor_axes"].word:
         told.take(line["anchor_axes"])  # an empty cell says so
     if line["row_above"].word == "alike":
         told.take(line["row_above"])
-    return net
+    return net | _rewrite_base(line, told)
 
 
-def _find_tilts(base: Reading, height: Reading) -> str:
-    """Tilts of a post whose base is given, as a range over the net's inclinations."""
+def _rewrite_base(line: Row, told: Told) -> Line:
+    """Tilt of a post whose base is given; a cell holds no range across zero."""
+    base, height = line["post_base_distance"], line["net_height"]
+    if base.state != "given" or height.state != "given":
+        return {}
+    low, high = _find_tilts(base, height)
+    if low < 0.0:
+        return {}
+    told.do(say("rewrite.tilt"), base)
+    return {"post_tilt": f"{low:.1f} to {high:.1f}"}
+
+
+def _find_tilts(base: Reading, height: Reading) -> tuple[float, float]:
+    """Least and largest tilt of a post whose base is given, over net inclinations."""
     tilts = [
         from_si(math.atan(math.tan(math.radians(one)) - base.si / height.si), "deg")
         for one in _INCLINATIONS
     ]
-    low, high = (min(max(one, _POST_TILTS[0]), _POST_TILTS[1]) for one in tilts)
-    return f"{low:.1f} to {high:.1f}"
+    return min(tilts), min(max(tilts), _STEEPEST_POST)

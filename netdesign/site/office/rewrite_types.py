@@ -34,6 +34,7 @@ _AT_END = {
     "ropes": ("uphill_guy", "downhill_guy"),
     "posts": ("post",),
 }
+_FLATTEST, _UPRIGHT = -30.0, 90.0  # dips that a cell takes [deg]
 _BASES = {"tested": "tests", "report": "report", "computed": "calculated"}
 
 
@@ -142,6 +143,8 @@ def _add_dips(types: list[Line], nets: Sequence[Row], told: Told) -> None:
                 of_type.setdefault(dip, []).append(axis)
     for name, dips in found.items():
         flattest = min(dips)
+        if not _FLATTEST <= flattest <= _UPRIGHT:
+            continue
         for one in types:
             if one.get("id") == name:
                 one["dip"] = flattest

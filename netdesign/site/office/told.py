@@ -36,6 +36,11 @@ class Told:
         how = say("rewrite.left", name=reading.field.name, why=why)
         self.done.setdefault(how, []).append(_show_cell(reading))
 
+    def empty(self, reading: Reading, why: Message) -> None:
+        """A cell of the new workbook that is left empty: its reader refuses it."""
+        how = say("rewrite.refused", name=reading.field.name, why=why)
+        self.done.setdefault(how, []).append(_show_cell(reading))
+
     def leave_rest(self, sheet: str, lines: Iterable[Row]) -> None:
         """Cells of a sheet that nobody has placed."""
         for line in lines:

@@ -13,7 +13,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, name_column
 from netdesign.site.office.rewrite import read_old, rewrite
 from netdesign.site.reader import read_site
-from netdesign.site.template.office_workbook import render_input
+from netdesign.site.template.rewritten import render_rewritten
 from netdesign.words.catalogue import render
 from tests.each import each
 from tests.site.office.old_template import load_example, write_old
@@ -26,7 +26,8 @@ def write_again(tmp_path, lines, language="en"):
     old = write_old(tmp_path / "old.xlsx", lines, language)
     made = rewrite(read_old(old, UNDECLARED), language)
     new = tmp_path / "new.xlsx"
-    new.write_bytes(render_input(made.tables, language, made.sheets, made.measures))
+    content, _ = render_rewritten(made, language)
+    new.write_bytes(content)
     return made, read_site(new)
 
 
@@ -102,6 +103,59 @@ def test_every_cell_has_a_place_or_is_named(tmp_path, language):
     kept = [line.get("post_spacing") for line in made.tables["rows"]]
     assert 3.7654 in kept
     assert "137" in done
+
+
+@each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(6)])
+def test_what_the_reader_refuses_is_left_empty_and_listed(tmp_path, seed, language):
+    rng = random.Random(seed)
+    lines = copy.deepcopy(load_example())
+    row = lines["Nets"][0]
+    others = {
+        "altitude": 99999.5,
+        "upslope_length": -4.5,
+        "uphill_anchor_distance": "0 bis 3?",
+        "guy_splay": "viel",
+        "post_tilt": "-3.3 to 10.0",
+        "mesh_strength": "stark",
+        "foot_anchor": "N99",
+    }
+    given = dict(rng.sample(sorted(others.items()), 4))
+    row.pop("post_base_distance", None)
+    row |= given
+    old = write_old(tmp_path / "old.xlsx", lines, language)
+    made = rewrite(read_old(old, UNDECLARED), language)
+    content, done = render_rewritten(made, language)
+    new = tmp_path / "new.xlsx"
+    new.write_bytes(content)
+    site = read_site(new)
+    told = " ".join(render(one, language) for one in done)
+    assert site.rows[0].id == row["id"]
+    for value in given.values():
+        assert str(value) in told
+
+
+@each("base", [0.4, 1.0, 1.5, 2.5])
+def test_a_post_base_is_a_tilt_where_a_cell_holds_it(tmp_path, base):
+    lines = copy.deepcopy(load_example())
+    lines["Nets"][0].pop("post_tilt", None)
+    lines["Nets"][0]["post_base_distance"] = base
+    made, site = write_again(tmp_path, lines)
+    has_tilt = "post_tilt" in made.tables["net_types"][0]
+    least = math.tan(math.radians(25)) - base / lines["Nets"][0]["net_height"]
+    assert has_tilt == (least >= 0)
+    told = [render(one, "en") for one in made.done]
+    assert any("post's base" in one or "post base" in one for one in told)
+    assert site.rows[0].id == lines["Nets"][0]["id"]
+
+
+@each("axis", [-60, -80, 20])
+def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
+    lines = copy.deepcopy(load_example())
+    for row in lines["Nets"]:
+        row["downhill_axis"] = axis
+    made, site = write_again(tmp_path, lines)
+    assert all(-30 <= one.get("dip", 0) <= 90 for one in made.tables["anchor_types"])
+    assert len(site.rows) == len(lines["Nets"])
 
 
 def test_types_with_the_same_values_are_one_net_type(tmp_path):
