@@ -252,8 +252,9 @@ class Field:
 
     @property
     def names(self) -> frozenset[str]:
-        """Accepted headings without unit, normalised."""
-        return frozenset(map(normalise, self.raw_names))
+        """Accepted headings without unit, normalised; also as cp1252 has them."""
+        names = frozenset(map(normalise, self.raw_names))
+        return names.union(*map(_list_lossy, self.raw_names))
 
     @property
     def raw_names(self) -> tuple[str, ...]:
@@ -355,6 +356,21 @@ def normalise(text: str) -> str:
     """Fold a name so that case, accents, spaces and punctuation do not count."""
     decomposed = unicodedata.normalize("NFKD", text.casefold())
     return "".join(sign for sign in decomposed if sign.isalnum())
+
+
+# Letters of cp1252 that spreadsheets write for Greek ones; of others "?" is left.
+_FITTED = str.maketrans("\u03b1\u03b2\u03b4\u03b5\u03c0\u03c3\u03c4\u03c6", "aßdepstf")
+_LEAST_LOSSY = 3  # signs: a symbol alone is not told apart without its letter
+
+
+@lru_cache(maxsize=4096)
+def _list_lossy(name: str) -> Sequence[str]:
+    """Name as a csv file in cp1252 has it, which loses Greek letters and indices."""
+    kept = (
+        normalise(text.encode("cp1252", "ignore").decode("cp1252"))
+        for text in (name, name.translate(_FITTED))
+    )
+    return tuple(one for one in kept if len(one) >= _LEAST_LOSSY)
 
 
 def split_heading(text: str) -> tuple[str, str]:

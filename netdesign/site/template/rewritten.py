@@ -83,7 +83,11 @@ def _list_refused(path: Path) -> Mapping[str, Finding]:
     try:
         read_site(path)
     except SiteDataError as error:
-        faults = [one for one in error.findings if one.severity == "error"]
+        faults = [
+            one
+            for one in error.findings
+            if isinstance(one, Finding) and one.severity == "error"
+        ]
         return {f"{one.sheet}!{one.cell}": one for one in reversed(faults)}
     return {}
 
