@@ -387,8 +387,13 @@ class Wear:
 
     @property
     def is_bare(self) -> bool:
-        """The steel itself corrodes, and there is a thickness to lose."""
-        return self.protection in BARE and self.kind in ("bar", "micropile")
+        """The steel itself corrodes, and there is a thickness to lose.
+
+        What has a diameter may be a bar, where no kind is given.
+        """
+        is_known = None not in (self.outer, self.inner)
+        kinds = ("bar", "micropile", *([""] if is_known else []))
+        return self.protection in BARE and self.kind in kinds
 
 
 def find_loss(soil: str, years: int) -> Datum:

@@ -307,7 +307,8 @@ def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Qu
 def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message | None]:
     """Resistance with the steel that is left, and why it may not last so long.
 
-    Bare steel without a given diameter has no known resistance. As it is, and no
+    Bare steel without a given diameter has no known resistance. Steel of no kind loses
+    what a bar does, and proves no more than a rope. As it is, and no
     open point, of what does not corrode, what has a condition in the place of its
     protection, and where the profile leaves corrosion to others.
     """
@@ -319,8 +320,9 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
         return replace(resistance, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
         return resistance, _find_open_protection(wear, life)
+    undecided = None if wear.kind else say("corrosion.of_rope")
     try:
-        return _take_loss(resistance, wear, life), None
+        return _take_loss(resistance, wear, life), undecided
     except ModelError as error:
         return resistance, error.message
 

@@ -37,7 +37,22 @@ PARTS = tuple(NetPart)
 SITES_IN_SUITE, SETS_A_SITE = 30, 10
 LYING = "lie on the ground"
 BEYOND_LENGTH = 1e-3  # of a force, by snow beyond the assumed upslope length
+# Of the truss at the row's end, whose pulls the guideline's load raises, (P12): the more
+# load the solved cases bring, the less is left to raise, and the less H and the pull's
+# direction are off. Of 13.2 m of snow upslope 1.2 % more than of 36 m (site 3043).
+BY_TRUSS = 0.02
 FOUND = (1005, 1016, 1025, 1149, 2019, 3016)  # sites that showed a fault once
+# Sites, and the cells that did so.
+FOUND_CELLS = (
+    (4, "project", 0, "inclination"),
+    (2010, "project", 0, "inclination"),
+    (2019, "rows", 0, "downhill_anchor"),
+    (3016, "rows", 0, "downhill_anchor"),
+    (3043, "rows", 0, "upslope_length"),
+    (3076, "rows", 0, "upslope_length"),
+    (3011, "anchor_types", 4, "kind"),
+    (3073, "anchor_types", 4, "kind"),
+)
 
 
 def judge_tables(path, tables):
@@ -128,7 +143,9 @@ def compare(check, now):
     if used is None or less is None or now.has_open(OpenKind.UNSOLVED):
         return  # it says that the force may be larger
     low, high = check.utilisation_band
-    if less < (1.0 - BEYOND_LENGTH) * used - (high - low) - 1e-9:
+    is_of_truss = check.governs == now.governs == "truss"
+    beyond = BY_TRUSS if is_of_truss else BEYOND_LENGTH
+    if less < (1.0 - beyond) * used - (high - low) - 1e-9:
         yield check.id, used, less
 
 
@@ -207,6 +224,14 @@ def list_opened(before, after):
 @pytest.mark.parametrize("seed", range(SITES_IN_SUITE))
 def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
     assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
+
+
+@pytest.mark.parametrize("found", FOUND_CELLS, ids=str)
+def test_a_cell_that_was_found_once_makes_nothing_better(tmp_path, found):
+    seed, *cell = found
+    tables, path = build_tables(seed), tmp_path / "site.xlsx"
+    before, after = judge(path, tables), judge(path, empty(tables, [tuple(cell)]))
+    assert list_improvements(before, after) == []
 
 
 @pytest.mark.long
