@@ -323,7 +323,8 @@ class _BestEnds:
         case = read_point(point)
         for name, value in values.items():
             case = case.with_value(name, value)
-        key = (_name(row), case, find.__name__)
+        narrowed = tuple(sorted(values.items()))  # the floor's ranges, too
+        key = (_name(row), case, narrowed, find.__name__)
         if key not in self.forces_at:
             result = self._solve(case, solver)
             forces = None

@@ -14,6 +14,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
+from netdesign.study import best_ends
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
 from netdesign.study.row_to_check import CaseSolver, place_variant
@@ -199,3 +200,20 @@ def test_what_has_no_bound_where_it_is_worst_is_not_proven_where_it_has_one():
     assert unbounded.verdict is Verdict.FAIL
     assert unbounded.ease(math.inf).verdict is Verdict.FAIL
     assert unbounded.ease(0.7).verdict is Verdict.NOT_PROVEN
+
+
+def test_what_is_told_does_not_hang_on_which_value_is_asked_first(monkeypatch):
+    """Each value alone is narrowed in the guideline's load, too."""
+    stiffness = assume("net_stiffness")
+    row = replace(OF_SLACK, assumed=(SLACK, stiffness))
+    spans = [(x.key, Interval(low=x.low, high=x.high)) for x in row.assumed]
+    site = build_site(row, ranges=Ranges(intervals=(*RANGES.intervals, *spans)))
+    (solved,) = search_site(site, RUN)
+    solver = CaseSolver(RUN.settings, RUN.creep_law)
+    told = []
+    for order in (best_ends.SEARCHED, best_ends.SEARCHED[::-1]):
+        monkeypatch.setattr(best_ends, "SEARCHED", order)
+        told.append(
+            list_decided(index(judge_row(site, row, solved, STANDARD, RUN, solver)))
+        )
+    assert told[0] == told[1] != {}

@@ -37,7 +37,7 @@ PARTS = tuple(NetPart)
 SITES_IN_SUITE, SETS_A_SITE = 30, 10
 LYING = "lie on the ground"
 BEYOND_LENGTH = 1e-3  # of a force, by snow beyond the assumed upslope length
-# Of the truss at the row's end, whose pulls the guideline's load raises, (P12): the more
+# Of the truss at the row's end, whose pulls the guideline's load raises: the more
 # load the solved cases bring, the less is left to raise, and the less H and the pull's
 # direction are off. Of 13.2 m of snow upslope 1.2 % more than of 36 m (site 3043).
 BY_TRUSS = 0.02
