@@ -97,6 +97,21 @@ def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
         assert one.used <= 1.0
 
 
+def test_a_type_that_is_offered_brings_its_own_dip(example):
+    """A flat bore of the type itself, and of the type that it replaces."""
+    dips = {line: name_type("dip", line) for line in range(8)}
+    _, built, _ = size(example, **{dips[3]: "5"})
+    (usual,) = [one.now for one in built if one.column == "foot_anchor"]
+    assert usual == "A57-tested"
+    flat = {dips[line]: "5" for line in (0, 1, 2, 4, 5, 6)} | {dips[7]: "20"}
+    _, cells, read = size(example, **flat)
+    (now,) = [one.now for one in cells if one.column == "foot_anchor"]
+    assert now in ("", "A63-tested")
+    again = judge(replace(example[1], site=read({FOOT: "A57-tested"})))
+    checks = [one for one in again.rows[0].checks if one.member == "foot_anchor"]
+    assert any(one.verdict is not Verdict.PASS for one in checks)
+
+
 def test_without_a_type_that_does_nothing_is_claimed(example):
     """Every type of the sheet too weak for the free ground of R7."""
     weak = {
