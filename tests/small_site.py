@@ -31,7 +31,7 @@ TURNS = AnchorType(
     drilled=6.0,
     across=1e7,
 )
-LASTS = Wear(kind="rope", protected_years=100)
+LASTS = Wear(kind="rope")
 EYE = Link(
     kind="eye",
     breaking=1e8,

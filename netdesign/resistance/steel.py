@@ -372,8 +372,6 @@ class Wear:
         As in sheet Anchors; "" where none is given, and of a rope.
     soil : str
         Class of the ground by its corrosion; "" where none is given.
-    protected_years : int or None
-        Years for which the protection is declared; None without a declaration.
     outer, inner : float or None
         Diameters of bar or tube [m]; None where they are not given.
     """
@@ -381,7 +379,6 @@ class Wear:
     kind: str
     protection: str = ""
     soil: str = ""
-    protected_years: int | None = None
     outer: float | None = None
     inner: float | None = None
 

@@ -26,7 +26,6 @@ class Resistance(GivenResistance):
     dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
-    flattest_test: float | None = None  # dip of the flattest bore that was tested [rad]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
     # told where what is assumed decides: between value and best, or without a best

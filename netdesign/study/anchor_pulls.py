@@ -239,7 +239,7 @@ def build_pull(
 def find_open_dip(
     resistance: Resistance, pull: PullRecord | None, standard: Standard
 ) -> Message | None:
-    """Reason why mortar may not fill a borehole that is flatter than the tested ones.
+    """Reason why grout may not fill a bore that is flatter than the profile's limit.
 
     From a borehole that is flat or rises mortar runs out; structure/THEORY.md, (S14b).
     """
@@ -248,12 +248,7 @@ def find_open_dip(
     limit = standard.find(LEAST_DIP)
     if limit is None:
         return say("check.no_limit", limit=LEAST_DIP)
-    flattest = resistance.flattest_test
-    is_tested = resistance.basis == "tested" and flattest is not None
-    least = limit.value
-    if is_tested and flattest is not None:
-        least = min(least, degree_from_radian(flattest))
-    if pull.dip_deg >= least - _CLOSE:
+    if pull.dip_deg >= limit.value - _CLOSE:
         return None
     return say("bores.flat", dip=pull.dip_deg, least=limit.value)
 

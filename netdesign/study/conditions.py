@@ -170,7 +170,7 @@ def _list_resistances(row: NetRow) -> Iterator[Resistance]:
 def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
     if wear.is_bare:
         yield from () if wear.soil else (_state("natural_ground"),)
-    elif wear.protected_years is None:
+    else:
         yield _state("protected", float(life))
 
 

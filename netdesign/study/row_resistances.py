@@ -319,21 +319,13 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
         lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))
         return replace(resistance, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
-        return resistance, _find_open_protection(wear, life)
+        unprotected = say("corrosion.of_rope") if wear.protection in BARE else None
+        return resistance, unprotected
     undecided = None if wear.kind else say("corrosion.of_rope")
     try:
         return _take_loss(resistance, wear, life), undecided
     except ModelError as error:
         return resistance, error.message
-
-
-def _find_open_protection(wear: Wear, life: int) -> Message | None:
-    if wear.protection in BARE:
-        return say("corrosion.of_rope")
-    years = wear.protected_years
-    if years is None or years >= life:
-        return None
-    return say("corrosion.short", years=years, life=life)
 
 
 def _take_loss(resistance: Resistance, wear: Wear, life: int) -> Resistance:

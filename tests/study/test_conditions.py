@@ -58,7 +58,7 @@ def test_the_cover_is_told_as_it_is_calculated(solved):
 @pytest.mark.parametrize(
     ("wear", "key"),
     [
-        ({"protected_years": None}, "protected"),
+        ({"protection": ""}, "protected"),
         ({"protection": "none", "kind": "bar", "soil": ""}, "natural_ground"),
     ],
 )
