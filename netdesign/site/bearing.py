@@ -32,6 +32,7 @@ class Resistance(GivenResistance):
     open: Message | None = None
     bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
+    is_basis_assumed: bool = False  # nobody says how it is known: as computed
     may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve
 
 

@@ -228,7 +228,15 @@ def _describe_type(
         factored_as=("tendon", "rope") if is_rope else (),
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
         may_be_sleeved=is_pulled and not tests,
+        is_basis_assumed=is_pulled
+        and _is_basis_assumed(kind, is_tested=tests is not None),
     )
+
+
+def _is_basis_assumed(kind: Row, *, is_tested: bool) -> bool:
+    """A pull-out resistance is typed, and counts as computed for want of a word."""
+    is_typed = kind["pull_out"].state == "given" and not kind["pull_out"].derivation
+    return is_typed and not is_tested and kind["basis"].derivation is not None
 
 
 def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:

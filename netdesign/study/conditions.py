@@ -31,6 +31,7 @@ Key = Literal[
     "cover",
     "natural_ground",
     "protected",
+    "basis",
     "sleeve",
     "rectangular",
     "hangs_free",
@@ -50,6 +51,7 @@ _WHO: Mapping[Key, Who] = {
     "cover": "ground",
     "natural_ground": "ground",
     "protected": "supplier",
+    "basis": "ground",
     "sleeve": "supplier",
     "rectangular": "supplier",
     "hangs_free": "supplier",
@@ -150,6 +152,8 @@ def _list_of_types(forces: RowForces) -> Iterator[Condition]:
         ):
             if not (row.ground_type and resistance.ground):
                 yield _state("ground")
+            if resistance.is_basis_assumed:
+                yield _state("basis")
             if resistance.may_be_sleeved and resistance.basis != "tested":
                 yield _state("sleeve")
     if row.find_assumed("panel_system"):

@@ -196,6 +196,16 @@ def test_a_report_that_nobody_names_any_more_proves_no_more(tmp_path):
     assert list_improvements(before, after) == []
 
 
+@pytest.mark.parametrize("seed", [4, 11])
+def test_a_pull_out_resistance_that_nobody_proves_is_a_condition(tmp_path, seed):
+    tables, path = build_tables(seed), tmp_path / "site.xlsx"
+    places = enumerate(tables["anchor_types"])
+    cells = [("anchor_types", k, "proven") for k, x in places if "proven" in x]
+    rows = [judge(path, one)["R1"] for one in (tables, empty(tables, cells))]
+    told = [[one.key for one in row.conditions] for row in rows]
+    assert ["basis" in keys for keys in told] == [False, True]
+
+
 @pytest.mark.parametrize("seed", [2, 3, 4, 43])
 def test_a_guy_without_a_type_leaves_open_what_passes_with_one(tmp_path, seed):
     tables, path = build_tables(seed), tmp_path / "site.xlsx"
