@@ -114,12 +114,6 @@ _READ: Mapping[str, Any] = {
 }
 
 
-def load_text(language: Language) -> Mapping[str, str]:
-    """General texts of the workbook."""
-    texts: Mapping[str, str] = load_file(f"words/{language}")["text"]
-    return texts
-
-
 def list_names(name: str, table: str = "", key: str = "") -> dict[str, tuple[str, ...]]:
     """Headings of a field, or names of a sheet, by language: that of the key first."""
     names: dict[str, tuple[str, ...]] = {}

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import FURTHER, SNOW
+from netdesign.site.columns.all_tables import SNOW
 from netdesign.site.content import Content
 from netdesign.site.lines import (
     Lines,
@@ -28,7 +28,11 @@ from netdesign.site.office.rows import (
     join_rows,
     read_approval,
 )
-from netdesign.site.office.sheets import OfficeTables, find_office_tables
+from netdesign.site.office.sheets import (
+    OfficeTables,
+    find_further,
+    find_office_tables,
+)
 from netdesign.site.office.types import (
     fill_in_anchor,
     find_field,
@@ -46,7 +50,6 @@ from netdesign.site.office.types import (
 )
 from netdesign.site.readings import Row, refuse, refuse_misfits
 from netdesign.site.snow_sheets import LayersByRow, order_layers
-from netdesign.site.tables import find_table
 from netdesign.site.type_lines import count_in_tests, name_by_ground, place_in_ground
 from netdesign.site.type_resistances import check_ends, check_tests
 from netdesign.words.message import say
@@ -101,7 +104,7 @@ def read_office(
         lines=_join(tables, lines, project, nets, findings),
         nets=tables.tables["rows"],
         declared=list_declared(lines["declared"]),
-        further={one.name: find_table(workbook, one, findings) for one in FURTHER},
+        further=find_further(workbook, findings),
         approvals=approvals,
         documents=list_documents(project),
         library=(library.file, library.sha256) if library else ("", ""),

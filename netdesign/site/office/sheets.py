@@ -126,6 +126,16 @@ def find_office_tables(
     )
 
 
+def find_further(
+    workbook: Workbook, findings: list[Finding]
+) -> Mapping[str, Table | None]:
+    """Tables of the sheets of add-ons, by name; faults go to ``findings``."""
+    told: list[Finding] = []
+    tables = {one.name: find_table(workbook, one, told) for one in FURTHER}
+    findings.extend(one for one in told if not _is_of_template(one))
+    return tables
+
+
 def _is_of_template(finding: Finding) -> bool:
     """A remark on titles above headings, or on lines left empty between others."""
     is_mild = finding.severity == "note" or finding.rule.key != _OF_TEMPLATE[0]

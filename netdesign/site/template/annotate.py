@@ -17,7 +17,7 @@ from netdesign.site.cells.findings import Finding, refuse_file
 from netdesign.site.cells.xlsx import open_for_editing
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_cells
-from netdesign.site.template.workbook import count_lines
+from netdesign.site.template.form import count_lines
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 

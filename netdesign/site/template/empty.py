@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from netdesign.cable.sag import find_sag
 from netdesign.site.assumed import Assumed, load_assumed
+from netdesign.site.columns.fields import Field
 from netdesign.site.columns.office import Column, load_text
-from netdesign.site.template.workbook import describe_accepted
 from netdesign.words.catalogue import Language, render, set_marks
 from netdesign.words.message import say
 
@@ -49,8 +49,14 @@ def say_accepted(column: Column, language: Language) -> str:
     return render(say("accepted.or_range", accepted=accepted), language)
 
 
+def describe_accepted(field: Field, language: Language) -> str:
+    """Accepted content of a cell, as a phrase; empty where anything is."""
+    is_open = not field.words and field.bounds[0] == field.bounds[1]
+    return "" if is_open else render(field.accepted, language)
+
+
 def _find(column: Column) -> Assumed | None:
-    if column.said or column.field.required:
+    if column.said or column.field.required or not column.has:
         return None
     return load_assumed().get(column.field.key)
 

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
+from io import BytesIO
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from netdesign.site.columns.all_tables import load_file
+from netdesign.site.columns.all_tables import FURTHER, load_file
+from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.office import (
     Column,
     load_columns,
+    load_plan,
     load_text,
     name_measure,
 )
-from netdesign.site.template.workbook import Book
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.format import Format
+    from xlsxwriter.workbook import Workbook
+    from xlsxwriter.worksheet import Worksheet
 
 Tables = Mapping[str, Sequence[Mapping[str, object]]]  # lines by table and key
 
@@ -30,20 +37,29 @@ _SIGNS = {"deg": "°", "degC": "°C", "kg/m3": "kg/m³", "kN/m3": "kN/m³"} | {
 }
 
 
+_OPTIONS = {
+    "strings_to_formulas": False,
+    "strings_to_numbers": False,
+    "strings_to_urls": False,
+    "in_memory": True,
+    # every office has it or its double, so that widths are the same in all programs
+    "default_format_properties": {"font_name": "Arial", "font_size": 10},
+}
+# The same program writes the same bytes: no clock goes into the file.
+_CREATED = datetime.datetime(2000, 1, 1)
+_A4 = 9
+
+
 @dataclass(frozen=True)
 class Form:
     """Workbook while it is written: its formats, its sheets, its lines."""
 
-    book: Book
+    workbook: Workbook
+    language: Language
     sheets: Sequence[str]
     tables: Tables
     measures: Mapping[tuple[str, str], str]
     formats: dict[str, Format] = field(default_factory=dict)
-
-    @property
-    def language(self) -> Language:
-        """Of sheets, headings, words and notes."""
-        return self.book.language
 
     def text(self, key: str, area: str = "text") -> str:
         """Text of the template."""
@@ -53,7 +69,7 @@ class Form:
         """Format of a name; made once."""
         if name not in self.formats:
             made = {"font_color": _INK, "valign": "vcenter", **_STYLES[name], **more}
-            self.formats[name] = self.book.workbook.add_format(made)
+            self.formats[name] = self.workbook.add_format(made)
         return self.formats[name]
 
     def style_cell(self, column: Column) -> Format:
@@ -87,13 +103,60 @@ _STYLES: Mapping[str, Mapping[str, object]] = {
 }
 
 
+def start_workbook(content: BytesIO, language: Language) -> Workbook:
+    """Workbook that goes into ``content`` once it is closed."""
+    import xlsxwriter
+
+    workbook = xlsxwriter.Workbook(content, deepcopy(_OPTIONS))  # it writes into them
+    title = load_text("title", language)
+    workbook.set_properties({"title": title, "created": _CREATED})
+    return workbook
+
+
+def add_sheet(form: Form, title: str) -> Worksheet:
+    """Sheet of a name, which is printed on the width of a page."""
+    sheet = form.workbook.add_worksheet(title)
+    sheet.hide_gridlines(2)
+    sheet.set_landscape()
+    sheet.set_paper(_A4)
+    sheet.fit_to_pages(1, 0)
+    return sheet
+
+
+def find_plan(table: str) -> SheetPlan:
+    """Plan of a sheet, or of one of an add-on."""
+    return next((one for one in FURTHER if one.name == table), None) or load_plan(table)
+
+
+def is_further(table: str) -> bool:
+    """A sheet is one of an add-on."""
+    return any(one.name == table for one in FURTHER)
+
+
+def count_lines(text: str, width: float) -> int:
+    """Lines that a text takes in a column of a width in characters."""
+    return max(1, len(wrap(text, max(1, int(width)))))
+
+
 def list_shown(form: Form, table: str) -> list[Column]:
     """Columns of a table; those of the structure only beside sheet Parts."""
+    if is_further(table):
+        return [_show_field(one) for one in find_plan(table).fields]
     return [
         one
         for one in load_columns(table)
         if one.group != "structure" or "parts" in form.sheets
     ]
+
+
+def _show_field(field: Field) -> Column:
+    """Column of a sheet of an add-on."""
+    return Column(
+        field=field,
+        unit=field.unit,
+        need="yes" if field.required else "",
+        texts={"note": field.notes, "why": {}, "divided": {}},
+    )
 
 
 def name_column(form: Form, column: Column, is_divided: bool = False) -> str:

@@ -9,8 +9,15 @@ from typing import TYPE_CHECKING
 from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.office import PARTS, load_plan
 from netdesign.site.template.empty import say_accepted, say_empty
-from netdesign.site.template.form import Form, list_shown, name_column, say_unit
-from netdesign.site.template.workbook import count_lines
+from netdesign.site.template.form import (
+    Form,
+    add_sheet,
+    count_lines,
+    is_further,
+    list_shown,
+    name_column,
+    say_unit,
+)
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
@@ -23,11 +30,7 @@ _PICTURE_ROW, _PICTURE_ROWS = 6, 22
 
 def write_notes(form: Form) -> None:
     """Sheet Notes: colours, the section with its names, every column."""
-    sheet = form.book.workbook.add_worksheet(render(say("sheet.notes"), form.language))
-    sheet.hide_gridlines(2)
-    sheet.set_landscape()
-    sheet.set_paper(9)
-    sheet.fit_to_pages(1, 0)
+    sheet = add_sheet(form, render(say("sheet.notes"), form.language))
     for number, width in enumerate(_NOTE_WIDTHS):
         sheet.set_column(number, number, width)
     sheet.write_string(0, 0, form.text("title"), form.style("title"))
@@ -42,7 +45,7 @@ def write_notes(form: Form) -> None:
     scale = {"x_scale": 0.6, "y_scale": 0.6, "object_position": 3}
     sheet.insert_image(_PICTURE_ROW, 0, "section.png", options | scale)
     row = _PICTURE_ROW + _PICTURE_ROWS + 1
-    for name in form.sheets:
+    for name in (one for one in form.sheets if not is_further(one)):
         for table in PARTS if name == "parts" else (name,):
             row = _write_columns(form, sheet, row, table) + 1
 

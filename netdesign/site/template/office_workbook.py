@@ -21,7 +21,6 @@ from netdesign.site.columns.office import (
     Column,
     load_columns,
     load_plan,
-    load_text,
     name_measure,
 )
 from netdesign.site.office.declared import GROUPS, name_group
@@ -29,24 +28,28 @@ from netdesign.site.template.empty import say_accepted, say_empty, say_why
 from netdesign.site.template.form import (
     Form,
     Tables,
+    add_sheet,
+    find_plan,
+    is_further,
     list_shown,
     name_column,
     say_unit,
+    start_workbook,
 )
 from netdesign.site.template.office_notes import write_notes
-from netdesign.site.template.workbook import start_book, write_sheet
 from netdesign.words.catalogue import Language, render
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.worksheet import Worksheet
 
 DEFAULT = ("project", "rows", "net_types", "anchor_types")
-_FURTHER = {"winter": WINTER, "monitoring": MONITORING, "reliability": UNCERTAINTY}
 WITH: Mapping[str, str] = {
     **{"snow": "layers", "tests": "tests", "parts": "parts", "declared": "declared"},
-    **{name: name for name in _FURTHER},
+    **{"winter": WINTER.name, "monitoring": MONITORING.name},
+    "reliability": UNCERTAINTY.name,
 }
 _FIRST = 5  # row of the first line, from 0: title, groups, names, units, if empty
+_LINES = 24  # of a sheet of an add-on
 _WIDE = 18  # columns, of a sheet whose headings are narrow
 _NOTE = {"x_scale": 1.6, "y_scale": 0.8, "font_size": 9, "author": ""}
 
@@ -104,37 +107,27 @@ def render_input(
         On cells of the rows, in their order, by key.
     """
     content = BytesIO()
-    book = start_book(content, language)
-    book.workbook.set_properties(
-        {"title": load_text("title", language), "created": book.created}
-    )
-    sheets = [*DEFAULT, *(WITH[one] for one in more if one not in _FURTHER)]
-    form = Form(book, sheets, tables, measures or {})
-    for sheet in sheets:
+    workbook = start_workbook(content, language)
+    further = sorted((WITH[one] for one in more), key=is_further)
+    form = Form(workbook, language, [*DEFAULT, *further], tables, measures or {})
+    for sheet in form.sheets:
         _write(form, sheet)
-    for one in more:
-        if one in _FURTHER:
-            write_sheet(book, _FURTHER[one], tables.get(_FURTHER[one].name, ()))
     write_notes(form)
-    rows = book.workbook.worksheets()[1]
+    rows = workbook.worksheets()[1]
     keys = [one.field.key for one in list_shown(form, "rows")]
     size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
     for line, of_line in enumerate(notes, start=_FIRST):
         for key, note in of_line.items():
             rows.write_comment(line, keys.index(key), note, size)
     rows.activate()
-    book.workbook.close()
+    workbook.close()
     return content.getvalue()
 
 
 def _write(form: Form, name: str) -> None:
     table = PARTS[0] if name == "parts" else name
-    title = load_plan(table).name_in(form.language)
-    sheet = form.book.workbook.add_worksheet(title)
-    sheet.hide_gridlines(2)
-    sheet.set_landscape()
-    sheet.set_paper(9)
-    sheet.fit_to_pages(1, 0)
+    title = find_plan(table).name_in(form.language)
+    sheet = add_sheet(form, title)
     sheet.set_margins(0.4, 0.4, 0.5, 0.6)
     sheet.set_footer(f"&L&F&R{form.text('page')} &P / &N")
     sheet.write_string(0, 0, title, form.style("title"))
@@ -149,8 +142,9 @@ def _write(form: Form, name: str) -> None:
 
 def _write_table(form: Form, sheet: Worksheet, table: str) -> None:
     columns = list_shown(form, table)
-    about = load_file("office")["sheets"][table]["about"][form.language]
-    sheet.write_string(0, 2, about, form.style("about"))
+    if not is_further(table):
+        about = load_file("office")["sheets"][table]["about"][form.language]
+        sheet.write_string(0, 2, about, form.style("about"))
     group = ""
     for number, column in enumerate(columns):
         sheet.write_blank(
@@ -186,7 +180,7 @@ def _write_parts(form: Form, sheet: Worksheet) -> None:
 
 def _count_lines(form: Form, table: str) -> int:
     """Lines of a form: as many as are given, and some more."""
-    usual: int = load_file("office")["sheets"][table]["lines"]
+    usual: int = load_file("office")["sheets"].get(table, {}).get("lines", _LINES)
     return max(usual, len(form.tables.get(table, ())) + 4)
 
 
@@ -325,6 +319,8 @@ def _list_choices(form: Form, column: Column) -> list[str] | str:
 
 
 def _say_note(form: Form, column: Column) -> str:
+    if not column.has:  # of a sheet of an add-on
+        return column.texts["note"][form.language]
     source = say_why(column, form.language)
     told = (form.text("source"), source) if source else None
     label, text = told or (form.text("has"), form.text(column.has, "who"))

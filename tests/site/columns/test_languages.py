@@ -3,7 +3,7 @@ import re
 import pytest
 
 from netdesign.site.columns.fields import find_item
-from netdesign.site.template.workbook import describe_accepted
+from netdesign.site.template.empty import describe_accepted
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.site.columns.fields import FIELDS, PLANS
