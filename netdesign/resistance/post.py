@@ -162,12 +162,8 @@ class PostSection:
         N_cr and chi A f_y of `BucklingResistance` [N].
     at_head, at_foot : float
         Eccentricities of the compression at both ends [m].
-    efficiency : float or None
-        eta, where it is given [-].
-    efficiency_place : str
-        Cell that gives it.
     assumed : tuple of str
-        Columns of the last three that are empty.
+        What of eta and of both eccentricities no cell gives.
     """
 
     width: float
@@ -178,8 +174,6 @@ class PostSection:
     buckling: float
     at_head: float
     at_foot: float
-    efficiency: float | None = None
-    efficiency_place: str = ""
     assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

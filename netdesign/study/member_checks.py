@@ -25,7 +25,7 @@ from netdesign.study.member_force import (
     RowForces,
     find_force,
 )
-from netdesign.study.posts import ask_efficiency, find_short_post
+from netdesign.study.posts import find_short_post
 from netdesign.study.row_resistances import (
     corrode,
     find_resistance_for_force,
@@ -156,8 +156,6 @@ def _resist_and_ask(
             resistance, forces, pull, width, force.action
         )
     points = list(_list_open(forces, resistance, width))
-    if asked := ask_efficiency(resistance, forces, width):
-        points.append(Open(kind=OpenKind.VALUE_ASKED, message=asked))
     if open_lasting:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=open_lasting))
     return resistance, points

@@ -105,14 +105,13 @@ def find_post_resistance(
 ) -> Resistance:
     """Compression that a post bears beside the snow on it; (R10) to (R11b).
 
-    Where eta is not given, the value is that of the largest eta, and ``best`` that of
-    the least.
+    The value is that of the largest eta, and ``best`` that of the least.
     """
     standard, row = basis.standard, basis.row
     on_action = standard.find(ACTION_FACTOR)
     on_post = standard.find_resistance_factor(resistance.mode, resistance.basis)
     spacing = row.layout.post_spacing
-    efficiencies = _list_efficiencies(section, standard, width, spacing)
+    efficiencies = _list_efficiencies(standard, width, spacing)
     if isinstance(efficiencies, Message):
         return replace(resistance, lack=efficiencies)
     if on_action is None or on_post is None:
@@ -168,53 +167,13 @@ class _Efficiency:
         return max(self.least + self.growth * beyond, self.at_edge)
 
 
-def ask_efficiency(
-    resistance: Resistance, basis: Basis, width: LoadedWidth
-) -> Message | None:
-    """Ask about an eta with which the snow presses more than with the assumed one.
-
-    An empty cell would be more favourable: the engineer confirms or changes it.
-    """
-    section = resistance.dimensions
-    if not isinstance(section, PostSection) or section.efficiency is None:
-        return None
-    if section.efficiency_place in basis.site.confirmed:
-        return None
-    spacing, ranges = basis.row.layout.post_spacing, basis.site.ranges
-    loads = []
-    for post in (section, replace(section, efficiency=None)):
-        efficiencies = _list_efficiencies(post, basis.standard, width, spacing)
-        if isinstance(efficiencies, Message):
-            return None
-        try:
-            pressure, _, snow = find_snow_pressure(basis.row, ranges, efficiencies[1])
-        except ModelError:  # outside the guideline's closed forms: told elsewhere
-            return None
-        eta = efficiencies[1].at(snow.glide_factor)
-        loads.append((eta * pressure, eta, snow.glide_factor))
-    (typed, _, _), (assumed, high, glide) = loads
-    if typed <= assumed * (1.0 + 1e-9):
-        return None
-    return say(
-        "post_bending.beyond",
-        efficiency=section.efficiency,
-        high=high,
-        glide=glide,
-        place=section.efficiency_place,
-        sheet=say("sheet.Declared"),
-    )
-
-
 def _list_efficiencies(
-    section: PostSection, standard: Standard, width: LoadedWidth, spacing: float
+    standard: Standard, width: LoadedWidth, spacing: float
 ) -> tuple[_Efficiency, _Efficiency] | Message:
     """Least and largest factor of the line load on a post; or what is lacking."""
     is_second = width.position == "second" and width.end_length >= spacing
     is_pressed = width.position == "edge" or is_second
     at_edge = 1.0 + width.end_factor if is_pressed else 0.0
-    if section.efficiency is not None:
-        typed = _Efficiency(section.efficiency, at_edge=at_edge)
-        return typed, typed
     least, growth = map(standard.find, (POST_EFFICIENCY, POST_EFFICIENCY_GROWTH))
     if least is None or growth is None:
         return lack_factor(POST_EFFICIENCY_GROWTH if least else POST_EFFICIENCY)

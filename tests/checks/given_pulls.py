@@ -98,6 +98,7 @@ def study_row(
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
     standard = replace(load_standard(profile), floor=floor)
+    standard = set_efficiency(standard, row.get("post", POST).get("eta", 1.0))
     return judge_site(
         site, [wrap_results(site, site.rows[0], [result], run)], standard, run
     )
@@ -106,7 +107,7 @@ def study_row(
 def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
     """Site of the row; what no cell says is set, above all that it has no panel.
 
-    Of ``row`` the axes of anchors [deg], of ``post`` the efficiency factor.
+    Of ``row`` the axes of anchors [deg]; the profile has the efficiency of ``post``.
     """
     axes = {key: row.pop(key) for key in AXES if key in row}
     bare = {key: value for key, value in post.items() if key != "eta"}
@@ -114,9 +115,6 @@ def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
     site = read_site(path)
     (given,) = site.rows
     changed = {
-        "resistances": tuple(
-            set_efficiency(one, post.get("eta", 1.0)) for one in given.resistances
-        ),
         "axes": tuple((AXES[key], math.radians(angle)) for key, angle in axes.items())
         or given.axes,
         "panels": (),
@@ -140,12 +138,13 @@ AXES = {
 }
 
 
-def set_efficiency(resistance, eta):
-    """Resistance of a post that so many times its width of snow presses on."""
-    if resistance.mode != "compression_bending" or resistance.dimensions is None:
-        return resistance
-    dimensions = replace(resistance.dimensions, efficiency=eta)
-    return replace(resistance, dimensions=dimensions)
+def set_efficiency(standard, eta):
+    """Profile by which snow presses on so many times a post's width; None: its own."""
+    if eta is None:
+        return standard
+    fixed = {"post.efficiency": eta, "post.efficiency.per_glide": 0.0}
+    values = (replace(x, value=fixed.get(x.id, x.value)) for x in standard.values)
+    return replace(standard, values=tuple(values))
 
 
 def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):

@@ -17,7 +17,14 @@ from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
-from tests.checks.given_pulls import POST, find_second, judge_row, read_row, study_row
+from tests.checks.given_pulls import (
+    POST,
+    find_second,
+    judge_row,
+    read_row,
+    set_efficiency,
+    study_row,
+)
 
 SECOND = find_second(0.5)
 
@@ -467,7 +474,8 @@ def test_an_end_effect_that_reaches_the_second_post_presses_it(
     (row,), law = site.rows, BOUTILLIER_2004
     (given,) = (one for one in row.resistances if one.mode == "compression_bending")
     width = LoadedWidth(position=position, width=3.5, end_factor=2.5, end_length=length)
-    basis = Basis(site=site, row=row, standard=load_standard(SWISS), law=law)
+    standard = set_efficiency(load_standard(SWISS), 1.0)
+    basis = Basis(site=site, row=row, standard=standard, law=law)
     found = find_post_resistance(given, given.dimensions, basis, width)
     assert found.derivation.arguments["efficiency"] == pytest.approx(used)
 
