@@ -1,4 +1,4 @@
-"""Post: strut hinged at both ends, with snow against it, and its plate on ground."""
+"""Post: strut hinged at both ends, with snow against it."""
 
 from __future__ import annotations
 
@@ -77,73 +77,6 @@ def compute_buckling_resistance(
         reduction=reduction,
         value=reduction * area * yield_strength,
     )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BasePlate:
-    """Plate of a post on ground.
-
-    Attributes
-    ----------
-    length, width : float
-        Of the plate [m].
-    stress : float
-        Characteristic bearing resistance of the ground to a load across it [Pa].
-    """
-
-    length: float
-    width: float
-    stress: float
-
-    def __post_init__(self) -> None:
-        """Refuse impossible numbers."""
-        require_within("plate length", self.length, 0.05, 5.0, "m")
-        require_within("plate width", self.width, 0.05, 5.0, "m")
-        require_positive("bearing stress", self.stress, "Pa")
-
-
-def find_inclination_factor(plate: BasePlate, tilt: float) -> float:
-    """Share of a plate's resistance under a load that leans, i_gamma; (R6a).
-
-    Parameters
-    ----------
-    plate : BasePlate
-        On the ground.
-    tilt : float
-        Force along the slope over that across it, uphill [-].
-
-    Returns
-    -------
-    float
-        0 where the load leans by 45 degrees and more.
-
-    Verified by
-    -----------
-    tests/verification/test_members_by_hand.py
-    """
-    require_within("tilt of the load", tilt, 0.0, 10.0)
-    ratio = min(plate.length, plate.width) / max(plate.length, plate.width)
-    power = (2.0 + ratio) / (1.0 + ratio)
-    return float(max(0.0, 1.0 - tilt) ** (power + 1.0))
-
-
-def compute_bearing_resistance(plate: BasePlate, tilt: float = 0.0) -> float:
-    """Resistance of the ground under a base plate; resistance/THEORY.md, (R6), (R6a).
-
-    Parameters
-    ----------
-    plate : BasePlate
-        On the ground.
-    tilt : float
-        As that of `find_inclination_factor`; 0 of a load across the plate.
-
-    Returns
-    -------
-    float
-        Against the post's force across the plate [N].
-    """
-    across = plate.length * plate.width * plate.stress
-    return find_inclination_factor(plate, tilt) * across
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

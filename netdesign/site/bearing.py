@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from netdesign.checks import GivenResistance
 from netdesign.resistance.ground import AnchorType, Bond
-from netdesign.resistance.post import BasePlate, PostSection
+from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import Link, Wear
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.splay import EndGuy
@@ -23,7 +23,7 @@ class Resistance(GivenResistance):
 
     member: Member | EndMember | NetPart
     derivation: Message | None = None  # how it follows from dimensions
-    dimensions: AnchorType | PostSection | BasePlate | Link | float | None = None
+    dimensions: AnchorType | PostSection | Link | float | None = None
     buckling_length: float | None = None  # of a post, with which it was computed [m]
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown

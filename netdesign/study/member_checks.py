@@ -41,7 +41,6 @@ FOOT_LOOSE, LOOSE_LIFTS = say("check.foot_loose"), say("check.loose_foot_lifts")
 # A post of which the snow's moment leaves nothing for its force; ground that slides
 UNBOUNDED = (
     *("post_bending.too_much", "wedge.slab", "direction.rope_beyond"),
-    "bearing.too_far",
     LOOSE_LIFTS.key,
 )
 

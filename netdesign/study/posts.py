@@ -1,6 +1,6 @@
 """Posts of a row: compression beside the snow that presses on them, and the ground.
 
-Theory: resistance/THEORY.md, (R5), (R6a) and (R10) to (R11b).
+Theory: resistance/THEORY.md, (R5) and (R10) to (R11b).
 """
 
 from __future__ import annotations
@@ -26,12 +26,9 @@ from netdesign.guideline.load_model import (
 )
 from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
-    BasePlate,
     PostSection,
-    compute_bearing_resistance,
     compute_bent_post_resistance,
     compute_post_moment,
-    find_inclination_factor,
 )
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.row_position import LoadedWidth
@@ -71,33 +68,6 @@ def find_short_post(resistance: Resistance, basis: Basis) -> Message | None:
         length=resistance.buckling_length,
         post=longest,
     )
-
-
-def find_plate_resistance(
-    resistance: Resistance, plate: BasePlate, basis: Basis
-) -> Resistance:
-    """Bearing resistance of the ground to a post's force, which leans; (R6a).
-
-    Uphill, since the post's head is downslope of its base. A load that leans downhill
-    fails towards the slope's free side: nothing is known of it but that it bears no
-    more than level ground does under a load across the plate.
-    """
-    span = basis.site.ranges["inclination"]
-    heads = [place_row(basis.row, inclination) for inclination in (span.low, span.high)]
-    tilts = [(head.head[0] - head.post_base[0]) / head.head[1] for head in heads]
-    if min(tilts) < 0.0:
-        return replace(resistance, open=say("bearing.downhill"))
-    factor = find_inclination_factor(plate, max(tilts))
-    derivation = say(
-        "bearing.inclined",
-        of=resistance.derivation or "",
-        factor=factor,
-        tilt=degree_from_radian(math.atan(max(tilts))),
-    )
-    if not factor:
-        return replace(resistance, value=None, lack=say("bearing.too_far"))
-    value = compute_bearing_resistance(plate, max(tilts))
-    return replace(resistance, value=value, derivation=derivation)
 
 
 def find_post_resistance(

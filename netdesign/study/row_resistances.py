@@ -31,7 +31,7 @@ from netdesign.resistance.ground import (
     Soil,
     compute_steel_bond,
 )
-from netdesign.resistance.post import BasePlate, PostSection
+from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
     BARE,
     SHACKLE,
@@ -53,7 +53,7 @@ from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.anchor_ground import find_ground_resistance
 from netdesign.study.case_records import PullRecord
 from netdesign.study.member_force import MemberForce
-from netdesign.study.posts import find_plate_resistance, find_post_resistance
+from netdesign.study.posts import find_post_resistance
 from netdesign.study.row_to_check import Basis
 from netdesign.units import (
     degree_from_radian,
@@ -89,8 +89,6 @@ def find_resistance_for_force(
             return _find_bent_resistance(resistance, anchor, pull)
         case PostSection() as section:
             return find_post_resistance(resistance, section, basis, width)
-        case BasePlate() as plate:
-            return find_plate_resistance(resistance, plate, basis)
         case _:
             return resistance
 

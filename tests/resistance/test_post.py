@@ -1,13 +1,9 @@
-"""Buckling and bearing against hand calculations and limits."""
-
-from itertools import pairwise
+"""Buckling against hand calculations and limits."""
 
 import pytest
 
 from netdesign.resistance.catalogue import find_imperfection
 from netdesign.resistance.post import (
-    BasePlate,
-    compute_bearing_resistance,
     compute_buckling_resistance,
 )
 
@@ -54,20 +50,3 @@ def test_slender_post_tends_to_eulers_load():
 def test_imperfection_grows_from_curve_to_curve(curve, factor):
     datum = find_imperfection(curve)
     assert (datum.value, datum.status) == (factor, "assumed")
-
-
-def test_plate_on_ground():
-    plate = BasePlate(length=0.5, width=0.4, stress=600e3)
-    assert compute_bearing_resistance(plate) == pytest.approx(120e3, rel=1e-15)
-
-
-def test_a_plate_bears_less_the_more_its_load_leans_without_a_jump():
-    for sides in ((0.5, 0.5), (0.3, 0.9), (0.9, 0.3)):
-        plate = BasePlate(length=sides[0], width=sides[1], stress=600e3)
-        found = [
-            compute_bearing_resistance(plate, 1.2 * step / 400) for step in range(401)
-        ]
-        steps = [one - two for one, two in pairwise(found)]
-        assert min(steps) >= 0.0
-        assert max(steps) < 0.01 * found[0]
-        assert found[-1] == 0.0

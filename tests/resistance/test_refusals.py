@@ -10,12 +10,10 @@ from netdesign.resistance.ground import (
     compute_pull_out_from_bond,
 )
 from netdesign.resistance.post import (
-    BasePlate,
     PostSection,
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
-    find_inclination_factor,
 )
 from netdesign.resistance.steel import (
     RoundSection,
@@ -42,7 +40,6 @@ BUCKLING = {
     "modulus": 2.1e11,
     "imperfection": 0.49,
 }
-PLATE = {"length": 0.37, "width": 0.29, "stress": 4.1e5}
 BOND = {
     "drill_diameter": 0.09,
     "bond_length": 3.1,
@@ -67,10 +64,6 @@ def bend(**changes):
     return compute_bent_bar_resistance(SECTION, **changes)
 
 
-def lean(**changes):
-    return find_inclination_factor(BasePlate(**PLATE), **changes)
-
-
 def press(**changes):
     return compute_post_moment(PostSection(**POST), **changes)
 
@@ -82,9 +75,6 @@ def bend_post(**changes):
 WITHIN = [
     (compute_buckling_resistance, BUCKLING, "yield_strength", 1e8, 1e9, " Pa"),
     (compute_buckling_resistance, BUCKLING, "imperfection", 0.0, 1.0, ""),
-    (BasePlate, PLATE, "length", 0.05, 5.0, " m"),
-    (BasePlate, PLATE, "width", 0.05, 5.0, " m"),
-    (lean, {"tilt": 0.31}, "tilt", 0.0, 10.0, ""),
     (PostSection, POST, "width", 0.01, 1.0, " m"),
     (PostSection, POST, "at_head", 0.0, 1.0, " m"),
     (PostSection, POST, "at_foot", 0.0, 1.0, " m"),
@@ -109,7 +99,6 @@ POSITIVE = [
     (compute_buckling_resistance, BUCKLING, "second_moment", " m4"),
     (compute_buckling_resistance, BUCKLING, "length", " m"),
     (compute_buckling_resistance, BUCKLING, "modulus", " Pa"),
-    (BasePlate, PLATE, "stress", " Pa"),
     (PostSection, POST, "length", " m"),
     (PostSection, POST, "modulus", " m3"),
     (PostSection, POST, "strength", " Pa"),
@@ -123,10 +112,6 @@ NAMES = {
     (compute_buckling_resistance, "second_moment"): "second moment of area",
     (compute_buckling_resistance, "length"): "buckling length",
     (compute_buckling_resistance, "imperfection"): "imperfection factor",
-    (BasePlate, "length"): "plate length",
-    (BasePlate, "width"): "plate width",
-    (BasePlate, "stress"): "bearing stress",
-    (lean, "tilt"): "tilt of the load",
     (PostSection, "width"): "post width",
     (PostSection, "length"): "buckling length",
     (PostSection, "modulus"): "section modulus",

@@ -12,9 +12,7 @@ import pytest
 from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import resist_by_friction
 from netdesign.resistance.post import (
-    BasePlate,
     PostSection,
-    compute_bearing_resistance,
     compute_bent_post_resistance,
     compute_buckling_resistance,
     compute_post_moment,
@@ -348,27 +346,6 @@ def test_efficiency_by_the_glide_factor():
     for row, told in zip(ROWS, (0.511, 0.691, 1.331), strict=True):
         eta = 1.0 + 2.0 * (ROWS[row][8] - 1.2)
         assert use_post(row, eta, 0.0, 0.0) == pytest.approx(told, abs=6e-4)
-
-
-@pytest.mark.parametrize(
-    ("tilt", "i_q", "i_gamma"),
-    [(10, 0.748, 0.616), (15, 0.626, 0.459), (20, 0.507, 0.323)],
-)
-def test_a_square_plate_under_a_post_that_leans(tilt, i_q, i_gamma):
-    """EN 1997-1 D.4, c' = 0, m = 1.5: 1 - tan 15 = 0.73205; ^1.5 0.626, ^2.5 0.459."""
-    plate = BasePlate(length=0.5, width=0.5, stress=600e3)
-    along = math.tan(math.radians(tilt))
-    assert (1.0 - along) ** 1.5 == pytest.approx(i_q, abs=6e-4)
-    found = compute_bearing_resistance(plate, along)
-    assert found / 150e3 == pytest.approx(i_gamma, abs=6e-4)
-
-
-def test_a_long_plate_has_the_larger_power_either_way():
-    """0.3 x 0.6 m: m = 2.5 / 1.5 = 1.6667, 0.73205^2.6667 = 0.4353."""
-    for sides in ((0.3, 0.6), (0.6, 0.3)):
-        plate = BasePlate(length=sides[0], width=sides[1], stress=1e6)
-        found = compute_bearing_resistance(plate, math.tan(math.radians(15.0)))
-        assert found == pytest.approx(0.18e6 * 0.4353, rel=1e-3)
 
 
 def test_sliding_of_a_base_plate():
