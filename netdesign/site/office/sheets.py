@@ -55,16 +55,21 @@ def is_read(name: str) -> bool:
 
 
 def is_old(workbook: Workbook) -> bool:
-    """A workbook is of version 0.1: its sheet Nets has headings of the template."""
+    """A workbook is of version 0.1: its sheet Nets has headings of the template.
+
+    An office's own list has others: those that the columns are read by besides.
+    """
     rows, nets = load_plan("rows"), load_old_plans()[NETS.name]
     own = next(one.names for one in rows.fields if one.key == "net_type")
+    named = (names[:1] for one in nets.fields for names in one.headings.values())
+    template = {split_heading(name)[0] for names in named for name in names}
     is_found = False
     for sheet in workbook.sheets:
         start = _find_start(sheet, nets)
         headings = _list_headings(sheet, start)
         if rows.matches(sheet.name) and not own.isdisjoint(headings):
             return False
-        known = _count_known(headings, nets)
+        known = sum(one in template for one in headings)
         is_template = _LEAST_OLD <= known >= len(headings) / 2
         is_found = is_found or (nets.matches(sheet.name) and is_template)
     return is_found
