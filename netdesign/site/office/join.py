@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import SNOW
+from netdesign.site.columns.all_tables import ROPES, SNOW, TESTS
 from netdesign.site.content import Content
 from netdesign.site.lines import (
     Lines,
@@ -39,8 +39,6 @@ from netdesign.site.office.types import (
     join_anchors,
     join_links,
     join_posts,
-    join_ropes,
-    join_tests,
     list_dips,
     list_end_types,
     list_ids,
@@ -199,7 +197,7 @@ def _collect(
     snow: LayersByRow,
     findings: list[Finding],
 ) -> Lines:
-    tests = join_tests(lines["tests"])
+    tests = [take(TESTS, one) for one in lines["tests"]]
     anchors = join_anchors(lines["anchor_types"], tests, lines["soils"], project)
     if tests:
         anchors = count_in_tests(anchors, tests, findings)
@@ -211,7 +209,7 @@ def _collect(
     posts = join_posts(lines["posts"], project, lines["net_types"], findings)
     of_types = {
         "Anchors": _check_anchors(name_by_ground(anchors), findings),
-        "Ropes": _check_ropes(join_ropes(lines["ropes"]), findings),
+        "Ropes": _check_ropes(lines["ropes"], findings),
         "Posts": posts,
     }
     found = {sheet: tables.tables[block] for sheet, block in _BLOCKS.items()}
@@ -249,6 +247,7 @@ def _check_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:
 
 
 def _check_ropes(lines: Sequence[Row], findings: list[Finding]) -> Sequence[Row]:
-    for line in lines:
-        check_ends(line, findings)
-    return lines
+    ropes = [take(ROPES, line) for line in lines]
+    for rope in ropes:
+        check_ends(rope, findings)
+    return ropes

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from netdesign.resistance.products import find_bar
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS, ROPES, TESTS
+from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS
 from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si
 from netdesign.site.readings import Reading, Row, read_nothing
 from netdesign.site.type_lines import fill_in_section, name_values
@@ -164,16 +164,6 @@ def fill_in_anchor(row: Row, findings: list[Finding]) -> Row:
         if field.bounds[0] <= strength <= field.bounds[1]:
             return {**row, "bar_strength": work_out(force, field, strength, how)}
     return row
-
-
-def join_tests(lines: Sequence[Row]) -> list[Row]:
-    """Lines of sheet Tests."""
-    return [take(TESTS, line) for line in lines]
-
-
-def join_ropes(lines: Sequence[Row]) -> list[Row]:
-    """Lines of sheet Ropes."""
-    return [take(ROPES, line) for line in lines]
 
 
 def join_posts(
