@@ -153,6 +153,8 @@ def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):
     if "strength" in kind:  # [MPa], of a bar
         area = math.pi / 4.0 * kind["bar_diameter"] ** 2
         kind["tendon"] = kind.pop("strength") * area / 1e3
+        if kind.get("kind") == "rope anchor":
+            del kind["bar_diameter"]  # a bar's alone
     if "test_count" in kind:
         kind["proven"] = "tests"
     kind = ANCHOR | kind

@@ -206,20 +206,18 @@ def _collect(
     }
     rows = place_in_ground(rows, anchors, grounds, findings)
     ends = place_in_ground(ends, anchors, grounds, findings)
-    posts = join_posts(lines["posts"], project, lines["net_types"], findings)
     of_types = {
         "Anchors": _check_anchors(name_by_ground(anchors), findings),
         "Ropes": _check_ropes(lines["ropes"], findings),
-        "Posts": posts,
+        "Posts": join_posts(lines["posts"], project, lines["net_types"], findings),
     }
     found = {sheet: tables.tables[block] for sheet, block in _BLOCKS.items()}
-    accepted = say("nets.ids_once")
     joined = Lines(
         nets=rows,
         ends={end["row"].word: end for end in ends},
         snow=snow,
         types={
-            sheet: index_lines(of, "id", accepted, findings) if found[sheet] else {}
+            sheet: _index_types(of, findings) if found[sheet] else {}
             for sheet, of in of_types.items()
         },
         absent=[
@@ -234,6 +232,10 @@ def _collect(
     for of_row in snow.values():
         refuse_unknown_ids([of_row[0]["row"]], joined.places, findings)
     return joined
+
+
+def _index_types(lines: Sequence[Row], findings: list[Finding]) -> Mapping[str, Row]:
+    return index_lines(lines, "id", say("nets.ids_once"), findings)
 
 
 def _check_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:

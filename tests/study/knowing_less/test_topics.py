@@ -47,5 +47,14 @@ def test_a_topic_more_never_makes_anything_better(tmp_path, seed):
             for check in some.checks:
                 # a second support that the end's check covers is told there
                 names = [check.id] if check.id in checks else list_alike(check)
-                told = [ORDER.index(checks[x].verdict) for x in names if x in checks]
+                alike = [checks[x] for x in names if x in checks]
+                if all(map(has_no_steel, alike)):
+                    continue
+                told = [ORDER.index(one.verdict) for one in alike]
                 assert min(told) <= ORDER.index(check.verdict), check.id
+
+
+def has_no_steel(check):
+    """Whether nothing is known to be left of the steel: no number that could fail."""
+    keys = {one.message.key for one in check.open}
+    return check.utilisation is None and "corrosion.lacks" in keys
