@@ -1,34 +1,26 @@
-"""Lists as offices send them, and untidy sites: verdicts under four profiles.
+"""Lists as offices send them, and drawn sites: verdicts under four profiles.
 
-`lists/` holds eight lists with the answers that they were read by, and ten drawn
-variants of them (columns moved and renamed, other units, sums between). Ten drawn sites
-more have tests one by one, and rows that others go on into. A list that the reader
-needs another answer for, gets that in its file of answers; its verdicts stay.
+Five lists of offices (German, French, English; xlsx and csv), by their answered
+headings alone; ten drawn sites have tests one by one, and rows that others go on into.
 """
 
 import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from tests.golden.compare import tell_differences
-from tests.golden.drawn import (
-    HERE,
-    PROFILES,
-    load,
-    read_drawn,
-    solve_and_judge,
-    store,
-)
+from tests.golden.drawn import PROFILES, load, read_drawn, solve_and_judge, store
 from tests.golden.places import flatten, state_verdicts
+from tests.site.lists.answer import answer_list
+from tests.site.lists.offices import OFFICES
 
-LISTS = HERE / "lists"
 ROWS = 2  # of each site
+LISTS = {office.file: office for office in OFFICES}
 
 
 def compare_lists():
-    """G3: verdicts of eight lists and twenty untidy sites under four profiles."""
+    """G3: verdicts of five lists and ten drawn sites under four profiles."""
     stored = load("lists")
     return [line for name in stored for line in compare_list(name, stored[name])]
 
@@ -39,21 +31,20 @@ def compare_list(name, then):
 
 def judge_list(name):
     """Forces, utilisations and verdicts of a list by profile and place."""
-    try:
-        site = read_list(name)
-    except SiteDataError as refused:
-        return {"/refused": str(refused).partition("\n")[0]}
-    site = replace(site, rows=site.rows[:ROWS])
-    documents = solve_and_judge(site, PROFILES)
+    site = read_list(name)
+    documents = solve_and_judge(replace(site, rows=site.rows[:ROWS]), PROFILES)
     return flatten(dict(zip(PROFILES, map(state_verdicts, documents), strict=True)))
 
 
 def read_list(name):
-    if (path := LISTS / f"{name}.xlsx").is_file():
-        return read_site(path)
     with tempfile.TemporaryDirectory() as folder:
-        return read_drawn(Path(folder) / "site.xlsx", load("lines")[name])
+        if name not in LISTS:
+            return read_drawn(Path(folder) / "site.xlsx", load("lines")[name])
+        path = LISTS[name].write(Path(folder))
+        answer_list(LISTS[name], path)
+        return read_site(path)
 
 
 def store_lists():
-    store("lists", {name: judge_list(name) for name in load("lists")})
+    drawn = [name for name in load("lines") if name.startswith("drawn")]
+    store("lists", {name: judge_list(name) for name in (*LISTS, *drawn)})
