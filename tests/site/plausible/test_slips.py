@@ -24,6 +24,7 @@ from tests.small_site import RUN
 pytestmark = pytest.mark.slow
 MOST, MOST_BETTER = 0.05, 0.005
 LIKE = "swapped with the next line"
+SNOW_AND_N = {"Rows!C", "Rows!D"}
 RANK = {Verdict.FAIL: 0, Verdict.NOT_PROVEN: 0, Verdict.DECLARED: 1, Verdict.PASS: 2}
 
 
@@ -80,9 +81,16 @@ def is_better(study, before):
 
 
 def test_no_slip_that_is_read_without_a_word_helps(measure):
-    """But for numbers of like rows that are swapped: one of the rows gains by it."""
+    """But for numbers that nothing tells apart, and one of which gains by it.
+
+    Those of like rows; snow height [m] and N of a row, which stand side by side.
+    """
     path, slips, unread = measure(3)
     before = judge(path, {})
     better = [one for one in unread if is_better(judge(path, one.instead), before)]
-    told = [one for one in better if one.kind != LIKE]
+    told = [one for one in better if one.kind != LIKE and not is_snow_for_n(one)]
     assert len(told) <= MOST_BETTER * len(slips), told
+
+
+def is_snow_for_n(slip):
+    return {place.rstrip("0123456789") for place in slip.instead} == SNOW_AND_N
