@@ -25,7 +25,6 @@ COMMANDS = {
     "summary": "report out/study.json --out c --annexes",
     "table": "table site.xlsx --study out/study.json",
     "diff": "diff out/study.json b/what-if-study.json",
-    "map": "map site.xlsx",
     "refused": "check refused.xlsx --annotate marked.xlsx",
 }
 

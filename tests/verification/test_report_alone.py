@@ -193,9 +193,10 @@ def test_the_decision_stands_on_the_first_page(twelve, tmp_path, language):
 
 @pytest.mark.long
 def test_no_page_but_the_last_is_three_quarters_empty(twelve, tmp_path):
-    shares = measure_pages(render_html(twelve, "fr"), tmp_path)
-    assert len(shares) > 8
-    assert min(shares[:-1]) > 0.25
+    """Nor that of the signatures, for which twelve rows leave no room on page 1."""
+    first, _, *shares = measure_pages(render_html(twelve, "fr"), tmp_path)
+    assert len(shares) > 6
+    assert min(first, *shares[:-1]) > 0.25
 
 
 @pytest.mark.long

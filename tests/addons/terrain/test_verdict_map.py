@@ -76,7 +76,7 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
         "--quiet",
     )
     checked = call("check", site, "--out", tmp_path, *options)
-    assert checked.code == 1, checked.err  # A1 fails with the types of the example
+    assert checked.code == 4, checked.err  # no part of the structure is typed
     rows, out = tmp_path / "rows.geojson", tmp_path / "checked.geojson"
     ended = call("terrain", "--verdicts", study, "--rows", rows, "--out", out)
     assert ended.code == 0, ended.err
@@ -97,7 +97,8 @@ def test_verdicts_of_a_study_stand_on_the_map(tmp_path, call):
     sideways = [
         one for one in anchors if one["part"] in ("Lateral anchor", "End guy anchor")
     ]
-    assert len(sideways) == 4
+    # no cell says where the lateral anchors stand: a condition of the report
+    assert [one["part"] for one in sideways] == ["End guy anchor"] * 2
     of_guys = 2 * (count + 1)
     assert len(anchors) == count + of_guys + count_mid(anchors) + len(sideways)
     ordered = [one for one in stored["parts"] if one["part"] == "uphill_anchor"]
