@@ -20,6 +20,7 @@ NAMES = re.compile(
     r"|\b(?:[AB]|HEB)\d+-\w+|\bpiles-in-tension-da2\b"  # types of the example; a choice
     r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
     r"|\bTab\. "  # tables of standards
+    r"|\w+…"  # words for which a terminal has no room
     r"|\bsame Höhe|\bPlan\b"  # end of a divided German heading; a German word
     r"|(?i:\b(?:numpy|scipy|scikit-fem|python|example|six)\b)",  # programs, the example
     re.MULTILINE,
