@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import random
 from dataclasses import fields
 
 import pytest
@@ -11,6 +12,7 @@ from netdesign.structure.head import (
     MIN_GUY_ANGLE,
     HeadForces,
     compute_head_forces,
+    resolve_signed,
 )
 from netdesign.structure.layout import SupportPoints
 from tests.each import each
@@ -241,3 +243,18 @@ SIZES = [one.name for one in fields(HeadForces) if one.name != "reason"]
 def test_forces_with_a_wrong_sign_cannot_be_built(member, bad):
     with pytest.raises(ModelError, match="^" + member.replace("_", " ")):
         HeadForces(**(dict.fromkeys(SIZES, 1.0) | {member: bad}), reason="")
+
+
+@each("seed", range(20))
+def test_signed_post_and_guy_hold_a_pull_of_any_direction(seed):
+    """Their forces and the pull are in balance on the head."""
+    draw = random.Random(seed)
+    head, anchor = (draw.uniform(-1.0, 1.0), 3.0), (draw.uniform(2.0, 5.0), 0.1)
+    pull = (draw.uniform(-9e3, 9e3), draw.uniform(-9e3, 9e3))
+    compression, tension = resolve_signed(pull, head, (0.0, 0.0), anchor)
+    reach = math.dist(head, anchor), math.dist(head, (0.0, 0.0))
+    for axis in (0, 1):
+        to_anchor = (anchor[axis] - head[axis]) / reach[0]
+        to_base = -head[axis] / reach[1]
+        rest = pull[axis] + tension * to_anchor - compression * to_base
+        assert abs(rest) < 1e-9 * math.hypot(*pull)
