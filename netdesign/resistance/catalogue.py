@@ -53,20 +53,6 @@ def quote(table: str, value: float) -> Datum:
     return Datum(value=float(value), status=status, source=say(source))
 
 
-def find_bond_stress(
-    ground: str, grouting: str, *, ground_name: Message | str = ""
-) -> Datum:
-    """Least ultimate bond stress of grout on a ground [kPa], by type A to D.
-
-    A refusal calls the ground by its name where one is given, else by its key.
-    """
-    ranges = pick(say("catalogue.ground"), ground, load_catalogue()["bond"]["ground"])
-    types = {name: value for name, value in ranges.items() if name != "text"}
-    what = say("catalogue.grouting_in", ground=ground_name or ground)
-    least, _ = pick(what, grouting, types)
-    return quote("bond", least)
-
-
 def find_bond_span(ground: str = "") -> tuple[float, float]:
     """Least and largest ultimate bond stress on a ground [kPa], however it is grouted.
 
@@ -76,11 +62,6 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
     listed = [grounds[ground]] if ground in grounds else list(grounds.values())
     spans = [span for table in listed for key, span in table.items() if key != "text"]
     return float(min(low for low, _ in spans)), float(max(high for _, high in spans))
-
-
-def find_steel_bond() -> Datum:
-    """Design bond stress f_bd of ribbed steel in grout [MPa]."""
-    return quote("steel_bond", load_catalogue()["steel_bond"]["f_bd_MPa"])
 
 
 def find_rope_factor(construction: str, factor: str) -> Datum:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from netdesign.checks import GivenResistance
-from netdesign.resistance.ground import AnchorType, Bond
+from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import Link, Wear
 from netdesign.structure.members import EndMember, Member, NetPart
@@ -30,7 +30,6 @@ class Resistance(GivenResistance):
     wear: Wear | None = None  # of steel that corrodes
     # told where what is assumed decides: between value and best, or without a best
     open: Message | None = None
-    bond: Bond | None = None  # that a pull-out resistance was worked out from
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
     is_basis_assumed: bool = False  # nobody says how it is known: as computed
     may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve

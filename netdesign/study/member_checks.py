@@ -31,7 +31,6 @@ from netdesign.study.row_resistances import (
     find_resistance_for_force,
     resist,
     settle_basis,
-    shorten_bond,
 )
 from netdesign.study.row_to_check import Basis
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -244,7 +243,7 @@ def find_lasting(
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
     resistance, open_basis = settle_basis(resistance, basis.standard)
-    lasting, worn = corrode(shorten_bond(resistance, basis.standard), basis)
+    lasting, worn = corrode(resistance, basis)
     open_lasting = open_basis or worn
     if resistance.basis == BY_REPORT:
         open_lasting = open_lasting or say(

@@ -228,7 +228,7 @@ def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
 
 
 def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
-    """Anchor types whose tendon bears less than the ground holds: (R34) of theory."""
+    """Anchor types whose tendon bears less than the ground holds: EN 1997-1, 8.5.4."""
     by_type: dict[str, dict[str, float]] = {}
     for check in checks:
         design = check.read("R_d")

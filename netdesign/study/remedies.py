@@ -2,7 +2,7 @@
 
 Forces follow resistance and spacing in exact proportion: no case is solved. The type is
 the weakest one of the workbook that does, else the smallest part of the catalogue:
-bars, bonds, ropes and post sections, by size.
+bars, ropes and post sections, by size.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from netdesign.resistance.catalogue import (
     load_catalogue,
     load_products,
 )
-from netdesign.resistance.ground import Bond
 from netdesign.resistance.post import compute_buckling_resistance
 from netdesign.resistance.products import find_product
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
@@ -31,7 +30,7 @@ from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import PullRecord
 from netdesign.study.member_checks import MemberCheck, find_lasting
 from netdesign.study.posts import find_short_post
-from netdesign.study.row_resistances import corrode, shorten_bond
+from netdesign.study.row_resistances import corrode
 from netdesign.study.row_to_check import Basis
 from netdesign.study.scopes import CLOSE
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -200,8 +199,7 @@ def _find_enough_size(
     basis: Basis, resistance: Resistance, demand: float
 ) -> Size | None:
     """Smallest part of the catalogue that bears a design force [kN]."""
-    declared = "computed" if resistance.mode == "pull_out" else "declared"
-    factor = basis.standard.find_resistance_factor(resistance.mode, declared)
+    factor = basis.standard.find_resistance_factor(resistance.mode, "declared")
     needed = demand / _find_share(resistance)
     return find_size(resistance, needed * factor.value_si) if factor else None
 
@@ -242,7 +240,7 @@ def _list_enough(
         if other.mode != resistance.mode or not is_here:
             continue
         other = replace(other, member=resistance.member)
-        lasting, worn = corrode(shorten_bond(other, standard), basis)
+        lasting, worn = corrode(other, basis)
         if worn or find_short_post(other, basis):
             continue
         value = find_resistance(lasting, standard).value
@@ -271,7 +269,6 @@ def _record(
 _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
 _BAR_STRENGTH = 500.0  # of a bar without a given steel [MPa]
-_LONGEST_BOND = 10.0  # that counts [m]
 
 
 # A part of the catalogue: what it is, and its characteristic resistance [kN].
@@ -282,7 +279,7 @@ def find_size(resistance: Resistance, needed: float) -> Size | None:
     """Smallest part in the place of a type that bears a characteristic force [kN].
 
     None where the catalogue has none that bears it, or where the workbook does not say
-    what the part is made of: the ground of a bond, the section of a post.
+    what the part is made of, as the section of a post.
     """
     sizes = _BY_MODE.get(resistance.mode)
     parts = sizes(resistance) if sizes else iter(())
@@ -319,24 +316,6 @@ def _list_bars(resistance: Resistance) -> Iterator[Size]:
         value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
         part = say("change.bar", diameter=float(diameter), strength=strength)
         yield part, kilonewton_from_newton(value)
-
-
-def _list_bonds(resistance: Resistance) -> Iterator[Size]:
-    """Bond lengths by half metres, in the hole and ground of the type."""
-    how = _find_derivation(resistance, "derivation.bond")
-    if how is None or resistance.bond is None:
-        return
-    diameter = _take(how, "diameter")
-    per_metre = math.pi * diameter / 1e3 * _take(how, "stress")  # [kN/m]
-    for half in range(2, int(2 * _LONGEST_BOND) + 3):
-        bond = Bond(length=0.5 * half, free=resistance.bond.free, steel=None)
-        part = say(
-            "change.bond",
-            length=0.5 * half,
-            diameter=diameter,
-            ground=how.arguments["ground"],
-        )
-        yield part, bond.find_counted(_LONGEST_BOND) * per_metre
 
 
 def _list_sections(resistance: Resistance) -> Iterator[Size]:
@@ -388,6 +367,5 @@ def _take(how: Message, key: str) -> float:
 _BY_MODE: Mapping[str, Callable[[Resistance], Iterator[Size]]] = {
     "rope": _list_ropes,
     "tendon": _list_bars,
-    "pull_out": _list_bonds,
     "compression": _list_sections,
 }

@@ -12,24 +12,21 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from netdesign.calculation.quantity import Quantity, leaf
-from netdesign.checks import Standard, StandardValue
+from netdesign.checks import Standard
 from netdesign.checks.comparison import (
     find_action_factor,
     find_partial_factor,
     find_resistance,
-    lack_factor,
 )
 from netdesign.checks.forces import resist_by_friction
-from netdesign.checks.schema import LONGEST_BOND, ROPE_ANGLE
+from netdesign.checks.schema import ROPE_ANGLE
 from netdesign.outcome import ModelError
-from netdesign.resistance.catalogue import Datum, find_steel_bond
+from netdesign.resistance.catalogue import Datum
 from netdesign.resistance.ground import (
     BENDING,
     AnchorType,
-    Bond,
     PullOutTests,
     Soil,
-    compute_steel_bond,
 )
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
@@ -246,51 +243,6 @@ def settle_basis(
     value, best = ends
     undecided = say("check.basis_decides", name=name)
     return replace(worse, value=value, best=best, tests=None, open=undecided), None
-
-
-def shorten_bond(resistance: Resistance, standard: Standard) -> Resistance:
-    """Pull-out resistance of the bond that counts, in ground and grout; others as is.
-
-    Theory: resistance/THEORY.md, (R33) and (R34).
-    """
-    bond, longest = resistance.bond, standard.find(LONGEST_BOND)
-    factor = find_partial_factor(resistance, standard)
-    if bond is None or resistance.value is None or factor is None:
-        return resistance
-    if longest is None:
-        return replace(resistance, value=None, lack=lack_factor(LONGEST_BOND))
-    counted = bond.find_counted(longest.value)
-    if not counted:
-        lack = say("derivation.no_bond", length=bond.length)
-        return replace(resistance, value=None, lack=lack)
-    value, derivation = resistance.value * counted / bond.length, resistance.derivation
-    if counted < bond.length and derivation:
-        derivation = say(
-            "derivation.bond_counted",
-            of=derivation,
-            counted=counted,
-            length=bond.length,
-            longest=longest.value,
-        )
-    of_steel = math.inf
-    if bond.steel is not None:
-        of_steel = factor.value_si * compute_steel_bond(bond.steel, counted)
-    if of_steel < value:
-        value, derivation = of_steel, _describe_steel_bond(bond, counted, factor)
-    return replace(resistance, value=value, derivation=derivation)
-
-
-def _describe_steel_bond(bond: Bond, counted: float, factor: StandardValue) -> Message:
-    stress = find_steel_bond()
-    origin = {"status": name("status", stress.status), "source": stress.source}
-    return say(
-        "derivation.bond_of_steel",
-        factor=factor.value_si,
-        diameter=1e3 * (bond.steel or 0.0),
-        counted=counted,
-        stress=stress.value,
-        origin=say("derivation.origin", **origin),
-    )
 
 
 def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Quantity:

@@ -4,7 +4,6 @@ import pytest
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
-    find_bond_stress,
     find_imperfection,
     find_rope_factor,
     find_termination,
@@ -17,8 +16,6 @@ from tests.each import each
 @each(
     "find, given, told",
     [
-        (find_bond_stress, ("gravle", "A"), "ground = 'gravle': must be one of "),
-        (find_bond_stress, ("gravel", "F"), "grouting in gravel = 'F': must be "),
         (find_rope_factor, ("6x91", "K"), "rope construction = '6x91': must be "),
         (find_rope_factor, ("6x19-FC", "Q"), "rope factor = 'Q': must be one of "),
         (find_termination, ("spelters",), "termination = 'spelters': must be one of "),
@@ -31,28 +28,22 @@ def test_an_unknown_name_is_refused_by_what_it_names(find, given, told):
     assert str(refused.value).startswith(told)
 
 
-def test_a_ground_is_called_by_its_name_where_it_has_one():
-    with pytest.raises(ModelError, match="grouting in loose gravel = 'F'"):
-        find_bond_stress("gravel", "F", ground_name="loose gravel")
-
-
 def test_a_refusal_names_the_two_nearest_or_none():
     known = {"alpha1": 1, "alpha2": 2, "alpha3": 3}
     with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.ground"), "alpha4", known)
+        pick(say("catalogue.rope_factor"), "alpha4", known)
     message = refused.value.message
     nearest = message.arguments["nearest"]
     assert nearest.arguments["near"] == ("alpha3", "alpha2")
     assert message.arguments["accepted"] == tuple(known)
     with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.ground"), "zzz", known)
+        pick(say("catalogue.rope_factor"), "zzz", known)
     assert refused.value.message.arguments["nearest"] == ""
 
 
 @pytest.mark.parametrize(
     ("find", "given", "source"),
     [
-        (find_bond_stress, ("gravel", "A"), "bond"),
         (find_rope_factor, ("6x19-FC", "K"), "rope"),
         (find_termination, ("spelter",), "termination"),
         (find_imperfection, ("b",), "buckling"),

@@ -4,33 +4,7 @@ import pytest
 
 from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import resist_by_friction, resist_by_tests
-from netdesign.resistance.catalogue import find_bond_stress
-from netdesign.resistance.ground import (
-    compute_pull_out_from_bond,
-)
 from tests.each import each
-
-
-@pytest.mark.parametrize(
-    ("length", "stress_kPa", "expected_kN"),
-    [(3.0, 95.0, 80.6), (3.0, 265.0, 224.8), (4.0, 1035.0, 1171.0)],
-)
-def test_bond_of_a_90_mm_hole(length, stress_kPa, expected_kN):
-    """The three examples of the collection of standards, section 4.2."""
-    found = compute_pull_out_from_bond(
-        drill_diameter=0.090, bond_length=length, bond_stress=1e3 * stress_kPa
-    )
-    assert found / 1e3 == pytest.approx(expected_kN, abs=0.5)
-
-
-def test_enlargement_multiplies_the_diameter():
-    plain = compute_pull_out_from_bond(
-        drill_diameter=0.1, bond_length=3.0, bond_stress=1e5
-    )
-    wide = compute_pull_out_from_bond(
-        drill_diameter=0.1, bond_length=3.0, bond_stress=1e5, enlargement=1.3
-    )
-    assert wide == pytest.approx(1.3 * plain, rel=1e-15)
 
 
 def correlate(*, mean, on_mean, least, on_least):
@@ -52,12 +26,6 @@ def test_mean_governs_where_its_factor_is_the_larger():
     """Three tests within 5 %: 315 / 1.20 = 262.5 against 300 / 1.05 = 285.7."""
     found = correlate(mean=315.0, on_mean=1.20, least=300.0, on_least=1.05)
     assert found == pytest.approx(262.5, rel=1e-15)
-
-
-def test_catalogue_gives_the_least_of_a_range_with_its_source():
-    stress = find_bond_stress("gravel", "A")
-    assert (stress.value, stress.status) == (95.0, "secondary")
-    assert "FHWA" in str(stress.source)
 
 
 @each("factor", [0.0, -1.2, -1e-9])

@@ -7,7 +7,6 @@ import pytest
 from netdesign.outcome import ModelError
 from netdesign.resistance.ground import (
     PullOutTests,
-    compute_pull_out_from_bond,
 )
 from netdesign.resistance.post import (
     PostSection,
@@ -39,12 +38,6 @@ BUCKLING = {
     "yield_strength": 2.35e8,
     "modulus": 2.1e11,
     "imperfection": 0.49,
-}
-BOND = {
-    "drill_diameter": 0.09,
-    "bond_length": 3.1,
-    "bond_stress": 9.5e4,
-    "enlargement": 1.1,
 }
 ROPE = {
     "diameter": 0.0183,
@@ -81,9 +74,6 @@ WITHIN = [
     (press, SNOW, "efficiency", 0.1, 50.0, ""),
     (bend_post, MOMENT, "moment", 0.0, math.inf, " N m"),
     (bend_post, MOMENT, "partial_factor", 0.1, 10.0, ""),
-    (compute_pull_out_from_bond, BOND, "drill_diameter", 0.02, 0.5, " m"),
-    (compute_pull_out_from_bond, BOND, "bond_length", 0.5, 30.0, " m"),
-    (compute_pull_out_from_bond, BOND, "enlargement", 1.0, 2.0, ""),
     (RoundSection, BAR, "outer", 0.005, 0.2, " m"),
     (RoundSection, TUBE, "inner", 0.0, 0.98 * 0.0317, " m"),
     (RoundSection, BAR, "strength", 1e8, 2.5e9, " Pa"),
@@ -105,7 +95,6 @@ POSITIVE = [
     (PostSection, POST, "critical", " N"),
     (PostSection, POST, "buckling", " N"),
     (press, SNOW, "pressure", " Pa"),
-    (compute_pull_out_from_bond, BOND, "bond_stress", " Pa"),
 ]
 # Names in refusals, where they are not those of the argument.
 NAMES = {

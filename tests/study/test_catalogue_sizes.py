@@ -5,7 +5,6 @@ import random
 
 import pytest
 
-from netdesign.resistance.ground import Bond
 from netdesign.site.model import Resistance
 from netdesign.study.remedies import find_size
 from netdesign.words.catalogue import LANGUAGES, render
@@ -13,15 +12,6 @@ from netdesign.words.message import say
 from tests.each import each
 
 BAR = say("derivation.bar", diameter=25.0, strength=670.0)
-BOND = say(
-    "derivation.bond",
-    diameter=90.0,
-    length=3.0,
-    stress=120.0,
-    ground=say("choice.ground.scree"),
-    grouting="B",
-    origin="",
-)
 BUCKLING = say(
     "derivation.buckling",
     **{"reduction": 0.5, "area": 34.0, "strength": 235.0, "slenderness": 1.0},
@@ -30,7 +20,7 @@ BUCKLING = say(
 )
 
 
-def build(mode, derivation=None, type_id="HEB 120", free=0.0):
+def build(mode, derivation=None, type_id="HEB 120"):
     return Resistance(
         member="foot_anchor",
         mode=mode,
@@ -38,7 +28,6 @@ def build(mode, derivation=None, type_id="HEB 120", free=0.0):
         value=1e5,
         type_id=type_id,
         derivation=derivation,
-        bond=None if mode != "pull_out" else Bond(length=3.0, free=free, steel=None),
     )
 
 
@@ -53,25 +42,6 @@ def test_a_bar_is_the_next_of_the_catalogue_of_its_steel():
         smaller = find_size(build("tendon", BAR), 0.6 * needed)
         assert smaller[1] <= found[1]
     assert find_size(build("tendon", BAR), 5000.0) is None
-
-
-@each("free", [0.0, 0.43, 1.7])
-def test_a_bond_has_the_half_metre_that_bears_the_force(free):
-    """Its part in the first metre from the mouth does not count, nor beyond 10 m."""
-    rng = random.Random(12)
-    per_metre = math.pi * 0.09 * 120.0
-    lost = max(1.0 - free, 0.0)
-    for _ in range(40):
-        needed = rng.uniform(40.0, 9.9 * per_metre)
-        found = find_size(build("pull_out", BOND, free=free), needed)
-        length = found[0].arguments["length"]
-        counted = needed / per_metre
-        least = math.ceil(2.0 * (counted + lost) - 1e-9) / 2.0
-        assert length == pytest.approx(least)
-        assert found[1] == pytest.approx(min(length - lost, 10.0) * per_metre)
-    beyond = 10.1 * per_metre
-    assert find_size(build("pull_out", BOND, free=free), beyond) is None
-    assert find_size(build("pull_out", free=free), 10.0) is None  # no ground is known
 
 
 def test_a_section_stays_in_its_series():
@@ -91,7 +61,7 @@ def test_a_section_stays_in_its_series():
 @each("language", LANGUAGES)
 @each(
     "mode, how",
-    [("tendon", BAR), ("pull_out", BOND), ("compression", BUCKLING), ("rope", None)],
+    [("tendon", BAR), ("compression", BUCKLING), ("rope", None)],
 )
 def test_each_part_has_its_sentence(mode, how, language):
     found = find_size(build(mode, how), 120.0)

@@ -159,7 +159,7 @@ def test_a_pull_out_of_which_nobody_says_how_it_was_found_is_the_worse(solved, p
     standard, row = load_standard(profile), solved[0].rows[0]
 
     def use(basis):
-        value = {"value": 900e3, "tests": None, "basis": basis, "bond": None}
+        value = {"value": 900e3, "tests": None, "basis": basis}
         found = tuple(
             replace(x, **value)
             if (x.member, x.mode) == ("foot_anchor", "pull_out")

@@ -1,8 +1,6 @@
 """Strength of anchors against the second derivation of the statics, and by hand."""
 
-import math
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
 
@@ -10,13 +8,9 @@ from netdesign.checks import check_member, load_standard
 from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import (
-    Bond,
     PullOutTests,
-    compute_pull_out_from_bond,
-    compute_steel_bond,
     limit_proof_load,
 )
-from netdesign.study.row_resistances import shorten_bond
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 
@@ -94,71 +88,3 @@ def test_a_bar_that_yields_early_bounds_the_proof_load_by_its_yield():
     assert limit_proof_load(500.0, 650.0) == pytest.approx(475.0)
     at_bend = 500.0 * 0.95 / 0.80
     assert limit_proof_load(500.0, at_bend) == pytest.approx(475.0)
-
-
-def bonded(length, free=0.0, steel=None, **changes):
-    """Pull-out resistance of 90 mm in gravel, 95 kPa, and its bond."""
-    value = compute_pull_out_from_bond(
-        drill_diameter=0.09, bond_length=length, bond_stress=95e3
-    )
-    given = {"basis": "computed", "bond": Bond(length=length, free=free, steel=steel)}
-    return pull_out(**({"value": value} | given | changes))
-
-
-@each(
-    "length, free, resistance_kN",
-    [
-        (5.0, 1.0, 71.1),
-        (12.0, 1.0, 142.1),  # linear 170.5
-        (20.0, 1.0, 142.1),  # 284.2
-        (29.0, 3.0, 142.1),  # 412.1
-        (5.0, 0.0, 56.8),
-        (11.0, 0.0, 142.1),
-        (12.0, 0.0, 142.1),
-        (5.0, 0.5, 71.05 * 4.5 / 5.0),
-    ],
-)
-def test_bond_less_its_first_metre_and_no_more_than_ten(length, free, resistance_kN):
-    """Second derivation, over 1.89, the factor without a model factor."""
-    found = shorten_bond(bonded(length, free), load_standard("nf-p-95-304-style"))
-    assert found.value / 1e3 / 1.89 == pytest.approx(resistance_kN, abs=0.06)
-
-
-def test_bond_grows_with_its_length_without_a_step():
-    profile = load_standard("eurocode")
-    lengths = [1.01 + 0.01 * k for k in range(1500)]
-    found = [shorten_bond(bonded(one), profile).value for one in lengths]
-    steps = [after - before for before, after in pairwise(found)]
-    most = 95e3 * math.pi * 0.09 * 0.01
-    assert min(steps) >= -1e-6
-    assert max(steps) <= most * (1.0 + 1e-6)
-    freed = [shorten_bond(bonded(4.0, 0.1 * k), profile).value for k in range(15)]
-    assert freed == sorted(freed)
-    none = shorten_bond(bonded(0.9), profile)
-    assert none.value is None
-    assert "first metre" in str(none.lack)
-
-
-def test_bond_of_steel_and_grout():
-    """40 mm on 4 m: 1352 kN by design; less than the ground in granite alone."""
-    assert compute_steel_bond(0.04, 4.0) / 1e3 == pytest.approx(1352, rel=4e-3)  # 1357
-    by_hand = math.pi * 0.04 * 4.0 * 2.7e6
-    assert compute_steel_bond(0.04, 4.0) == pytest.approx(by_hand, rel=1e-12)
-    profile = load_standard("eurocode")
-    strong = bonded(4.0, 1.0, 0.016, value=2e6)
-    found = shorten_bond(strong, profile)
-    factor = profile.find("resistance.pull_out.computed").value
-    assert factor == pytest.approx(1.15 * 1.40 * 1.25)
-    by_steel = factor * math.pi * 0.016 * 4.0 * 2.7e6
-    assert found.value == pytest.approx(by_steel, rel=1e-12)
-    assert "bond of steel and grout" in str(found.derivation)
-    rope = shorten_bond(bonded(4.0, 1.0, None, value=2e6), profile)
-    assert rope.value == pytest.approx(2e6, rel=1e-12)
-
-
-def test_a_profile_without_a_longest_bond_proves_none():
-    profile = load_standard("eurocode")
-    kept = tuple(one for one in profile.values if one.id != "bond.length.max")
-    found = shorten_bond(bonded(4.0), replace(profile, values=kept))
-    assert found.value is None
-    assert "bond.length.max" in str(found.lack)
