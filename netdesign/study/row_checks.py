@@ -19,7 +19,9 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
+from netdesign.structure.splay import Guys
 from netdesign.study.anchor_ground import check_anchor_distance, check_cover
 from netdesign.study.best_ends import settle
 from netdesign.study.guideline_load import (
@@ -267,8 +269,13 @@ def _check_without_force(
 
 def _list_anchor_places(variants: Sequence[RowForces]) -> Sequence[RowForces]:
     """Variants whose anchors stand at different places, one of those that are alike."""
-    apart = {(each.row.layout, each.row.guys): each for each in reversed(variants)}
+    apart = {_place_anchors(each.row): each for each in reversed(variants)}
     return list(apart.values())
+
+
+def _place_anchors(row: NetRow) -> tuple[SupportLayout, Guys, float | None]:
+    end_guy = row.row_end.guy_angle if row.row_end else None
+    return row.layout, row.guys, end_guy
 
 
 def _take_gravest(checks: Iterable[Check]) -> Check:

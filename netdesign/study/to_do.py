@@ -212,11 +212,13 @@ def shorten_reason(reason: Message) -> Message:
 
 
 def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
-    """Name force and resistance, and the type that suffices where one is known."""
-    demand, resistance = check.read_band("E_d")[1], check.resistance_kN
+    """Name force, resistance, use at the best ends, and a type that suffices."""
+    demand, resistance = check.demand_kN, check.resistance_kN
     if demand is None or resistance is None:
         return _describe_open(checks, shorten_reason(check.plain_reason))
     failed = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
+    if check.eased_low is not None:
+        failed = say("to_do.at_best", what=failed, used=check.eased_low)
     other = next((each for each in check.changes if each.sense == "has"), None)
     if other is None:
         return failed
