@@ -401,15 +401,15 @@ def measure_angle(first: Place, second: Place) -> float:
     return 2.0 * math.asin(min(1.0, 0.5 * math.dist(first, second)))
 
 
-def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
-    """Middle of some ways into the ground, turned down where its bore is too flat.
+def turn_down(way: Place, slope: float, dip: float) -> Place:
+    """Way into the ground, turned down where its bore is too flat.
 
     Theory: structure/THEORY.md, eq. (S14c).
 
     Parameters
     ----------
-    ways : sequence of tuple of float, shape (3,)
-        As `measure_fall` has them, less than a right angle apart.
+    way : tuple of float, shape (3,)
+        As `measure_fall` has it.
     slope : float
         Slope angle [rad].
     dip : float
@@ -424,12 +424,11 @@ def find_mean_way(ways: Sequence[Place], slope: float, dip: float) -> Place:
     -----------
     tests/verification/test_anchor_dip.py
     """
-    mean = _shorten([sum(parts) for parts in zip(*ways, strict=True)])
-    fall = measure_fall(mean, slope)
+    fall = measure_fall(way, slope)
     if fall >= math.sin(dip):
-        return mean
+        return way
     down = (math.sin(slope), -math.cos(slope), 0.0)
-    level = _shorten([a - fall * b for a, b in zip(mean, down, strict=True)])
+    level = _shorten([a - fall * b for a, b in zip(way, down, strict=True)])
     flat, steep = math.cos(dip), math.sin(dip)
     return _shorten([flat * a + steep * b for a, b in zip(level, down, strict=True)])
 

@@ -37,35 +37,27 @@ Place = tuple[float, float, float]
 class EndGuy:
     """Guy that holds the head of a row's first or last post along the row.
 
+    Its anchor lies abreast of the head.
+
     Attributes
     ----------
     angle : float
         gamma, true angle between the guy and the row [rad].
-    from_base : float or None
-        Of its anchor downslope of the post's base, along the slope [m]; None is
-        abreast of the head.
     """
 
     angle: float
-    from_base: float | None = None
 
-    def find_way(self, points: SupportPoints) -> Place:
+    @property
+    def way(self) -> Place:
         """Unit vector from the head to the anchor; structure/THEORY.md, eq. (S24).
 
         The guy pulls the head that way, and its anchor the other way.
-
-        Parameters
-        ----------
-        points : SupportPoints
-            Of the support at the row's end [m].
 
         Verified by
         -----------
         tests/verification/test_end_guy.py
         """
-        x, y = self._lead(points)
-        off = math.sin(self.angle) / math.hypot(x, y)
-        return x * off, y * off, -math.cos(self.angle)
+        return 0.0, -math.sin(self.angle), -math.cos(self.angle)
 
     def find_anchor(self, points: SupportPoints) -> Place:
         """Point of the anchor on the ground, from the net's foot beside the post [m].
@@ -75,16 +67,8 @@ class EndGuy:
         points : SupportPoints
             Of the support at the row's end [m].
         """
-        x, y = self._lead(points)
-        reach = math.hypot(x, y) / math.tan(max(self.angle, _FLATTEST))
-        return points.head[0] + x, 0.0, -reach
-
-    def _lead(self, points: SupportPoints) -> Point:
-        """From the head to the anchor, in the section [m]."""
-        x_head, y_head = points.head
-        if self.from_base is None:
-            return 0.0, -y_head
-        return points.post_base[0] + self.from_base - x_head, -y_head
+        x, y = points.head
+        return x, 0.0, -y / math.tan(max(self.angle, _FLATTEST))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -269,27 +253,25 @@ def weigh_splay(points: SupportPoints) -> SplayWeights | None:
     )
 
 
-def hold_end_guy(points: SupportPoints, guy: EndGuy) -> HeadForces | FailedSupport:
+def hold_end_guy(points: SupportPoints) -> HeadForces | FailedSupport:
     """Forces in post and guys that hold the end guy's pull across the row.
 
     Parameters
     ----------
     points : SupportPoints
         Of the support at the row's end, in the section [m].
-    guy : EndGuy
-        That holds all of the ridge rope's pull along the row.
 
     Returns
     -------
     HeadForces or FailedSupport
-        For each unit of that pull's part V across the row; structure/THEORY.md, (S25).
+        For each unit of the part V across the row of all of the ridge rope's pull;
+        structure/THEORY.md, (S25).
 
     Verified by
     -----------
     tests/verification/test_end_guy.py
     """
-    x, y, _ = EndGuy(angle=math.pi / 2.0, from_base=guy.from_base).find_way(points)
-    return compute_head_forces((x, y), points)
+    return compute_head_forces((0.0, -1.0), points)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -394,7 +376,7 @@ def _list_ropes(
         ways.append(
             [(x * flat, y * flat, side * out) for x, y in guys for side in (-1.0, 1.0)]
         )
-        ways[-1].append(guy.find_way(points))
+        ways[-1].append(guy.way)
         long = [length / flat for length in in_section for _ in range(2)]
         end = math.dist((*points.head, 0.0), guy.find_anchor(points))
         lengths.append([*long, end])

@@ -306,7 +306,7 @@ def find_ground_resistance(
         return replace(resistance, lack=say("wedge.slab", **numbers))
     width = _find_ground_width(row, pull)
     wedges = {
-        depth: _lift_ground(reduced, basis, pull, depth, width) for depth in depths
+        depth: _lift_ground(reduced, basis.row, pull, depth, width) for depth in depths
     }
     depth = min(wedges, key=lambda each: wedges[each].value)
     plane = degree_from_radian(wedges[depth].plane)
@@ -329,10 +329,9 @@ def _list_axes(row: NetRow, pull: PullRecord) -> tuple[float, ...]:
 
 
 def _lift_ground(
-    soil: Soil, basis: Basis, pull: PullRecord, depth: float, width: float
+    soil: Soil, row: NetRow, pull: PullRecord, depth: float, width: float
 ) -> WedgeResistance:
     """Compute the wedge that an anchor lifts, or the cone about a single anchor."""
-    row, span = basis.row, basis.site.ranges["inclination"]
     slope, guy = row.slope_angle, row.row_end.guy if row.row_end else None
     if pull.anchor not in END_ANCHORS:
         return compute_wedge_resistance(
@@ -343,18 +342,10 @@ def _lift_ground(
             least_pull=pull.pulls.least,
             largest_pull=pull.pulls.largest,
         )
-    ways = [(0.0, 0.0, -1.0)]  # of the lower rope
+    x, y, z = (0.0, 0.0, -1.0)  # of the lower rope
     if pull.anchor == EndMember.END_GUY_ANCHOR and guy is not None:
-        ways = [
-            guy.find_way(place_row(row, inclination))
-            for inclination in (span.low, span.high)
-        ]
-    pulls = [(-x, -y, -z) for x, y, z in ways]
-    cones = (
-        compute_cone_resistance(soil, depth=depth, slope=slope, pull=pull)
-        for pull in pulls
-    )
-    return min(cones, key=lambda each: each.value)
+        x, y, z = guy.way
+    return compute_cone_resistance(soil, depth=depth, slope=slope, pull=(-x, -y, -z))
 
 
 def _find_ground_width(row: NetRow, pull: PullRecord) -> float:

@@ -29,9 +29,9 @@ from netdesign.structure.row_position import (
     Position,
     find_axis_at_dip,
     find_dip,
-    find_mean_way,
     measure_angle,
     measure_fall,
+    turn_down,
 )
 from netdesign.structure.splay import Guys
 from netdesign.study.case_records import PullRecord
@@ -104,11 +104,12 @@ def list_pulls(
     rope's pull along the row; last the anchors of the row's end: those of types of
     their own, then those that hold the row along it.
     """
+    row = task.row
     solved = [result for result in task.solved.results if result.is_converged]
-    row, inclined = task.row, [result.case.inclination for result in solved]
-    places = {angle: place_row(row, angle) for angle in dict.fromkeys(inclined)}
+    inclined = dict.fromkeys(result.case.inclination for result in solved)
+    places = [place_row(row, angle) for angle in inclined]
     directions = {
-        anchor: [_measure_guy(place, anchor, row.guys) for place in places.values()]
+        anchor: [_measure_guy(place, anchor, row.guys) for place in places]
         for anchor in ANCHORS
     }
     directions[Member.FOOT_ANCHOR] = list(feet.turns)
@@ -128,39 +129,36 @@ def list_pulls(
     if at_foot is not None and turn > 0.0:
         foot = (row, Member.FOOT_ANCHOR, at_foot, share + turn)
         of_supports.insert(len(ANCHORS), build_pull(*foot, position="second"))
-    points = [places[angle] for angle in inclined]
-    return [*of_supports, *_list_end_pulls(row, points)]
+    return [*of_supports, *(_list_end_pulls(row) if places else ())]
 
 
-def _list_end_pulls(
-    row: NetRow, points: Sequence[SupportPoints]
-) -> Iterator[PullRecord]:
+def _list_end_pulls(row: NetRow) -> Iterator[PullRecord]:
     """Pulls on the anchors that hold the row along itself: of lower rope and end guy.
 
     The lower rope pulls along the row. The bore of the end guy's anchor is assumed: it
     continues the guy, or dips more where that is too flat.
     """
     end, slope = row.row_end, row.slope_angle
-    if end is None or not points:
+    if end is None:
         return
     along = PullRange(least=0.0, largest=0.0)
     yield build_pull(row, EndMember.LATERAL_ANCHOR, along, 0.0, "edge")
     if end.guy is None:
         return
-    guys = [end.guy.find_way(place) for place in points]
-    x, y, z = way = find_mean_way(guys, slope, USUAL_DIP)
-    rises = [math.asin(-guy[1]) for guy in guys]
+    guy = end.guy.way
+    x, y, z = way = turn_down(guy, slope, USUAL_DIP)
+    rise = degree_from_radian(end.guy.angle)
     kind = row.find_anchor_type(EndMember.END_GUY_ANCHOR, "edge")
     yield PullRecord(
         anchor=EndMember.END_GUY_ANCHOR,
         position="edge",
         kind=kind.kind if kind else "",
-        least_deg=degree_from_radian(min(rises)),
-        largest_deg=degree_from_radian(max(rises)),
+        least_deg=rise,
+        largest_deg=rise,
         axis_deg=degree_from_radian(math.asin(-y)),
         aside_deg=degree_from_radian(math.atan2(-x, -z)),
         is_axis_given=False,
-        angle_deg=degree_from_radian(max(measure_angle(way, guy) for guy in guys)),
+        angle_deg=degree_from_radian(measure_angle(way, guy)),
         dip_deg=degree_from_radian(math.asin(measure_fall(way, slope))),
     )
 

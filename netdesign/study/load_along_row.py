@@ -202,7 +202,7 @@ def find_end_guy(
     if guy is None:
         return None
     places = place_over(row, span)
-    held = [hold_end_guy(place, guy) for place in places]
+    held = [hold_end_guy(place) for place in places]
     failed = next(
         (support for support in held if isinstance(support, FailedSupport)), None
     )

@@ -11,9 +11,9 @@ from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import (
     find_axis_at_dip,
     find_dip,
-    find_mean_way,
     measure_angle,
     measure_fall,
+    turn_down,
 )
 
 ANGLES = st.floats(math.radians(-30.0), math.radians(90.0))
@@ -85,7 +85,7 @@ WAYS = st.tuples(st.floats(-0.9, 0.9), st.floats(-1.0, -0.05), st.just(-1.0))
 def test_a_bore_too_flat_turns_down_in_its_vertical_plane_and_no_farther(way, slope):
     way = tuple(np.array(way) / np.linalg.norm(way))
     least = math.radians(15.0)
-    found = find_mean_way([way], slope, least)
+    found = turn_down(way, slope, least)
     assert np.linalg.norm(found) == pytest.approx(1.0)
     dip = math.asin(measure_fall(way, slope))
     before, after = turn_level(way, slope), turn_level(found, slope)
@@ -94,12 +94,3 @@ def test_a_bore_too_flat_turns_down_in_its_vertical_plane_and_no_farther(way, sl
     assert before[0] * after[2] == pytest.approx(before[2] * after[0], abs=1e-9)
     turned = max(0.0, least - dip)
     assert measure_angle(way, found) == pytest.approx(turned, abs=1e-7)
-
-
-def test_the_middle_of_two_ways_is_as_far_from_both():
-    one, other = (0.3, -0.5, -1.0), (-0.1, -0.6, -1.0)
-    one, other = (tuple(np.array(x) / np.linalg.norm(x)) for x in (one, other))
-    middle = find_mean_way([one, other], math.radians(40.0), math.radians(-90.0))
-    half = 0.5 * math.acos(np.dot(one, other))
-    for way in (one, other):
-        assert measure_angle(middle, way) == pytest.approx(half)

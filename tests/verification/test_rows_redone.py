@@ -205,14 +205,12 @@ def test_drawn_ends_share_the_rope_s_pull_as_an_own_truss_does():
             height, math.radians(draw.uniform(20, 38)), tilt, *distances
         )
         splay, angle = np.radians(draw.uniform((8, 20), (35, 45)))
-        from_base = draw.choice([None, *draw.uniform(-1.0, 2.0, 2)])
         pull = draw.uniform((-60, -250), (150, 60))
         along = draw.uniform(20, 400)
         stiff = 10.0 ** draw.uniform((3.5, 3.5, 3.5, 5.5), (5.0, 5.0, 5.0, 6.5))
-        at = None if from_base is None else section.base[0] + from_base
-        reach = statics.reach_of_end_guy(section, angle, at)
+        reach = statics.reach_of_end_guy(section, angle)
         ropes = dict(zip(("uphill", "downhill", "end guy", "post"), stiff, strict=True))
-        bars = statics.build_end_truss(section, splay, ropes, reach=reach, at=at)
+        bars = statics.build_end_truss(section, splay, ropes, reach=reach)
         own = statics.solve_truss((*section.head, 0.0), bars, (*pull, along))
         points = SupportPoints(
             net_foot=(0.0, 0.0),
@@ -224,7 +222,7 @@ def test_drawn_ends_share_the_rope_s_pull_as_an_own_truss_does():
         found = share_with_end_guy(
             [EndHead(points=points, pull=tuple(1e3 * pull), along=1e3 * along)],
             splay=splay,
-            guy=EndGuy(angle=angle, from_base=from_base),
+            guy=EndGuy(angle=angle),
             stiffness=[tuple(1e3 * stiff)],
         )
         names = ("outer uphill", "inner uphill", "outer downhill", "inner downhill",
