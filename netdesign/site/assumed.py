@@ -45,8 +45,8 @@ class Assumed:
         ``altitude_factor``.
     word : str
         Name of the text of what is assumed, where no number says it.
-    source, effect : str
-        Names of the texts of where the range comes from, and what it does.
+    source : str
+        Name of the text of where the range comes from.
     is_typed : bool
         The range stands in the workbook: nobody has to confirm it.
     """
@@ -60,7 +60,6 @@ class Assumed:
     times: str = ""
     word: str = ""
     source: str
-    effect: str
     is_typed: bool = False
 
     @property
@@ -100,11 +99,6 @@ class Assumed:
     def why(self) -> Message:
         """Where the range comes from."""
         return say(f"assumed_source.{self.source}")
-
-    @property
-    def what_it_does(self) -> Message:
-        """Effect on the forces."""
-        return say(f"assumed_effect.{self.effect}")
 
     @property
     def _unit(self) -> str:

@@ -90,8 +90,6 @@ _ASKED_OF: Mapping[str, Scopes] = {
     "column.Nets.mesh_strength": _STRUCTURE,
     "column.Posts.bearing": _STRUCTURE,
     "column.Posts.compression": _STRUCTURE,
-    "column.Posts.efficiency": _STRUCTURE,
-    "column.Posts.plate_": _STRUCTURE,
 }
 CLOSE = 0.9  # utilisation from which a passing check gets its limits
 _PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be meant

@@ -25,7 +25,7 @@ def test_what_is_assumed_is_a_column_with_words_in_every_language(key):
     assert found.low <= found.high
     assert found.kind != "searched" or found.is_range
     for language in LANGUAGES:
-        for text in (found.name, found.text, found.why, found.what_it_does):
+        for text in (found.name, found.text, found.why):
             assert render(text, language)
 
 

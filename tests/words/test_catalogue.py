@@ -34,7 +34,7 @@ FAMILIES: tuple[str, ...] = (
     *("scope.", "todo.", "who.", "condition.", "diff_part."),
     *("decision.", "matrix.", "anchors.", "row_page.", "worked.", "tests."),
     *("assumed_range.", "rated.", "documents.", "panel_view.", "rewrite.of_"),
-    *("assumed_word.", "assumed_source.", "assumed_effect."),
+    *("assumed_word.", "assumed_source."),
     *(
         "floor.profile_",
         "route.",
