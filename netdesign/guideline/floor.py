@@ -166,15 +166,6 @@ class Floor:
         return next((force for force in self.forces if force.member == member), None)
 
 
-def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> Floor:
-    """Largest member forces of load cases 1 and 2 over the ranges of a row.
-
-    As `find_floors`, on the layout of the row's net.
-    """
-    (floor,) = find_floors(model, ranges, altitude, (ranges.net.layout,))
-    return floor
-
-
 def find_floors(
     model: LoadModel,
     ranges: NetRanges,

@@ -75,11 +75,6 @@ def find_rope_factor(construction: str, factor: str) -> Datum:
     return quote("rope", value)
 
 
-def list_constructions() -> list[str]:
-    """Names of the constructions of wire ropes."""
-    return list(load_catalogue()["rope"]["construction"])
-
-
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
     losses = list_terminations()

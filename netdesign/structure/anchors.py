@@ -34,8 +34,6 @@ from netdesign.structure.layout import ManyLayouts, Point, SupportLayout, Suppor
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
-LEAST_AXIS, MOST_AXIS = math.radians(-30.0), math.radians(90.0)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PullRange:

@@ -207,19 +207,14 @@ def check_ends(effects: RowEffects) -> Check | None:
     return leave_open("ends", OpenKind.RESISTANCE_MISSING, *effects.missing)
 
 
-def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | None:
-    """Forces that no demand of a row may lie below; None where a profile has no floor.
-
-    The load model is the guideline's own, whatever the profile; that may add the
-    dimensioning form.
-    """
-    return find_row_floors(row, ranges, standard, (row.layout,))[row.layout]
-
-
 def find_row_floors(
     row: NetRow, ranges: Ranges, standard: Standard, layouts: Sequence[SupportLayout]
 ) -> dict[SupportLayout, Floor | None]:
-    """Find the floor of a row on each of several layouts."""
+    """Forces that no demand of a row may lie below, on each of several layouts.
+
+    None where a profile has no floor. The load model is the guideline's own, whatever
+    the profile; that may add the dimensioning form.
+    """
     if standard.floor == "none":
         return dict.fromkeys(layouts)
     model, nets = read_floor_model(standard), _list_nets(row, ranges)

@@ -21,7 +21,6 @@ from netdesign.guideline.floor import (
     SCAN_STEP,
     SPANS,
     NetRanges,
-    find_floor,
     find_floors,
 )
 from netdesign.guideline.load_model import read_load_model
@@ -31,6 +30,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
 from tests.each import each
+from tests.guideline.one_floor import find_floor
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
 DOWNHILL = Member.DOWNHILL_GUY

@@ -12,11 +12,12 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.guideline.comparison import NetGeometry, compare_with_guideline
-from netdesign.guideline.floor import NetRanges, find_floor
+from netdesign.guideline.floor import NetRanges
 from netdesign.guideline.load_model import read_load_model
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from tests.each import each
+from tests.guideline.one_floor import find_floor
 from tests.guideline.own_loads import (
     ROWS,
     find_largest,

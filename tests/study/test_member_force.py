@@ -15,7 +15,7 @@ from netdesign.outcome import Verdict
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import LargestForce
-from netdesign.study.guideline_load import find_effects, find_row_floor, record_floor
+from netdesign.study.guideline_load import find_effects, record_floor
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
     RowForces,
@@ -25,6 +25,7 @@ from netdesign.study.record_envelope import record_point
 from netdesign.study.record_provenance import record_profile
 from netdesign.study.row_to_check import CaseSolver
 from tests.grid import solve_site
+from tests.guideline.one_floor import find_row_floor
 from tests.read_check import bring, compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 

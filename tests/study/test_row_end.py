@@ -14,12 +14,13 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study import load_along_row
-from netdesign.study.guideline_load import find_effects, find_row_floor
+from netdesign.study.guideline_load import find_effects
 from netdesign.study.load_along_row import find_rope_factors
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
 from tests.grid import solve_site
+from tests.guideline.one_floor import find_row_floor
 from tests.small_site import (
     RANGES,
     RUN,

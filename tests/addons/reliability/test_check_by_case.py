@@ -12,8 +12,9 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import build_ground_from_glide_factor
-from netdesign.study.guideline_load import find_effects, find_row_floor
+from netdesign.study.guideline_load import find_effects
 from tests.each import each
+from tests.guideline.one_floor import find_row_floor
 from tests.small_site import build_row
 
 STANDARD = load_standard("swiss-guideline-2007")

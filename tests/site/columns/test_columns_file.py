@@ -9,7 +9,6 @@ from netdesign.panel.inputs import LARGEST_GUY_ANGLE, LARGEST_SAG
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import Kind
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.structure.anchors import LEAST_AXIS, MOST_AXIS
 from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
 from tests.each import each
 
@@ -32,10 +31,6 @@ def find(table, key):
         ("Nets", "glide_factor", 1.0, LARGEST_GLIDE_FACTOR),
         ("Nets", "ridge_sag", 0.0, LARGEST_SAG),
         ("Nets", "lower_sag", 0.0, LARGEST_SAG),
-        *(
-            ("Nets", key, math.degrees(LEAST_AXIS), math.degrees(MOST_AXIS))
-            for key in ("foot_axis", "uphill_axis", "downhill_axis")
-        ),
         ("Nets", "guy_splay", math.degrees(LEAST_SPLAY), math.degrees(MOST_SPLAY)),
         ("Ends", "end_guy_angle", 0.0, math.degrees(LARGEST_GUY_ANGLE)),
     ],
