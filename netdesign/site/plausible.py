@@ -53,7 +53,7 @@ def ask(
             asked[reading.place] = say(
                 "plausible.asked",
                 place=reading.place,
-                field=reading.field.name,
+                field=reading.column.name,
                 text=quote(reading.text),
                 rule=rule,
             )
@@ -298,7 +298,7 @@ def _doubt_bond(reading: Reading, line: Row) -> Message | None:
 def _name_with_value(reading: Reading) -> Message:
     return say(
         "plausible.named",
-        name=reading.field.name,
+        name=reading.column.name,
         number=reading.number,
         unit=reading.field.unit,
         place=reading.place,

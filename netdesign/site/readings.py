@@ -62,6 +62,8 @@ class Reading:
     span : tuple of float, or None
         Low and high end of a range that the cell holds, in the field's first unit;
         then the value is the more severe of them.
+    typed_as : Field or None
+        Column of the workbook in which it stands, where that is another.
     """
 
     field: Field
@@ -72,6 +74,12 @@ class Reading:
     derivation: Message | None = None
     singles: tuple[SingleTest, ...] = ()
     span: tuple[float, float] | None = None
+    typed_as: Field | None = None
+
+    @property
+    def column(self) -> Field:
+        """Column in which an engineer finds it."""
+        return self.typed_as or self.field
 
     @property
     def place(self) -> str:
@@ -240,15 +248,15 @@ def refuse(
     A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
-        field = reading.field
-        title = field.title_in(unit) if unit else field.title
+        column = reading.column
+        title = column.title_in(unit) if unit else column.title
         finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
 
 
 def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> None:
     """Refuse a reading beside another one that says the same, or the contrary."""
-    rule = say("cell.beside", name=other.field.name, place=other.place)
+    rule = say("cell.beside", name=other.column.name, place=other.place)
     refuse(reading, rule, say("accepted.one_of_two"), findings)
 
 

@@ -157,7 +157,7 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
     mesh = Resistance(
         member=NetPart.MESH,
         mode="mesh",
-        source=strength.place or "Nets",
+        source=strength.place or "Rows",
         value=strength.given_si,
         basis="declared" if strength.state == "given" else "",
     )
@@ -186,7 +186,7 @@ def _find_resistance(
 ) -> Resistance:
     """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:
-        return Resistance(member=member, mode=mode, source=reading.place or "Nets")
+        return Resistance(member=member, mode=mode, source=reading.place or "Rows")
     sheet = reading.field.refers_to
     return _describe_type(types[sheet][reading.word], mode, member, sheet)
 
@@ -306,7 +306,7 @@ def _open(
         mode=mode,
         basis="computed" if dimensions else "",
         type_id=named.word,
-        source=source or named.place or "Nets",
+        source=source or named.place or "Rows",
         dimensions=dimensions,
         lack=lack,
     )

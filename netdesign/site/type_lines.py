@@ -151,10 +151,15 @@ def count_in_tests(
     """
     places = {line["id"].word: line["id"].place for line in lines}
     refuse_unknown_ids((test["type"] for test in tests), places, findings)
+    grounds: dict[str, list[str]] = {}
+    for line in lines:
+        grounds.setdefault(line["id"].word, []).append(line["ground"].word)
     by_place: dict[tuple[str, str], list[Row]] = {}
     for test in tests:
         if test["force"].state == "given":
-            key = (test["type"].word, test["ground"].word)
+            name, ground = test["type"].word, test["ground"].word
+            of_type = grounds.get(name, ())
+            key = (name, ground or (of_type[0] if len(of_type) == 1 else ""))
             by_place.setdefault(key, []).append(test)
     found: list[Row] = []
     for line in lines:
@@ -167,7 +172,8 @@ def count_in_tests(
                 refuse(ground, rule, say("tests.line_wanted"), findings)
             else:
                 wanted = say("tests.ground_wanted")
-                refuse(left[0]["type"], say("tests.no_ground"), wanted, findings)
+                at = left[0]["type" if ground.cell is None else "ground"]
+                refuse(at, say("tests.no_ground"), wanted, findings)
     return found
 
 
@@ -222,6 +228,7 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
             value=value,
             derivation=how,
             cell=first.cell,
+            typed_as=first.column,
         )
         for key, value in zip(TEST_COLUMNS, _sum_up(tests), strict=True)
     }

@@ -69,7 +69,8 @@ def check_anchor_distance(
     least, anchors = min(chain(*pairs), key=lambda pair: round(pair[0], 6))
     is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
-    reason = say(key, least=least, limit=limit.value, anchors=anchors)
+    named = tuple(dict.fromkeys(anchors))
+    reason = say(key, least=least, limit=limit.value, anchors=named)
     if open_cases is None and is_apart:
         return compare("anchors", Verdict.PASS, reason, limit)
     near = compare("anchors", Verdict.NOT_PROVEN, None, limit)

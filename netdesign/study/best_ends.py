@@ -239,6 +239,8 @@ class _BestEnds:
             other = option.show(option.other)
             return say("check.assumed_lowers", **numbers, other=other, least=least)
         bound = option.show(_round(option, _find_share(option.rate)))
+        if option.other < option.worst:
+            return say("check.assumed_decides_up_to", **numbers, bound=bound)
         return say("check.assumed_decides", **numbers, bound=bound)
 
     def _vary_statics(self) -> Iterator[_Option]:

@@ -14,6 +14,7 @@ from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY
 from netdesign.study.scopes import SCOPES, Scope, list_of_scope
 from netdesign.words.catalogue import render
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -113,7 +114,7 @@ def write_html(study: Study) -> str:
 
 def _list_texts(row: RowStudy) -> Iterator[str]:
     yield row.id
-    yield row.verdict.value
+    yield str(say(f"verdict.{row.verdict.value}"))
     for scope in row.scopes.values():
         used = "" if scope.utilisation is None else f" {scope.utilisation:.2f}"
-        yield f"{scope.verdict.value}{used}"
+        yield f"{say(f'verdict.{scope.verdict.value}')}{used}"

@@ -175,7 +175,8 @@ def _find_demand(point: _Point) -> float:
 
 def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     check, kind = worst.check, worst.key[0]
-    checks = _name_checks(point.check for point in group)
+    others = (point.check for point in group if point is not worst)
+    checks = _name_checks([check, *others])
     if kind == "fails" and check.verdict is Verdict.FAIL:
         return _describe_failed(check, checks)
     if kind == "needs":
@@ -201,7 +202,7 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
 
 def _describe_open(checks: tuple[Message, ...], reason: Message) -> Message:
     """Name the checks where they are few, and the reason."""
-    is_few = len(checks) <= _FEW
+    is_few = len(checks) <= _FEW or reason.key.startswith("check.assumed_")
     return say("to_do.open", checks=checks, reason=reason) if is_few else reason
 
 

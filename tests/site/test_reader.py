@@ -159,7 +159,7 @@ def test_a_resistance_left_empty_or_a_member_without_type_has_none(sheets, save)
     assert (pull_out.type_id, pull_out.source) == ("A2", "Anchors!C3")
     guy = found["uphill_guy", "rope"]
     assert (guy.value, guy.type_id, guy.source) == (None, "", "Net types!D3")
-    assert found["downhill_guy", "rope"].source == "Nets"  # no such column
+    assert found["downhill_guy", "rope"].source == "Rows"  # no such column
 
 
 def test_a_formula_counts_by_its_stored_result(sheets, tmp_path):

@@ -68,9 +68,21 @@ def list_decided(checks):
         for check in checks.values()
         for point in check.open
         if point.kind is OpenKind.ASSUMED_DECIDES
-        and point.message.key == "check.assumed_decides"
+        and point.message.key.startswith("check.assumed_decides")
     }
     return {key: (one["at"], one["bound"]) for key, one in found.items()}
+
+
+def test_the_sentence_says_on_which_side_a_check_passes(of_slack):
+    row = assume_all(build_row("R1", resistances=resist(2.2e5)), KEYS[:3])
+    seen = set()
+    for check in [*of_slack.values(), *index(judge(row, (0.05, 0.05))).values()]:
+        for key, one in ((x.message.key, x.message.arguments) for x in check.open):
+            if key.startswith("check.assumed_decides"):
+                side = one["bound"].arguments["value"] < one["at"].arguments["value"]
+                assert side == key.endswith("_up_to"), check.id
+                seen.add(side)
+    assert seen == {True, False}
 
 
 def test_what_fails_fails_whatever_the_value_is(of_slack, typed):

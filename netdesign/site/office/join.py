@@ -101,7 +101,9 @@ def read_office(
         project_cells=cells,
         lines=_join(tables, lines, project, nets, findings),
         nets=tables.tables["rows"],
-        declared=list_declared(lines["declared"]),
+        declared=settle_ids(
+            list_declared(lines["declared"]), list_ids(lines["rows"]), "row"
+        ),
         further=find_further(workbook, findings),
         approvals=approvals,
         documents=list_documents(project),

@@ -160,6 +160,10 @@ def _read_ranges(lines: Sequence[Row], language: Language, told: Told) -> _Range
         name = line["quantity"]
         field = find_item(name.word, items)
         ends = _read_ends(line, field) if field else []
+        numbers = (line[key].cell for key in ("span", "low", "high"))
+        if all(cell is None or cell.is_blank for cell in numbers):
+            told.take(*line.values())
+            continue
         if field is None or not ends:
             for one in line.values():
                 if one.cell is not None and not one.cell.is_blank:

@@ -42,7 +42,7 @@ def find_field(plan: SheetPlan, key: str) -> Field:
 
 def rename(reading: Reading, field: Field) -> Reading:
     """Reading as that of another column."""
-    return replace(reading, field=field)
+    return replace(reading, field=field, typed_as=reading.column)
 
 
 def work_out(

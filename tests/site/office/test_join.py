@@ -266,9 +266,19 @@ def test_single_tests_are_counted_and_no_number_beside_them(tmp_path):
     site = write_and_read(tmp_path / "site.xlsx", tables)
     tests = find_tests(site.rows[0])
     assert (tests.count, tests.least) == (3, 133e3)
+    del tables["tests"][1]["ground"]  # that of the type, as the sheet says
+    site = write_and_read(tmp_path / "of_type.xlsx", tables)
+    assert (find_tests(site.rows[0]).count, find_tests(site.rows[0]).least) == (
+        3,
+        133e3,
+    )
     anchor["pull_out"] = 133.0
-    with pytest.raises(SiteDataError):
+    with pytest.raises(SiteDataError) as refused:
         write_and_read(tmp_path / "twice.xlsx", tables)
+    heading = next(
+        one.field for one in load_columns("tests") if one.field.key == "force"
+    )
+    assert {str(one.field) for one in refused.value.findings} == {str(heading.title)}
 
 
 def test_layers_belong_to_the_rows_that_have_some(tmp_path):
@@ -290,7 +300,7 @@ def test_layers_belong_to_the_rows_that_have_some(tmp_path):
 def test_a_word_declares_several_checks_of_several_rows(tmp_path):
     tables = draw_tables(11)
     document = {"document": "EX-G7", "author": "B. Example"}
-    tables["declared"] = [{"row": "A1, A3", "check": "post base", **document}]
+    tables["declared"] = [{"row": "A1, a3", "check": "post base", **document}]
     site = write_and_read(tmp_path / "site.xlsx", tables)
     assert {one.row_id for one in site.declared} == {"A1", "A3"}
     assert {one.mode for one in site.declared} == {"bearing", "sliding"}

@@ -236,3 +236,12 @@ def test_a_workbook_of_today_is_no_old_one(tmp_path):
     made, _ = write_again(tmp_path, load_example())
     assert made.tables["rows"]
     assert read_old(tmp_path / "new.xlsx", UNDECLARED) is None
+
+
+@each("language", LANGUAGES)
+def test_a_range_line_without_numbers_is_no_loss(tmp_path, language):
+    lines = draw_lines(3)
+    lines["Ranges"] = [{"quantity": one["quantity"]} for one in lines["Ranges"]]
+    made, site = write_again(tmp_path, lines, language)
+    assert not any("Ranges!" in render(one, language) for one in made.done)
+    assert site.rows
