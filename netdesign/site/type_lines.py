@@ -137,7 +137,8 @@ def count_in_tests(
 ) -> list[Row]:
     """Lines of sheet Anchors with the tests of their type and ground.
 
-    A type without a ground of its own gets a line for each in which it was tested.
+    A type without a ground of its own gets a line for each in which it was tested. A
+    test that names no ground stood in that of its type, where the type has one.
 
     Parameters
     ----------
@@ -157,10 +158,11 @@ def count_in_tests(
     by_place: dict[tuple[str, str], list[Row]] = {}
     for test in tests:
         if test["force"].state == "given":
-            name, ground = test["type"].word, test["ground"].word
+            name, word = test["type"].word, test["ground"].word
             of_type = grounds.get(name, ())
-            key = (name, ground or (of_type[0] if len(of_type) == 1 else ""))
-            by_place.setdefault(key, []).append(test)
+            if not word and len(of_type) == 1:
+                (word,) = of_type
+            by_place.setdefault((name, word), []).append(test)
     found: list[Row] = []
     for line in lines:
         found += _count(line, by_place, findings)
