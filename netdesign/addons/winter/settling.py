@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -69,22 +69,16 @@ BARE = DayPack(
 )
 
 
-def build_first_layer(height: float, density: float) -> DayPack:
-    """Snowpack of a day that follows bare ground: one layer of new snow.
-
-    Parameters
-    ----------
-    height : float
-        [m].
-    density : float
-        Of new snow [kg/m3].
-    """
-    mass = density * height
+def _add_layer(
+    before: DayPack, settled: Floats, height: float, density: float
+) -> DayPack:
+    """Snowpack a day later with a layer of new snow on what has settled."""
+    new_mass = density * height
     return DayPack(
-        heights=np.array([height]),
-        masses=np.array([mass]),
-        ages=np.array([0]),
-        new_mass=mass,
+        heights=np.append(settled, height),
+        masses=np.append(before.masses, new_mass),
+        ages=np.append(before.ages + 1, 0),
+        new_mass=new_mass,
     )
 
 
@@ -180,7 +174,7 @@ class DeltaSnow:
             Observed today [m], above 0.
         """
         if not before.heights.size:
-            return build_first_layer(height, self.new_density)
+            return _add_layer(before, before.heights, height, self.new_density)
         ages = before.ages + 1
         limits = self._find_limits(ages)
         settled = self._settle(before, limits)
@@ -216,13 +210,7 @@ class DeltaSnow:
         pressed = settled * (1.0 - self.overburden * load * np.exp(-decay))
         heights = np.maximum(pressed, before.masses / limits)
         top = height - float(heights.sum())
-        new_mass = self.new_density * top
-        return DayPack(
-            heights=np.append(heights, top),
-            masses=np.append(before.masses, new_mass),
-            ages=np.append(before.ages + 1, 0),
-            new_mass=new_mass,
-        )
+        return _add_layer(before, heights, top, self.new_density)
 
 
 def _scale(before: DayPack, limits: Floats, height: float) -> DayPack:
@@ -336,12 +324,12 @@ class Hs2swe:
             Observed today [m], above 0.
         """
         if not before.heights.size:
-            return build_first_layer(height, self.new_density)
+            return _add_layer(before, before.heights, height, self.new_density)
         rise = DAY * before.densities * self._find_rates(before)
         settled = self._settle(before, rise)
         gap = height - float(settled.sum())
         if gap > self.tolerance:
-            return self._snow(before, settled, gap)
+            return _add_layer(before, settled, gap, self.new_density)
         if gap != 0.0:
             settled = self._match(before, rise, height, slower=gap > 0.0)
         if gap < 0.0 and settled.sum() > height:
@@ -374,15 +362,6 @@ class Hs2swe:
         dense = (pack.masses >= self.largest_density * settled).all(axis=1)
         reached_at = np.flatnonzero(reached | dense)
         return np.asarray(settled[reached_at[0] if reached_at.size else -1])
-
-    def _snow(self, before: DayPack, settled: Floats, top: float) -> DayPack:
-        new_mass = self.new_density * top
-        return DayPack(
-            heights=np.append(settled, top),
-            masses=np.append(before.masses, new_mass),
-            ages=np.append(before.ages + 1, 0),
-            new_mass=new_mass,
-        )
 
 
 def _melt(before: DayPack, settled: Floats, height: float) -> DayPack:
@@ -453,14 +432,9 @@ def follow_heights(
     before = BARE
     for height in heights:
         if height <= 0.0:
-            before = DayPack(
-                heights=BARE.heights,
-                masses=BARE.masses,
-                ages=BARE.ages,
-                runoff=before.mass,
-            )
+            before = replace(BARE, runoff=before.mass)
         elif not packs and first_density is not None:
-            before = build_first_layer(height, first_density)
+            before = _add_layer(BARE, BARE.heights, height, first_density)
         else:
             before = model.step(before, height)
         packs.append(before)
