@@ -14,9 +14,9 @@ from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
 from netdesign.site.cells.numbers import (
     DecimalMark,
+    is_moment,
     parse_number,
     read_grade,
-    read_moment,
     split_range,
     split_unit,
 )
@@ -350,17 +350,9 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
     if field.kind == "word":
         return _understand_word(cell, field)
     text = _understand_text(cell, field)
-    if field.kind == "date" and isinstance(text, str) and not _is_moment(text):
+    if field.kind == "date" and isinstance(text, str) and not is_moment(text):
         return Refusal(say("cell.no_date"), field.accepted)
     return text
-
-
-def _is_moment(text: str) -> bool:
-    try:
-        read_moment(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | str | Refusal:

@@ -23,7 +23,7 @@ from netdesign.site.cells.cells import (
     group_by_row,
 )
 from netdesign.site.cells.findings import Finding, fold_findings, refuse_file
-from netdesign.site.cells.numbers import read_moment
+from netdesign.site.cells.numbers import is_moment
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
@@ -225,7 +225,7 @@ def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
     texts = [
         cell for cell in cells if isinstance(cell.value, str) and not cell.is_blank
     ]
-    readable = all(_is_moment(cell.text) for cell in texts)
+    readable = all(is_moment(cell.text) for cell in texts)
     orders = [] if readable else _list_orders(texts)
     if len(orders) > 1:
         example = texts[0].text.strip()
@@ -237,14 +237,6 @@ def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
     for cell in cells:
         day = days.get(cell.row)
         yield cell if day is None else replace(cell, value=day.isoformat())
-
-
-def _is_moment(text: str) -> bool:
-    try:
-        read_moment(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:

@@ -297,6 +297,15 @@ def read_moment(text: str) -> datetime:
     return datetime.fromisoformat(text.strip())
 
 
+def is_moment(text: str) -> bool:
+    """Whether a text is a date, as `read_moment` takes it."""
+    try:
+        read_moment(text)
+    except ValueError:
+        return False
+    return True
+
+
 _ONE = r"\$?[A-Z]{1,3}\$?[1-9]\d{0,6}"
 _REFERENCE = re.compile(
     rf"(?:(?:'((?:[^']|'')+)'|([^\W\d][\w.]*))!)?({_ONE})(?::({_ONE}))?(?![\w(.!])"
