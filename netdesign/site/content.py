@@ -35,8 +35,6 @@ class Content:
         Of the net types, by net row.
     library : tuple of str
         File of further net types, and its hash; empty without one.
-    documents : mapping of str to str
-        That confirm numbers, by the line of sheet Project that names them.
     """
 
     workbook: Workbook
@@ -48,4 +46,3 @@ class Content:
     further: Mapping[str, Table | None]
     approvals: Mapping[str, Approval] = field(default_factory=dict)
     library: tuple[str, str] = ("", "")
-    documents: Mapping[str, str] = field(default_factory=dict)

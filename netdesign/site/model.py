@@ -312,7 +312,6 @@ class Site:
     findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
-    documents: Mapping[str, str] = field(default_factory=dict)  # by line of Project
     monitoring: tuple[MonitoringSeries, ...] = ()
     declared: tuple[Declaration, ...] = ()
     confirmed: tuple[str, ...] = ()  # cells of numbers, on sheet Declared

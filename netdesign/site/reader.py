@@ -165,7 +165,6 @@ def _build_site(
         findings=tuple(findings),
         range_inputs=ranges.inputs,
         project_cells=content.project_cells,
-        documents=content.documents,
         monitoring=monitoring,
         winter=winter,
         declared=declared,

@@ -129,15 +129,14 @@ def _state(key: Key, value: float | None = None) -> Condition:
 
 def _list_of_snow(forces: RowForces) -> Iterator[Condition]:
     """List the snow height and glide factor that a document confirms."""
-    row, ranges, documents = forces.row, forces.site.ranges, forces.site.documents
-    if "snow_document" not in documents:
+    row, ranges, project = forces.row, forces.site.ranges, forces.site.project
+    if not project.snow_document:
         yield _state("snow_height", row.snow_thickness / math.cos(row.slope_angle))
     glide = row.glide_factor
     if "glide_factor" in ranges.further:
         glide = ranges["glide_factor"].high
-    is_confirmed = "glide_document" in documents
     is_known = glide is not None and row.find_assumed("glide_factor") is None
-    if glide is not None and is_known and not is_confirmed:
+    if glide is not None and is_known and not project.glide_document:
         yield _state("glide_factor", glide)
 
 

@@ -40,11 +40,14 @@ def cut_site(site: Site, row: NetRow) -> Site:
     """Part of a site on which one of its rows is judged: the row, and what bears on it.
 
     What is not listed here decides nothing of a row. The notes of a site, its file and
-    its project stand beside the rows.
+    the rest of its project stand beside the rows.
     """
     monitoring = tuple(series for series in site.monitoring if series.row_id == row.id)
     return Site(
-        project=Project(),
+        project=Project(
+            snow_document=site.project.snow_document,
+            glide_document=site.project.glide_document,
+        ),
         ranges=site.at_row(row).ranges,
         rows=(row,),
         file_name="",
@@ -56,7 +59,6 @@ def cut_site(site: Site, row: NetRow) -> Site:
             if declaration.row_id in ("", row.id)
         ),
         confirmed=site.confirmed,
-        documents=site.documents,
         winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,

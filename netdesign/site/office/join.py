@@ -19,7 +19,6 @@ from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import (
     build_project,
     build_site_ranges,
-    list_documents,
     read_lines,
 )
 from netdesign.site.office.rows import (
@@ -106,7 +105,6 @@ def read_office(
         ),
         further=find_further(workbook, findings),
         approvals=approvals,
-        documents=list_documents(project),
         library=(library.file, library.sha256) if library else ("", ""),
     )
 

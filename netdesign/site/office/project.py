@@ -77,11 +77,6 @@ def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
     return Project(**values), {key: one.place for key, one in given.items()}
 
 
-def list_documents(lines: Row) -> Mapping[str, str]:
-    """Documents that confirm numbers of the site, by the line that names them."""
-    return {key: lines[key].word for key in _DOCUMENTS if lines[key].word}
-
-
 def build_site_ranges(lines: Row) -> SiteRanges:
     """Ranges of the site, with the documents that they are from."""
     ranges = build_ranges(lines)
