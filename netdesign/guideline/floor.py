@@ -30,10 +30,8 @@ from netdesign.numerics.arrays import Floats, Ints
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
-    AnchorForces,
     ManyForces,
     compute_many_forces,
-    measure_pull,
 )
 from netdesign.structure.layout import ManyLayouts, SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
@@ -43,9 +41,6 @@ from netdesign.words.message import Message, say
 SCAN_STEP = math.radians(0.25)
 SCAN_PARTS = 8
 _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
-# Keys of what is sought at head and foot beside their forces.
-HEAD_PULL = "head_pull"
-SPANS = (HEAD_PULL, "least_tension", "foot_least", "foot_largest")
 
 Span = tuple[float, float]
 
@@ -148,16 +143,11 @@ class Floor:
         What acts at head and foot; None where the floor is not available.
     forces : tuple of FloorForce
         One a member; empty where the floor is not available.
-    spans : tuple of FloorForce
-        States that bring what ``head`` says, by the keys `SPANS`; those of least
-        values count with the other sign. Between two signs of the guys' tension lies
-        none at all: then the state with the least is told.
     reason : Message or None
         Why it is not available.
     """
 
     forces: tuple[FloorForce, ...] = ()
-    spans: tuple[FloorForce, ...] = ()
     head: HeadSpan | None = None
     reason: Message | None = None
 
@@ -210,7 +200,7 @@ def find_floors(
     own = zip(np.split(points, count, axis=1), np.split(largest, count), strict=True)
     tried = np.split(np.arange(points.shape[1]), count)
     return [
-        _take_floor(layout, load, of_layout, _list_sizes(reached, place, tried[place]))
+        _take_floor(layout, load, of_layout, _pick(reached, place, tried[place]))
         for (place, layout), of_layout in zip(enumerate(layouts), own, strict=True)
     ]
 
@@ -228,50 +218,35 @@ def _take_floor(
     points, largest = found
     # members are often largest at the same place
     hold = cache(lambda *place: _hold(*load(*place), layout))
-    by_member: dict[str, FloorForce] = {}
-    for key, sizes in reached.items():
+    forces: list[FloorForce] = []
+    for member, sizes in reached.items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
         point = tuple(map(float, points[:, number]))
         at, result = hold(point, int(case), int(end))
         if result.solved is None:
             return Floor(reason=_explain(at, result))
         snow, pull, anchors = result.solved
-        by_member[key] = FloorForce(
-            member=key,
-            force=_measure(anchors, pull)[key],
+        of_members = {**anchors.member_forces, NetPart.MESH: pull.largest_tension}
+        force = FloorForce(
+            member=member,
+            force=of_members[member],
             at=at,
             case=result.case,
             load=snow,
             pull=pull,
         )
-    return Floor(
-        forces=tuple(by_member[member] for member in _LOADED),
-        spans=tuple(by_member[key] for key in SPANS),
-        head=_measure_head(largest),
-    )
+        forces.append(force)
+    return Floor(forces=tuple(forces), head=_measure_head(largest))
 
 
-def _list_sizes(tried: ManyForces, place: int, own: Ints) -> dict[str, Floats]:
-    """Sizes of which the largest counts on a layout, at some of what was tried."""
-    uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
-    turn = tried.foot_turn
-    spans = (tried.head_pull, -(uphill + downhill), -turn, turn)
-    sizes = {**tried.of_members, **dict(zip(SPANS, spans, strict=True))}
-    shape = uphill.shape
+def _pick(tried: ManyForces, place: int, own: Ints) -> dict[str, Floats]:
+    """Forces of the members on one layout, at some of what was tried [N]."""
+    forces = {member: tried.of_members[member] for member in _LOADED}
+    shape = tried.of_members[Member.UPHILL_GUY].shape
     return {
-        key: np.broadcast_to(each, shape)[place][..., own]
-        for key, each in sizes.items()
+        member: np.broadcast_to(each, shape)[place][..., own]
+        for member, each in forces.items()
     }
-
-
-def _measure(anchors: AnchorForces, pull: NetPull[float]) -> dict[str, float]:
-    """Sizes of one state, as `_list_sizes` has them of many."""
-    foot = anchors.foot_anchor
-    turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
-    tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
-    sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
-    forces = {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
-    return {**forces, NetPart.MESH: pull.largest_tension}
 
 
 def _measure_head(largest: Floats) -> HeadSpan:

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Check, Standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.guideline.floor import HEAD_PULL
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.layout import SupportLayout
@@ -35,6 +34,7 @@ from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
+_HEAD_PULL = "head_pull"
 # Forces by anchor, and pull on the head, of each layout [N].
 Loads = Mapping[SupportLayout, Mapping[str, float]]
 # Modes in which a check has the whole force of an anchor.
@@ -139,7 +139,7 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
     if not isinstance(loads, Message):
         for variant in _list_statics(row):
             load, span = loads[variant.layout], ranges["inclination"]
-            pull = kilonewton_from_newton(load[HEAD_PULL])
+            pull = kilonewton_from_newton(load[_HEAD_PULL])
             at_corner = RowForces(
                 site=site,
                 row=variant,
@@ -182,7 +182,7 @@ def _find_loads(row: NetRow, ranges: Ranges, standard: Standard) -> Loads | Mess
         if floor is None or floor.head is None:
             return (floor.reason if floor else None) or say("check.no_case_solved")
         forces = {force.member: force.force for force in floor.forces}
-        loads[layout] = {**forces, HEAD_PULL: floor.head.pull}
+        loads[layout] = {**forces, _HEAD_PULL: floor.head.pull}
     return loads
 
 
