@@ -283,10 +283,10 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
         for key, words in field.not_with.items():
             if row[key].word in words:
                 refuse_with(reading, row[key], words, findings)
-        for lacking in (row[key].field for key in field.needs):
-            if row[lacking.key].state == "blank":
-                rule = say("type.needs_more", names=(lacking.name,))
-                refuse(reading, rule, lacking.accepted, findings)
+        for lacking in (row[key] for key in field.needs):
+            if lacking.state == "blank":
+                rule = say("type.needs_more", names=(lacking.column.name,))
+                refuse(reading, rule, lacking.column.accepted, findings)
 
 
 def choose_given(

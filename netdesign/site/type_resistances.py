@@ -138,7 +138,7 @@ def _refuse_incomplete(
     given = [row[key] for key in keys if row[key].state == "given"]
     lacking = [row[key] for key in keys if row[key].state == "blank"]
     if given and lacking and len(given) + len(lacking) == len(keys):
-        rule = say("type.needs_more", names=tuple(one.field.name for one in lacking))
+        rule = say("type.needs_more", names=tuple(one.column.name for one in lacking))
         refuse(given[0], rule, say("type.all_or_none"), findings)
 
 

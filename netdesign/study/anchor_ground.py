@@ -157,7 +157,7 @@ def check_cover(forces: RowForces) -> Check | None:
     untyped = next(filter(partial(_has_no_type, row), pulls), None)
     if untyped is None:
         return None
-    lack = say("check.no_resistance", what=name_member(untyped.anchor))
+    lack = say("bores.no_type", anchor=name_member(untyped.anchor))
     return leave_open("cover", OpenKind.RESISTANCE_MISSING, lack)
 
 

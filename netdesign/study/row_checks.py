@@ -128,7 +128,8 @@ def settle_structure(basis: Basis, checks: Sequence[Check]) -> list[Check]:
         return _replace_structure(checks, _leave_structure_open(MODE, reason))
     proof = approval.prove()
     point = Open(kind=OpenKind.PROVEN_ELSEWHERE, message=proof.describe(), proof=proof)
-    line = replace(_leave_structure_open(MODE, None), open=[point])
+    bare = _leave_structure_open(MODE, None)
+    line = replace(bare, open=[point], finding=say("approval.rest"))
     return [
         _make_information(check, point) if is_of_structure(check) else check
         for check in _replace_structure(checks, line)

@@ -21,6 +21,7 @@ Who = Literal["office", "supplier", "ground", "site"]
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10
 _LOWERS = "check.assumed_lowers"  # neither end of a range passes
+_HEAD = "direction.no_head"  # says what the head has to take
 _SHORT = ("post_bending.too_much_shortly",)
 
 # Who answers for what a member can fail by.
@@ -138,6 +139,9 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
             yield _Point(
                 who="supplier", key=("links",), row=row, check=check, point=point
             )
+        elif point.message.key == _HEAD:
+            key = ("open", _HEAD)
+            yield _Point(who="office", key=key, row=row, check=check, point=point)
         elif point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
             key = ("needs",)
             named = who if check.resistance_type else "office"
@@ -147,6 +151,7 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
             yield _Point(who=who, key=key, row=row, check=check, point=point)
         else:
             asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
+            asked |= point.message.key == "bores.no_type"
             named = "office" if asked else who
             of_force = check.is_of_force
             key = ("open", str(point.message) if of_force else point.message.key)

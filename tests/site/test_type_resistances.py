@@ -154,11 +154,11 @@ def test_clips_are_not_for_a_spiral_rope(tmp_path):
 @each(
     "cells, key, told",
     [
-        ({"lever_arm": 287.3}, "lever_arm", "needs more beside it: kind of anchor"),
+        ({"lever_arm": 287.3}, "lever_arm", "needs more beside it: kind"),
         ({"lever_arm": 12, "kind": "rope anchor"}, "lever_arm", "does not fit kind"),
         ({"bar_diameter": 32, "kind": "rope anchor"}, "bar_diameter", "does not fit"),
         ({"tube_diameter": 114, "kind": "bar"}, "tube_diameter", "needs more beside"),
-        ({"test_count": 3}, "test_count", "needs more beside it: least tested"),
+        ({"test_count": 3}, "test_count", "needs more beside it: pull-out"),
         (
             {"pull_out": 300, "proven": "tests", "test_count": 2, "test_mean": 290},
             "pull_out",

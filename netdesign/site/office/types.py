@@ -109,6 +109,8 @@ def _join_anchor(
 def _prove(line: Row) -> dict[str, Reading]:
     """Pull-out resistance by how it is proven: by tests, or as one number."""
     force, how = line["pull_out"], line["proven"]
+    if force.state == "blank":
+        return {"test_least": rename(force, find_field(ANCHORS, "test_least"))}
     if force.state != "given":
         return {}
     if how.word == "tests":
