@@ -161,12 +161,6 @@ class Words:
         density, *others = case.values.items()
         return ", ".join((self.show_with_unit(*density), *self.name_values(others)))
 
-    def name_case_short(self, case: CasePoint | None) -> str:
-        """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
-        if case is None:
-            return MISSING
-        return " / ".join(self.show_number(*one) for one in case.values.items())
-
     def name_values(self, values: Iterable[tuple[str, float]]) -> list[str]:
         """Values of quantities with their symbols and units: ``φ 30°``."""
         return [

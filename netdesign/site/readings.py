@@ -241,15 +241,13 @@ def refuse(
     findings: list[Finding],
     *,
     severity: Severity = "error",
-    unit: str = "",
 ) -> None:
-    """Add a finding about a reading; in a unit, where its line has one of its own.
+    """Add a finding about a reading.
 
     A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
-        column = reading.column
-        title = column.title_in(unit) if unit else column.title
+        title = reading.column.title
         finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
 

@@ -112,7 +112,6 @@ def test_names_of_checks_and_cases():
     assert words.show_check(words.ENGLISH, check) == "Net anchor (foot), pull-out"
     worst = build_extreme("post", row.cases).case
     assert words.ENGLISH.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
-    assert words.ENGLISH.name_case_short(worst) == "450 / 15 / 35"
 
 
 @pytest.mark.parametrize("law", CREEP_LAWS.values(), ids=str)

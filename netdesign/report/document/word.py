@@ -305,8 +305,8 @@ def _list_cell(cell: Cell, table: Table) -> Runs:
     return (Piece(shown, STRONG if is_verdict else ""),)
 
 
-def _field(kind: str, more: str = "") -> str:
-    return f'<w:r><w:fldChar w:fldCharType="{kind}"{more}/></w:r>'
+def _field(kind: str) -> str:
+    return f'<w:r><w:fldChar w:fldCharType="{kind}"/></w:r>'
 
 
 def _instruct(text: str) -> str:

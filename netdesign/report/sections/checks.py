@@ -45,13 +45,12 @@ def describe_eased(check: Check, words: Words) -> str:
     return words("show.eased", used=words.show_number("utilisation", low))
 
 
-def name_case(check: Check, words: Words, *, is_short: bool = False) -> str:
+def name_case(check: Check, words: Words) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
     if check.governs == "maker":
         return words("load_name.maker")
     if check.governs != "guideline":
-        show = words.name_case_short if is_short else words.name_case
-        return show(check.case)
+        return words.name_case(check.case)
     named = show_text(words.show(name("load_case", check.load_case)))
     inclination = words.show_with_unit("inclination_deg", check.load_inclination_deg)
     return f"{named}, θ {inclination}"

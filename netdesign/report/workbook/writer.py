@@ -144,7 +144,6 @@ _COLOURS = {
 # Widths are in digits of the default font. Every program must have it, or one as wide:
 # LibreOffice prints a sheet a third smaller that names one which it lacks.
 DEFAULT_FONT = MappingProxyType({"font_name": "Arial", "font_size": 10})
-_DIGIT_PT = 5.56  # width of a digit
 _LINE_PT, _ROOM_PT = 11.3, 0.9  # height of a line of text, and room around a row
 # With the mark of any language: a sign, and a unit behind.
 _DECIMAL = re.compile(r"([-+\u2212]?)\d+(?:[.,](\d+))?( m²?)?")
@@ -230,18 +229,13 @@ class Book:
         row: int,
         columns: Sequence[Column],
         widths: Sequence[float],
-        turned: Sequence[int] = (),
     ) -> None:
-        """Headings of a table, in columns of these widths; some turned upright."""
+        """Headings of a table, in columns of these widths."""
         for index, column in enumerate(columns):
-            turn = {"rotation": 90} if index in turned else {}
-            form = self.format(**_HEAD, **_align(column), **turn)
+            form = self.format(**_HEAD, **_align(column))
             sheet.write_string(row, index, column.heading, form)
-        level = [i for i in range(len(columns)) if i not in turned]
-        headings = [columns[i].heading for i in level]
-        lines = max(2, count_lines(headings, [widths[i] for i in level], BOLD))
-        high = max((measure_longest(columns[i].heading) for i in turned), default=0.0)
-        self.set_height(sheet, row, max(lines, math.ceil(high * _DIGIT_PT / _LINE_PT)))
+        headings = [column.heading for column in columns]
+        self.set_height(sheet, row, max(2, count_lines(headings, widths, BOLD)))
 
     def write_cell(
         self,
