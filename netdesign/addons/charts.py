@@ -112,12 +112,13 @@ def draw_panels(
     *,
     across: int = 1,
     panel_pt: float = 120.0,
-    is_log: bool = True,
     time_label: str = "",
     span: tuple[datetime, datetime] | None = None,
     language: Language = "en",
 ) -> str:
     """SVG of charts against time in days, side by side or one below the other.
+
+    Time has a logarithmic scale with ticks in seconds to days, or that of a calendar.
 
     Parameters
     ----------
@@ -129,8 +130,6 @@ def draw_panels(
         Panels in a row.
     panel_pt : float
         Height of a panel [pt].
-    is_log : bool
-        Time on a logarithmic scale, ticks in seconds to days.
     time_label : str
         Below each column.
     span : (datetime, datetime), optional
@@ -149,15 +148,13 @@ def draw_panels(
         height = panel.height_pt or panel_pt
         frame = _place_frame(
             panel,
-            times if span or not is_log else [math.log(end) for end in times],
+            times if span else [math.log(end) for end in times],
             left=place % across * pitch + _LEFT,
             top=top + _ABOVE,
             width=pitch - _GAP - _LEFT - room,
             height=height,
         )
-        _Painter(sketch, frame, is_log and span is None, span is not None).draw(
-            panel, times
-        )
+        _Painter(sketch, frame, span is not None).draw(panel, times)
         if place % across == across - 1 or panel is panels[-1]:
             top += _ABOVE + height + (_TICK if span else _BELOW)
         if panel is panels[-1] and span:
@@ -217,7 +214,6 @@ class _Painter:
 
     sketch: Chart
     frame: Frame
-    is_log: bool
     is_dated: bool
 
     def draw(self, panel: Panel, times: Sequence[float]) -> None:
@@ -227,10 +223,10 @@ class _Painter:
             self._draw_tiles(panel)
         for line in panel.lines:
             self._fill_band(line)
-        sketch.axes(frame, x_ticks=not (self.is_log or self.is_dated))
-        if self.is_log:
+        sketch.axes(frame, x_ticks=False)
+        if not self.is_dated:
             self._draw_clock(times)
-        if self.is_dated and frame.y_low < 0.0 < frame.y_high:
+        elif frame.y_low < 0.0 < frame.y_high:
             ends = [(x, frame.y(0.0)) for x in (frame.left, frame.left + frame.width)]
             sketch.line(ends, stroke=GREY, width=0.5, dash="2 2")
         for place, mark in enumerate(panel.marks, 1):
@@ -241,7 +237,7 @@ class _Painter:
         (self._list_names if self.is_dated else self._name_lines)(named)
 
     def _at(self, time: float) -> float:
-        return self.frame.x(math.log(time) if self.is_log else time)
+        return self.frame.x(time if self.is_dated else math.log(time))
 
     def _draw_mark(self, mark: Mark, place: int) -> None:
         """Line at a time; its word on a line of its own, on the side with room."""
