@@ -12,7 +12,7 @@ import tomllib
 import unicodedata
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from importlib.resources import files
 from typing import Literal
 
@@ -142,7 +142,7 @@ class Usual:
     powers: Mapping[str, int] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Field:
     """One quantity of the workbook, as ``columns.toml`` has it.
 
@@ -250,7 +250,7 @@ class Field:
         """Unit of bounds, default and reports; empty for words and ids."""
         return self.units[0] if self.units else ""
 
-    @property
+    @cached_property
     def names(self) -> frozenset[str]:
         """Accepted headings without unit, normalised; also as cp1252 has them."""
         names = frozenset(map(normalise, self.raw_names))
