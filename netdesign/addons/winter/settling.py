@@ -169,12 +169,10 @@ class DeltaSnow:
         Parameters
         ----------
         before : DayPack
-            Of yesterday.
+            Of yesterday, not bare.
         height : float
             Observed today [m], above 0.
         """
-        if not before.heights.size:
-            return _add_layer(before, before.heights, height, self.new_density)
         ages = before.ages + 1
         limits = self._find_limits(ages)
         settled = self._settle(before, limits)
@@ -319,12 +317,10 @@ class Hs2swe:
         Parameters
         ----------
         before : DayPack
-            Of yesterday.
+            Of yesterday, not bare.
         height : float
             Observed today [m], above 0.
         """
-        if not before.heights.size:
-            return _add_layer(before, before.heights, height, self.new_density)
         rise = DAY * before.densities * self._find_rates(before)
         settled = self._settle(before, rise)
         gap = height - float(settled.sum())
@@ -394,13 +390,17 @@ class SettlingModel(Protocol):
     def source(self) -> str:
         """Publication of the constants."""
 
+    @property
+    def new_density(self) -> float:
+        """Density of new snow [kg/m3]."""
+
     def step(self, before: DayPack, height: float) -> DayPack:
         """Snowpack a day later.
 
         Parameters
         ----------
         before : DayPack
-            Of yesterday.
+            Of yesterday, not bare.
         height : float
             Observed today [m], above 0.
         """
@@ -428,13 +428,15 @@ def follow_heights(
     first_density : float, optional
         Density of the snow that lies on the first day [kg/m3]; by default new snow.
     """
+    first = model.new_density if first_density is None else first_density
     packs: list[DayPack] = []
     before = BARE
     for height in heights:
         if height <= 0.0:
             before = replace(BARE, runoff=before.mass)
-        elif not packs and first_density is not None:
-            before = _add_layer(BARE, BARE.heights, height, first_density)
+        elif not before.heights.size:
+            density = model.new_density if packs else first
+            before = _add_layer(BARE, BARE.heights, height, density)
         else:
             before = model.step(before, height)
         packs.append(before)
