@@ -217,7 +217,7 @@ class Check:
     case: CasePoint | None = None
     load_case: str = ""  # of the guideline: "load_case_1" or "load_case_2"
     load_inclination_deg: float | None = None  # of the net, where that is largest
-    resistance_basis: str = ""  # "tested", "computed", "report", "declared"
+    resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests

@@ -18,7 +18,6 @@ from netdesign.checks.result import GivenResistance
 from netdesign.checks.schema import (
     ACCEPTANCE_TEST,
     ACTION_FACTOR,
-    BY_REPORT,
     CORRELATION_LEAST,
     CORRELATION_MEAN,
     TEST_COUNT,
@@ -238,8 +237,10 @@ def _list_factors(
 ) -> list[tuple[str, StandardValue | None]]:
     """Factors by the modes that they are of."""
     modes = resistance.factored_as or (resistance.mode,)
-    basis = "tested" if resistance.basis == BY_REPORT else resistance.basis
-    return [(mode, standard.find_resistance_factor(mode, basis)) for mode in modes]
+    return [
+        (mode, standard.find_resistance_factor(mode, resistance.basis))
+        for mode in modes
+    ]
 
 
 def _find_resistance_factor(

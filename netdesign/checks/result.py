@@ -41,7 +41,7 @@ class GivenResistance:
     value : float or None
         [N]; None where none is given.
     basis : str
-        Way in which it was found: "tested", "computed", "report", "declared", or "".
+        Way in which it was found: "tested", "computed", "declared", or "".
     type_id : str
         Id of the anchor, rope or post type, or "".
     tests : PullOutTests or None

@@ -56,7 +56,6 @@ MODES = (
     *("mesh", "connection", "wedge", "direction"),
 )
 BASES = ("tested", "computed", "declared")
-BY_REPORT = "report"  # a characteristic value; it has the factor of tests
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]
 # How the pulls of two guys on one anchor are added.

@@ -24,6 +24,7 @@ from netdesign.resistance.steel import Link
 from netdesign.site.assumed import Assumed, assume
 from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
 from netdesign.site.columns.fields import SheetPlan
+from netdesign.site.columns.office import load_plan
 from netdesign.site.lines import Types
 from netdesign.site.model import InputEcho, NetRow, Resistance
 from netdesign.site.readings import (
@@ -32,6 +33,7 @@ from netdesign.site.readings import (
 from netdesign.site.type_resistances import TEST_COLUMNS, find_breaking
 from netdesign.structure.members import (
     CONNECTED,
+    END_ANCHORS,
     LIFTED_MODE,
     MEMBER_MODES,
     NAMED_BY,
@@ -331,5 +333,25 @@ def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
     return (*(row.end_resistances or ()), *along)
 
 
+_TABLES = {
+    **dict.fromkeys((NETS.name, ENDS.name), ("rows", "net_types")),
+    **{ANCHORS.name: ("anchor_types",), ROPES.name: ("ropes",), POSTS.name: ("posts",)},
+}
+
+_PARTS = dict.fromkeys(("ropes", "posts"), "parts")  # sheet of these tables
+
+
 def _name(plan: SheetPlan, key: str) -> Message:
-    return next(one.name for one in plan.fields if one.key == key)
+    """Column of the input workbook, with its sheet, in which an engineer finds it."""
+    column = "end_anchor" if key in END_ANCHORS else key
+    plans = map(load_plan, _TABLES[plan.name])
+    return next(
+        say(
+            "check.on_sheet",
+            name=field.name,
+            sheet=say(f"sheet.{_PARTS.get(of.name, of.name)}"),
+        )
+        for of in plans
+        for field in of.fields
+        if field.key == column
+    )

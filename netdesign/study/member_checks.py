@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from netdesign.checks import Check, Open, OpenKind, Standard, check_member
 from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
 from netdesign.checks.comparison import find_missing_force, find_proof_factor
-from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
 from netdesign.site.model import Resistance
@@ -30,7 +29,6 @@ from netdesign.study.row_resistances import (
     corrode,
     find_resistance_for_force,
     resist,
-    settle_basis,
 )
 from netdesign.study.row_to_check import Basis
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -242,14 +240,8 @@ def find_lasting(
     basis: Basis, resistance: Resistance, pull: PullRecord | None
 ) -> tuple[Resistance, Message | None]:
     """Resistance at the end of the design life, and why it may not hold."""
-    resistance, open_basis = settle_basis(resistance, basis.standard)
     lasting, worn = corrode(resistance, basis)
-    open_lasting = open_basis or worn
-    if resistance.basis == BY_REPORT:
-        open_lasting = open_lasting or say(
-            "check.by_report", sheet=say("sheet.Declared")
-        )
-    return lasting, open_lasting or find_open_dip(resistance, pull, basis.standard)
+    return lasting, worn or find_open_dip(resistance, pull, basis.standard)
 
 
 def _find_loose_end(

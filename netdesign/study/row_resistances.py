@@ -25,7 +25,6 @@ from netdesign.resistance.catalogue import Datum
 from netdesign.resistance.ground import (
     BENDING,
     AnchorType,
-    PullOutTests,
     Soil,
 )
 from netdesign.resistance.post import PostSection
@@ -55,7 +54,6 @@ from netdesign.study.row_to_check import Basis
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
-    newton_from_kilonewton,
 )
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -207,42 +205,6 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
         moment=kilonewton_from_newton(section.moment_resistance),
         shear=kilonewton_from_newton(section.shear_resistance),
     )
-
-
-def settle_basis(
-    resistance: Resistance, standard: Standard
-) -> tuple[Resistance, Message | None]:
-    """Settle a pull-out resistance without a basis: the worse of two bases counts.
-
-    It may be computed, or that of one test. The message says where the profile has no
-    factor on one of these. Other resistances stay as they are.
-    """
-    if resistance.mode != "pull_out" or resistance.basis or resistance.value is None:
-        return resistance, None
-    single = PullOutTests(count=1, least=resistance.value, mean=resistance.value)
-    ways = [
-        replace(resistance, basis="computed"),
-        replace(resistance, basis="tested", value=None, tests=single),
-    ]
-    rated: list[tuple[float, float, Resistance]] = []
-    for way in ways:
-        strength = find_resistance(way, standard).low
-        factor = find_partial_factor(way, standard)
-        if factor is not None and strength is not None:
-            rated.append((strength / factor.value_si, factor.value_si, way))
-    if not rated:
-        return resistance, None
-    design, factored, worse = min(rated, key=lambda each: each[0])
-    name = say("column.Anchors.basis")
-    if len(rated) < len(ways):
-        return worse, say("check.no_basis", name=name)
-    better = max(strength for strength, _, _ in rated)
-    ends = (
-        newton_from_kilonewton(strength * factored) for strength in (design, better)
-    )
-    value, best = ends
-    undecided = say("check.basis_decides", name=name)
-    return replace(worse, value=value, best=best, tests=None, open=undecided), None
 
 
 def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Quantity:

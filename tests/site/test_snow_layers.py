@@ -114,7 +114,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
         return
     (note,) = notes
     least, largest = 300 * 400 / mean, 500 * 480 / mean
-    told = f"net row R1: layer densities of {least:g} to {largest:g} kg/m³ lie"
+    told = f"net row R1: layer densities of {least:.4g} to {largest:.4g} kg/m³ lie"
     assert note.startswith(told)
 
 

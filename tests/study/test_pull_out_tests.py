@@ -119,12 +119,11 @@ def test_a_tested_number_without_a_count_is_that_of_one_test(tmp_path):
     )
 
 
-def test_a_value_by_report_counts_as_it_is_and_is_no_pass(tmp_path):
-    """Sheet Declared names the document; without it the check stays not proven."""
-    check = judge_typed(tmp_path, proven="report")
-    assert check.read("R_k") == 330.0
-    assert check.verdict is Verdict.NOT_PROVEN
-    assert "characteristic value of a report" in str(check.reason)
+def test_a_value_by_a_report_without_its_name_is_that_of_a_calculation(tmp_path):
+    """A report that sheet Declared does not name proves no more than an empty cell."""
+    checks = [judge_typed(tmp_path, proven=how) for how in ("report", "calculated", "")]
+    assert {check.resistance_basis for check in checks} == {"computed"}
+    assert len({(check.verdict, check.utilisation) for check in checks}) == 1
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import check_member, load_standard
-from netdesign.checks.schema import BY_REPORT
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import (
     PullOutTests,
@@ -60,7 +59,7 @@ def test_a_number_that_was_typed_and_the_same_from_tests(count, utilisation):
     tests = PullOutTests(count=count, least=380e3, mean=380e3)
     tested = check_member(action, pull_out(tests=tests), EUROCODE)
     assert tested.utilisation == pytest.approx(utilisation, abs=6e-4)
-    typed = check_member(action, pull_out(380e3, basis=BY_REPORT), EUROCODE)
+    typed = check_member(action, pull_out(380e3), EUROCODE)
     assert typed.utilisation == pytest.approx(0.9474, rel=1e-9)
     assert typed.read("γ_R") == tested.read("γ_R") == 1.15
 

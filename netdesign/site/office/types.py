@@ -15,7 +15,6 @@ from netdesign.site.type_lines import fill_in_section, name_values
 from netdesign.site.type_resistances import compute_compression, compute_tendon
 from netdesign.words.message import Message, say
 
-_BASES = {"report": "report", "calculated": "computed", "": "computed"}
 _GRADE = 235.0  # least grade of rolled sections [MPa]
 _ABOVE_NET = 0.3  # of a post beyond the net's head, our judgement [m]
 _STEEL = ("bar_diameter", "bar_strength", "inner_diameter")
@@ -133,9 +132,10 @@ def _prove(line: Row) -> dict[str, Reading]:
         }
     basis = find_field(ANCHORS, "basis")
     said = rename(how, basis) if how.cell else read_nothing(basis, None)
-    word = _BASES[how.word]
-    reason = None if how.word else say("office.worst_basis")
-    given = replace(said, state="given", value=word, derivation=reason)
+    counted = {"": say("office.worst_basis"), "report": say("office.unnamed_report")}
+    given = replace(
+        said, state="given", value="computed", derivation=counted.get(how.word)
+    )
     nothing = {
         key: read_nothing(find_field(ANCHORS, key), None)
         for key in ("test_count", "test_mean")
