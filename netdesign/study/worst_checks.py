@@ -37,9 +37,8 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
     """
     forces = variants[0]
     effects, row = forces.effects, forces.row
-    at_end, not_checked = effects.find_support("edge"), forces.standard.not_checked
+    at_end = effects.find_support("edge")
     held = row.row_end.resistances if row.row_end else ()
-    parts = () if "mesh" in not_checked else row.net_parts
     of_supports: dict[str, list[MemberCheck]] = {
         width.position: list(
             _judge_at(variants, width, row.resistances_at(width.position))
@@ -48,7 +47,7 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
     }
     judged = [
         *_place_second(forces, of_supports),
-        *_judge_at(variants, at_end, (*parts, *held)),
+        *_judge_at(variants, at_end, (*row.net_parts, *held)),
     ]
     open_cases = find_open(judged)
     turned: dict[str, list[MemberCheck]] = {
@@ -74,10 +73,7 @@ def _judge_at(
         if resistance.mode == "direction" or not _concerns(variants, resistance):
             continue
         yield _judge_worst(variants, width, resistance)
-        is_rope = (
-            resistance.mode in ("tendon", "rope") and resistance.member in CONNECTED
-        )
-        if is_rope and "connections" not in variants[0].standard.not_checked:
+        if resistance.mode in ("tendon", "rope") and resistance.member in CONNECTED:
             yield _judge_worst(variants, width, resistance, _find_chain)
 
 
@@ -276,11 +272,10 @@ def _is_covered(
 
 
 def _concerns(variants: Sequence[RowForces], resistance: Resistance) -> bool:
-    """Whether row and profile have the check: a post foot where a case lifts it."""
-    if resistance.member == Member.POST_FOOT:
-        return any(lifts(forces.largest.values(), forces.floor) for forces in variants)
-    not_checked = variants[0].standard.not_checked
-    return resistance.mode != "wedge" or "anchor_ground" not in not_checked
+    """Whether a row has the check: a post's foot where a case lifts it."""
+    return resistance.member != Member.POST_FOOT or any(
+        lifts(forces.largest.values(), forces.floor) for forces in variants
+    )
 
 
 def _find_chain(
