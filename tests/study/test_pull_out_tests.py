@@ -6,7 +6,6 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.checks.comparison import find_proof_factor
-from netdesign.outcome import Verdict
 from netdesign.report.sections.schedule import list_anchors, show_tests
 from netdesign.report.words import Words
 from tests.checks.given_pulls import study_row
