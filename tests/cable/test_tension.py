@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history.net_pulls import keep_lengths, pull_nodes
-from netdesign.addons.history.sliding import (
+from netdesign.addons.history.net_pulls import (
     compute_node_forces,
     compute_segment_lengths,
     compute_tensions,
+    pull_nodes,
 )
 from netdesign.cable.net import (
     compute_end_directions,
@@ -46,7 +46,7 @@ def test_tensions_follow_the_strain_and_are_never_negative():
 
 
 def pull(points, tensions):
-    return pull_nodes(points, keep_lengths(np.ones(tensions.size), tensions))
+    return pull_nodes(points, np.ones(tensions.size), tensions)
 
 
 def test_forces_sum_to_nothing():

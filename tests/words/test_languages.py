@@ -24,7 +24,7 @@ def list_guarded():
     """Every name that a guard is called with."""
     for _, node in walk_package():
         is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-        if is_call and node.func.id in (*GUARDS, "require_lengths") and node.args:
+        if is_call and node.func.id in GUARDS and node.args:
             name = node.args[0]
             if isinstance(name, ast.Constant):
                 yield name.value

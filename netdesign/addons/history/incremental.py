@@ -1,6 +1,6 @@
 """The source paper's own cable: linearised increments of tension.
 
-Kept as the record of the paper's method and to compare with; ``sliding`` is the exact
+Kept as the record of the paper's method and to compare with; ``yielding`` has the exact
 form. The paper leaves open how to find the nodes that slide. Here every node that
 breaks its condition changes over; where that no longer helps, wrong sliders stop
 first, then the worst offender starts. Theory: cable/THEORY.md, eqs (C18) to (C20).
@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.addons.history.sliding import compute_tensions, require_lengths
+from netdesign.addons.history.net_pulls import compute_tensions
 from netdesign.numerics.arrays import Floats, Signs
-from netdesign.outcome import ModelError, Outcome, require_positive, require_within
+from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
 Nodes = NDArray[np.intp]
@@ -40,31 +40,6 @@ class CableState:
     unstressed_lengths: Floats
     tensions: Floats
 
-    def __post_init__(self) -> None:
-        """Refuse lengths that no segment has."""
-        require_lengths("final length", self.final_lengths)
-        require_lengths("unstressed length", self.unstressed_lengths)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class IncrementalStep:
-    """End of one increment; usable only if converged.
-
-    Attributes
-    ----------
-    outcome : Outcome
-        Converged; max_iterations if the sliding nodes were not found; out_of_validity
-        if a segment would push: the increments have no rule for a slack net.
-    state : CableState
-        The cable at the end; as before the increment if not converged.
-    slide_signs : ndarray, shape (n,)
-        1 net slides towards the foot, -1 towards the head, 0 sticks.
-    """
-
-    outcome: Outcome
-    state: CableState
-    slide_signs: Signs
-
 
 def build_cable_state(
     final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
@@ -82,15 +57,7 @@ def build_cable_state(
     -------
     CableState
         With tensions in N/m.
-
-    Raises
-    ------
-    ModelError
-        If a segment is slack, or a length is not above 0.
     """
-    slack = final_lengths < unstressed_lengths * (1.0 - _ROUNDING)
-    if slack.any():
-        raise ModelError(say("cable.segment_slack", segment=int(np.argmax(slack))))
     return CableState(
         final_lengths=final_lengths,
         unstressed_lengths=unstressed_lengths,
@@ -106,7 +73,7 @@ def advance_increment(
     friction: float,
     stiffness: float,
     max_rounds: int = 1000,
-) -> IncrementalStep:
+) -> CableState:
     """One increment of the paper's cable, its Eqs 5 to 14.
 
     Parameters
@@ -127,21 +94,19 @@ def advance_increment(
 
     Returns
     -------
-    IncrementalStep
-        Agrees with ``solve_sliding`` to first order in the increment.
+    CableState
+        At t + tau; exact sliding to first order in the increment.
 
     Raises
     ------
-    ModelError
-        If a length is not above 0 or the shapes do not match.
+    SolveError
+        If the sliding nodes are not found, or a segment would push: the increments have
+        no rule for a slack net.
 
     Source
     ------
     The paper's section "The cable"; |R_t| for R_t in its Eqs 12 and 13.
     """
-    _require_matching(state, final_lengths, turning_angles)
-    require_positive("net stiffness", stiffness, "N/m")
-    require_within("friction", friction, 0.0, np.inf)
     increment = _linearise(state, final_lengths, turning_angles, friction, stiffness)
     signs = np.zeros(turning_angles.size, dtype=np.int8)
     fewest, patience = signs.size + 1, _PATIENCE
@@ -150,7 +115,7 @@ def advance_increment(
         revised = _revise_signs(increment, tensions, signs)
         changing: Nodes = np.flatnonzero(revised != signs)
         if changing.size == 0:
-            return _end(state, increment, tensions, signs)
+            return _end(increment, tensions)
         helps = changing.size < fewest
         patience = _PATIENCE if helps else patience - 1
         fewest = min(fewest, changing.size)
@@ -158,9 +123,7 @@ def advance_increment(
             changing = _choose_worst(_excess(increment, tensions), signs, changing)
         signs = signs.copy()
         signs[changing] = revised[changing]
-    return IncrementalStep(
-        outcome=Outcome.MAX_ITERATIONS, state=state, slide_signs=signs
-    )
+    raise SolveError(Outcome.MAX_ITERATIONS, say("staggered.no_increment"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -246,30 +209,12 @@ def _lengthening(increment: _Increment, tensions: Floats) -> Floats:
     return (increment.stuck - tensions) / increment.softening
 
 
-def _end(
-    before: CableState, increment: _Increment, tensions: Floats, signs: Signs
-) -> IncrementalStep:
+def _end(increment: _Increment, tensions: Floats) -> CableState:
     unstressed = increment.unstressed + _lengthening(increment, tensions)
     if not (tensions.min() >= 0.0 and unstressed.min() > 0.0):
-        return IncrementalStep(
-            outcome=Outcome.OUT_OF_VALIDITY, state=before, slide_signs=signs
-        )
-    state = CableState(
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("staggered.no_increment"))
+    return CableState(
         final_lengths=increment.final,
         unstressed_lengths=unstressed,
         tensions=tensions,
     )
-    return IncrementalStep(outcome=Outcome.CONVERGED, state=state, slide_signs=signs)
-
-
-def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:
-    require_lengths("final length", final)
-    if not (final.shape == state.final_lengths.shape == (angles.size + 1,)):
-        raise ModelError(
-            say(
-                "cable.increment_sizes",
-                old=state.final_lengths.size,
-                new=final.size,
-                angles=angles.size,
-            )
-        )

@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.addons.history.net_pulls import NetResponse, hold_net
-from netdesign.addons.history.sliding import join_points
+from netdesign.addons.history.net_pulls import NetResponse, hold_net, join_points
 from netdesign.addons.history.snow import SnowIterate
 from netdesign.addons.history.state import (
     Top,

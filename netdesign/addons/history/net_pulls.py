@@ -1,8 +1,6 @@
-"""The net on given nodes: the forces that it does to them, friction solved exactly.
+"""The net as a polygon: its lengths and tensions, and the forces that it does.
 
-The snow prescribes the nodes; the net slides through them as far as friction lets
-it (``sliding``) and pushes back. Nodes that yield to these forces: ``yielding``.
-Theory: cable/THEORY.md, eqs (C10) to (C14), (C21).
+Theory: cable/THEORY.md, eqs (C10), (C11) and (C21).
 """
 
 from __future__ import annotations
@@ -11,16 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.addons.history.sliding import (
-    SlidingStep,
-    compute_segment_lengths,
-    compute_tensions,
-    solve_sliding,
-)
-from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
-from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome, SolveError
-from netdesign.words.message import say
+from netdesign.cable.net import compute_turning_angles
+from netdesign.numerics.arrays import Floats, Signs
 
 # A segment that bends more than this between its ends is no arc of a smooth curve.
 LARGEST_BEND = 1.0
@@ -36,53 +26,18 @@ class NetResponse:
         Of the net on the snow at the nodes [N/m].
     foot_pull, head_pull : ndarray, shape (2,)
         Pulls of the first and the last segment on their ends [N/m].
-    sliding : SlidingStep
-        Tensions, unstressed lengths, and which nodes slide.
+    lengths, tensions : ndarray, shape (n + 1,)
+        Unstressed lengths lo_i [m] and tensions T_i [N/m] of the segments.
+    slide_signs : ndarray of int, shape (n,)
+        1 where the net slides to the foot, -1 to the head, 0 where it sticks.
     """
 
     forces: Floats
     foot_pull: Floats
     head_pull: Floats
-    sliding: SlidingStep
-
-
-def respond(
-    points: Floats, old_lengths: Floats, *, friction: float, stiffness: float
-) -> NetResponse:
-    """Net forces on nodes that the snow has moved.
-
-    Parameters
-    ----------
-    points : ndarray, shape (2, n + 2)
-        Foot, nodes and head [m, or any unit].
-    old_lengths : ndarray, shape (n + 1,)
-        Unstressed lengths of the segments before the step [same unit].
-    friction : float
-        Tan phi [-].
-    stiffness : float
-        ES [N/m, or any unit of force per width].
-
-    Returns
-    -------
-    NetResponse
-        Forces in the unit of ``stiffness``.
-
-    Raises
-    ------
-    SolveError
-        If the friction problem has not converged.
-
-    Verified by
-    -----------
-    tests/addons/history/test_net_pulls.py
-    """
-    bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
-    sliding = solve_sliding(
-        measure_arcs(points), old_lengths, bounds, stiffness=stiffness
-    )
-    if sliding.outcome is not Outcome.CONVERGED:
-        raise SolveError(sliding.outcome, say("cable.friction"))
-    return pull_nodes(points, sliding)
+    lengths: Floats
+    tensions: Floats
+    slide_signs: Signs
 
 
 def hold_net(points: Floats, lengths: Floats, *, stiffness: float) -> NetResponse:
@@ -96,49 +51,121 @@ def hold_net(points: Floats, lengths: Floats, *, stiffness: float) -> NetRespons
         Unstressed lengths of the segments [same unit].
     stiffness : float
         ES [N/m, or any unit of force per width].
-
-    Raises
-    ------
-    ModelError
-        If a length is not above 0.
     """
     tensions = compute_tensions(measure_arcs(points), lengths, stiffness)
-    return pull_nodes(points, keep_lengths(lengths, tensions))
+    return pull_nodes(points, lengths, tensions)
 
 
-def keep_lengths(lengths: Floats, tensions: Floats) -> SlidingStep:
-    """A step in which nothing slides.
-
-    Parameters
-    ----------
-    lengths, tensions : ndarray, shape (n + 1,)
-        Unstressed lengths and tensions of the segments, any unit.
-    """
-    return SlidingStep(
-        outcome=Outcome.CONVERGED,
-        lengths=lengths,
-        tensions=tensions,
-        slides=np.zeros(lengths.size - 1),
-    )
-
-
-def pull_nodes(points: Floats, sliding: SlidingStep) -> NetResponse:
+def pull_nodes(
+    points: Floats,
+    lengths: Floats,
+    tensions: Floats,
+    slide_signs: Signs | None = None,
+) -> NetResponse:
     """Forces of the net's tensions on its nodes and ends.
 
     Parameters
     ----------
     points : ndarray, shape (2, n + 2)
         Foot, nodes and head [m, or any unit].
-    sliding : SlidingStep
-        Tensions of the segments.
+    lengths, tensions : ndarray, shape (n + 1,)
+        Of the segments; lengths unstressed [same unit], tensions in any unit.
+    slide_signs : ndarray of int, shape (n,), optional
+        As of ``NetResponse``; without, nothing slides.
     """
-    pulls = sliding.tensions * np.diff(points) / compute_segment_lengths(points)
+    pulls = tensions * np.diff(points) / compute_segment_lengths(points)
+    if slide_signs is None:
+        slide_signs = np.zeros(lengths.size - 1, dtype=np.int8)
     return NetResponse(
         forces=np.diff(pulls),
         foot_pull=pulls[:, 0],
         head_pull=-pulls[:, -1],
-        sliding=sliding,
+        lengths=lengths,
+        tensions=tensions,
+        slide_signs=slide_signs,
     )
+
+
+def join_points(nodes: Floats, head: Floats) -> Floats:
+    """Points of a net: its foot at the origin, its nodes, its head.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (2, n)
+        Foot and head left out [m, or any unit].
+    head : ndarray, shape (2,)
+        In that unit.
+
+    Returns
+    -------
+    ndarray, shape (2, n + 2)
+        In that unit.
+    """
+    points = np.zeros((2, nodes.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = nodes, head
+    return points
+
+
+def compute_segment_lengths(points: Floats) -> Floats:
+    """Chords between neighbouring points.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m, or any unit].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        In the unit of the points.
+    """
+    return np.asarray(np.hypot(*np.diff(points)))
+
+
+def compute_tensions(
+    final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
+) -> Floats:
+    """Tensions of elastic segments, eq. (C10); a slack segment has none.
+
+    Parameters
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i, above 0 [m, or any unit].
+    stiffness : float
+        ES, force per width at unit strain [N/m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        T_i, at least 0 [N/m].
+    """
+    strains = (final_lengths - unstressed_lengths) / unstressed_lengths
+    return np.asarray(stiffness * np.maximum(strains, 0.0))
+
+
+def compute_node_forces(points: Floats, tensions: Floats) -> tuple[Floats, Floats]:
+    """Components of the net's forces on the snow at its nodes, eq. (C11).
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i [N/m].
+
+    Returns
+    -------
+    tuple of ndarray, shape (n,)
+        R_n along the bisector of the node, positive where the net presses, and R_t
+        across it, positive towards the head [N/m].
+
+    Source
+    ------
+    The paper's Eq. 11, whose angle theta_{i-1} - theta_i is beta_i here.
+    """
+    half = compute_turning_angles(points) / 2.0
+    normal = (tensions[1:] + tensions[:-1]) * np.sin(half)
+    return normal, (tensions[1:] - tensions[:-1]) * np.cos(half)
 
 
 def measure_arcs(points: Floats) -> Floats:

@@ -16,8 +16,8 @@ from netdesign.addons.history.moments import (
     largest_pull,
     select_counted,
 )
+from netdesign.addons.history.net_pulls import compute_node_forces
 from netdesign.addons.history.settings import Start
-from netdesign.addons.history.sliding import compute_node_forces
 from netdesign.addons.history.state import TransientProblem, TransientState
 from netdesign.coupling.balance import check_balance, negative_share
 from netdesign.coupling.interface import Estimate
@@ -103,7 +103,7 @@ def record_moment(
     axes = _net_normals(state.body.vertices[:, net])
     across = np.abs((instant.velocity[:, net] * axes).sum(axis=0))
     ways = way + across * step
-    tensions = instant.response.sliding.tensions
+    tensions = instant.response.tensions
     ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
     strain = moments[-1].strain if moments else 0.0
     moment = HistoryPoint(
@@ -249,7 +249,7 @@ def _list_forces(run: Run) -> Floats:
 
 def _find_slides(run: Run) -> Mask:
     """Net nodes at which the snow slips, foot to head."""
-    signs = run.instant.response.sliding.slide_signs
+    signs = run.instant.response.slide_signs
     slides = np.append(False, signs != 0)
     if run.instant.on_net.shape[1] > signs.size:
         slides = np.append(slides, True)  # a corner held at the head slips freely
@@ -273,7 +273,7 @@ def _scale_moment(moment: HistoryPoint, scene: Scene) -> HistoryPoint:
 
 def _measure_balance(run: Run, scene: Scene) -> Balance:
     weight = float(run.state.body.mass.sum())
-    tensions = run.instant.response.sliding.tensions
+    tensions = run.instant.response.tensions
     normal, tangential = compute_node_forces(run.instant.points, tensions)
     friction = run.problem.snow.friction
     excess = np.abs(tangential) - friction * np.maximum(normal, 0.0)

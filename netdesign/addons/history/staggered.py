@@ -23,7 +23,7 @@ from netdesign.addons.history.instant import Instant, advance_under
 from netdesign.addons.history.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.addons.history.net_pulls import (
     NetResponse,
-    keep_lengths,
+    join_points,
     measure_arcs,
     pull_nodes,
 )
@@ -38,7 +38,6 @@ from netdesign.addons.history.settings import (
     MOST_EXCHANGE_ITERATIONS,
     StaggeredSettings,
 )
-from netdesign.addons.history.sliding import join_points
 from netdesign.addons.history.state import (
     TransientProblem,
     TransientState,
@@ -230,7 +229,7 @@ def _respond(
 ) -> NetResponse:
     """The net as it is, its forces taken as they are."""
     points = join_points(state.net_nodes, problem.head)
-    return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
+    return pull_nodes(points, cable.unstressed_lengths, cable.tensions)
 
 
 def _follow(
@@ -255,16 +254,11 @@ def _follow(
         base_shear=instant.base_shear,
     )
     points = join_points(moved.net_nodes, problem.head)
-    increment = advance_increment(
+    cable = advance_increment(
         cable,
         measure_arcs(points),
         compute_turning_angles(points),
         friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
-    if increment.outcome is not Outcome.CONVERGED:
-        raise SolveError(
-            increment.outcome,
-            say("staggered.no_increment", time=float(moved.time)),
-        )
-    return moved, increment.state
+    return moved, cable

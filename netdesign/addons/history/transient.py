@@ -374,7 +374,7 @@ def follow(
     if not net.vertices[1, 1:].min() > 0.0:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("net.touches_ground"))
     # the upper corner may have become a node of the net, or none any more
-    signs = np.append(instant.response.sliding.slide_signs, np.zeros(1, dtype=np.int8))
+    signs = np.append(instant.response.slide_signs, np.zeros(1, dtype=np.int8))
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
     following = TransientState(
         time=state.time + step,
@@ -396,7 +396,7 @@ def _move_top(
 ) -> _Net:
     """Decide what the snow's upper corner does in the next step."""
     vertices = instant.displaced[:, state.body.topology.net].copy()
-    lengths = instant.response.sliding.lengths
+    lengths = instant.response.lengths
     head, chord = problem.head, float(np.hypot(*problem.head))
     last = head - vertices[:, -2]
     distance = float(np.hypot(*last))
@@ -415,7 +415,7 @@ def _move_top(
     limit = problem.snow.friction * max(float(instant.on_net[:, -1] @ normal), 0.0)
     if shear >= -limit:
         return _Net(vertices, lengths, "held")
-    if not instant.response.sliding.tensions[-1] > 0.0:
+    if not instant.response.tensions[-1] > 0.0:
         return _Net(vertices, lengths, "held")
     share = HEAD_GAP * chord / distance
     vertices[:, -1] = head - last * share

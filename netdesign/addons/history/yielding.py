@@ -3,7 +3,7 @@
 The snow's nodes go where its own flow and the net's forces carry them, linearly in
 the forces; the net slides through the nodes as far as friction lets it. Each Newton
 step linearises all but the choice between sticking and sliding, which is made exactly
-for the linear problem. If it were made for nodes at rest, as in ``response``, it would
+for the linear problem. If it were made for nodes at rest, it would
 change from one iteration to the next wherever the snow is softer than the net.
 Theory: cable/THEORY.md, eqs (C22) to (C26).
 """
@@ -22,13 +22,12 @@ from netdesign.addons.history.net_pulls import (
     NetResponse,
     average_at_segments,
     bend_segments,
+    join_points,
     pull_nodes,
-    respond,
 )
-from netdesign.addons.history.sliding import SlidingStep, join_points
 from netdesign.core.arguments import YieldingArgument, locate_all, to_floats
 from netdesign.core.library import find_core, require_sound
-from netdesign.numerics.arrays import Floats, Mask, Signs, freeze
+from netdesign.numerics.arrays import Floats, Ints, Mask, Signs, freeze
 from netdesign.outcome import Outcome, SolveError
 from netdesign.words.message import say
 
@@ -39,7 +38,7 @@ _LEAST_SHARE = 0.1  # of a tension, that one step must leave
 _SHORTEST_PART = 1e-3
 # Rounds in which every node may change between sticking and sliding; then one at a
 # time (Murty's rule).
-_FREE_ROUNDS, _MOST_ROUNDS = 12, 400
+_FREE_ROUNDS, _MOST_ROUNDS = 12, 4000
 _BREACH = 1e-9  # of a tension, that counts as none
 _BACKWARD = 1e-14  # slide against its direction that is rounding
 _LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
@@ -206,10 +205,10 @@ def settle_net(
         guess = replace(guess, place=_take_up(problem, net, guess.slides).place)
     settle = _settle if find_core() is None else _settle_compiled
     end, lengths, tensions = settle(problem, guess)
-    sliding = SlidingStep(
-        outcome=Outcome.CONVERGED, lengths=lengths, tensions=tensions, slides=end.slides
-    )
-    return pull_nodes(join_points(end.place, head), sliding), end
+    points = join_points(end.place, head)
+    # what has slid is exactly 0 where the net sticks
+    signs = np.sign(end.slides).astype(np.int8)
+    return pull_nodes(points, lengths, tensions, signs), end
 
 
 # Net and nodes in equilibrium: state to go on from, lengths and tensions of segments.
@@ -278,15 +277,17 @@ def _call_core(
 
 
 def _loosen(problem: _Problem, guess: NetGuess) -> NetGuess:
-    """The net as it slides on nodes that stay, where a segment would push."""
-    points = join_points(guess.place, problem.head)
-    loose = respond(
-        points,
-        problem.old_lengths,
-        friction=problem.friction,
-        stiffness=problem.stiffness,
-    ).sliding
-    return replace(guess, slides=loose.slides, slide_signs=loose.slide_signs)
+    """The net under one strain, where a segment would push: of each part its own.
+
+    Parts end where nothing can slide.
+    """
+    net, old = _place_net(problem, guess.place, guess.slides), problem.old_lengths
+    parts = _number_parts(net.share)
+    shrunk = np.bincount(parts, old) / np.bincount(parts, net.arcs)
+    slides = np.cumsum(net.arcs * shrunk[parts] - old)[:-1]
+    slides[net.share == 0.0] = 0.0
+    signs = np.sign(slides).astype(np.int8)
+    return replace(guess, slides=slides, slide_signs=signs)
 
 
 def _place_net(problem: _Problem, place: Floats, slides: Floats) -> _Net:
@@ -326,8 +327,13 @@ def _difference(count: int) -> Floats:
 
 def _find_slack(stretch: Floats, share: Floats) -> Mask:
     """Segments of parts, between nodes where nothing can slide, that are too long."""
-    parts = np.append(0, np.cumsum(share == 0.0))
+    parts = _number_parts(share)
     return np.asarray((np.bincount(parts, stretch) <= 0.0)[parts])
+
+
+def _number_parts(share: Floats) -> Ints:
+    """Number of the part that each segment is in."""
+    return np.append(0, np.cumsum(share == 0.0))
 
 
 def _take_up(problem: _Problem, net: _Net, slides: Floats) -> _Net:

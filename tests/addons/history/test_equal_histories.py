@@ -185,7 +185,7 @@ def test_a_net_on_yielding_nodes_is_the_same(in_numpy):
             assert one == other
             failed.add(other[0])
             continue
-        size = max(np.abs(other[0].sliding.tensions).max(), 1e-3)
+        size = max(np.abs(other[0].tensions).max(), 1e-3)
         np.testing.assert_allclose(one[0].forces, other[0].forces, atol=1e-7 * size)
         np.testing.assert_allclose(one[1].place, other[1].place, atol=1e-8)
         np.testing.assert_allclose(one[1].slides, other[1].slides, atol=1e-8)

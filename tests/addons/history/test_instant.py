@@ -7,11 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.verification.closed_forms import slide_on
 from netdesign.addons.history import instant as instant_module
 from netdesign.addons.history.instant import advance, advance_under
-from netdesign.addons.history.net_pulls import hold_net, respond
+from netdesign.addons.history.net_pulls import compute_node_forces, hold_net
 from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
-from netdesign.addons.history.sliding import compute_node_forces
 from netdesign.addons.history.state import build_problem, build_start
 from netdesign.addons.history.transient import run_history
 from netdesign.outcome import Outcome, SolveError
@@ -35,8 +35,8 @@ def pass_on(state, instant, step):
         state,
         time=state.time + step,
         body=replace(state.body, vertices=instant.displaced),
-        lengths=instant.response.sliding.lengths,
-        slide_signs=instant.response.sliding.slide_signs,
+        lengths=instant.response.lengths,
+        slide_signs=instant.response.slide_signs,
         top=instant.top,
         velocity=instant.velocity,
         moved=instant.displaced - state.body.vertices,
@@ -85,14 +85,11 @@ def test_net_forces_are_those_at_the_steps_end(a_scene, friction):
     problem, state, instant = two_steps(a_scene(friction_deg=friction))
     nodes = instant.displaced[:, state.carried]
     np.testing.assert_allclose(instant.points[:, 1:-1], nodes, atol=1e-12)
-    again = respond(
-        instant.points,
-        state.lengths,
-        friction=problem.snow.friction,
-        stiffness=problem.stiffness,
+    again = slide_on(
+        instant.points, state.lengths, problem.snow.friction, problem.stiffness
     )
     np.testing.assert_allclose(again.forces, instant.response.forces, atol=2e-9)
-    tensions = again.sliding.tensions
+    tensions = again.tensions
     normal, tangential = compute_node_forces(instant.points, tensions)
     limit = problem.snow.friction * np.maximum(normal, 0.0)
     assert (np.abs(tangential) - limit).max() < 1e-9

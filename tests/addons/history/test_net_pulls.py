@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.history import net_pulls
-from netdesign.addons.history.net_pulls import hold_net, measure_arcs, respond
-from netdesign.outcome import Outcome, SolveError
+from netdesign.addons.evidence.verification.closed_forms import slide_on
+from netdesign.addons.history.net_pulls import hold_net, measure_arcs
 from tests.each import each
 
 STIFFNESS = 50.0
@@ -40,7 +39,7 @@ def test_forces_and_pulls_are_in_balance(friction, spread):
     """Sum of forces, and of their moments about the foot."""
     points = bulged(arc_points(9), size=0.02)
     lengths = strained(points, 0.05, spread=spread)
-    net = respond(points, lengths, friction=friction, stiffness=STIFFNESS)
+    net = slide_on(points, lengths, friction, STIFFNESS)
     size = np.hypot(*net.foot_pull)
     everything = net.forces.sum(axis=1) + net.foot_pull + net.head_pull
     np.testing.assert_allclose(everything, 0.0, atol=1e-13 * size)
@@ -53,7 +52,7 @@ def test_net_pushes_the_snow_back():
     """Convex to the valley, so its forces point upslope."""
     points = arc_points(9)
     lengths = strained(points, 0.05)
-    net = respond(points, lengths, friction=0.3, stiffness=STIFFNESS)
+    net = slide_on(points, lengths, 0.3, STIFFNESS)
     assert (net.forces[0] < 0.0).all()
     assert net.foot_pull[0] > 0.0
     assert net.head_pull[0] > 0.0
@@ -67,9 +66,9 @@ def test_sliding_net_tends_to_the_capstan(friction):
         points = arc_points(count, opening=opening)
         # all of the strain is at the foot, as after a long slide
         lengths = strained(points, 0.05, spread=0.999)
-        net = respond(points, lengths, friction=friction, stiffness=STIFFNESS)
-        assert (net.sliding.slide_signs == net.sliding.slide_signs[0]).all()
-        assert net.sliding.slide_signs[0] != 0
+        net = slide_on(points, lengths, friction, STIFFNESS)
+        assert (net.slide_signs == net.slide_signs[0]).all()
+        assert net.slide_signs[0] != 0
         ratio = np.hypot(*net.foot_pull) / np.hypot(*net.head_pull)
         wrap = opening * count / (count + 1)  # between first and last segment
         errors.append(abs(ratio / math.exp(friction * wrap) - 1.0))
@@ -104,44 +103,10 @@ def test_held_net_is_one_that_sticks():
     lengths = strained(points, 0.02, spread=0.2)
     held = hold_net(points, lengths, stiffness=STIFFNESS)
     tensions = STIFFNESS * (measure_arcs(points) / lengths - 1.0)
-    np.testing.assert_allclose(held.sliding.tensions, tensions, rtol=1e-12)
-    sticks = respond(points, lengths, friction=40.0, stiffness=STIFFNESS)
-    assert not sticks.sliding.slides.any()
+    np.testing.assert_allclose(held.tensions, tensions, rtol=1e-12)
+    sticks = slide_on(points, lengths, 40.0, STIFFNESS)
+    assert not sticks.slide_signs.any()
     for name in ("forces", "foot_pull", "head_pull"):
         np.testing.assert_allclose(
             getattr(held, name), getattr(sticks, name), atol=1e-12
         )
-
-
-def test_slack_net_does_nothing():
-    points = arc_points(7)
-    net = respond(
-        points, 1.01 * measure_arcs(points), friction=0.3, stiffness=STIFFNESS
-    )
-    assert not net.sliding.tensions.any()
-    for nothing in (net.forces, net.foot_pull, net.head_pull):
-        assert not nothing.any()
-
-
-def test_slack_segment_draws_net_in_from_its_neighbours():
-    """Sum of unstressed lengths kept; the net is tight everywhere."""
-    points = arc_points(7)
-    lengths = strained(points, 0.02)
-    lengths[3] *= 1.05
-    net = respond(points, lengths, friction=0.1, stiffness=STIFFNESS)
-    assert net.sliding.tensions.min() > 0.0
-    assert net.sliding.lengths.sum() == pytest.approx(lengths.sum(), rel=1e-13)
-
-
-def test_unsolved_friction_is_an_error_and_no_force(monkeypatch):
-    points = arc_points(3)
-    solve = net_pulls.solve_sliding
-    monkeypatch.setattr(
-        net_pulls,
-        "solve_sliding",
-        lambda *given, **named: solve(*given, **named, max_iterations=0),
-    )
-    lengths = strained(points, 0.02, spread=0.9)
-    with pytest.raises(SolveError, match="friction of the net") as failure:
-        respond(points, lengths, friction=0.05, stiffness=STIFFNESS)
-    assert failure.value.outcome is Outcome.MAX_ITERATIONS

@@ -19,7 +19,8 @@ from netdesign.addons.evidence.verification.manufactured import (
     solve_prescribed,
 )
 from netdesign.addons.history.incremental import advance_increment, build_cable_state
-from netdesign.addons.history.sliding import compute_segment_lengths, solve_sliding
+from netdesign.addons.history.net_pulls import NetResponse, measure_arcs
+from netdesign.addons.history.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.addons.winter.settling import Hs2swe
 from netdesign.cable.funicular import (
     Funicular,
@@ -29,11 +30,9 @@ from netdesign.cable.funicular import (
 from netdesign.cable.net import (
     compute_capstan_ratio,
     compute_parabola_sag,
-    compute_ratio_bounds,
     compute_turning_angles,
 )
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     PAPER_FLUIDITY,
@@ -239,56 +238,75 @@ def _end_ratio(count: int, *, is_reversed: bool) -> float:
     foot = np.array([[-0.5], [0.0]])
     head = arc[:, -1:] + 0.5 * np.array([[math.cos(_WRAP)], [math.sin(_WRAP)]])
     points = np.hstack([foot, arc, head])
-    final = compute_segment_lengths(points)
-    strain = np.full(final.size, 1e-5)
+    arcs = measure_arcs(points)
+    strain = np.full(arcs.size, 1e-5)
     strain[0 if is_reversed else -1] = 0.05  # a pull at one end that starts it all
-    step = solve_sliding(
-        final,
-        final / (1.0 + strain),
-        compute_ratio_bounds(compute_turning_angles(points), math.tan(_FRICTION_ANGLE)),
-        stiffness=_STIFFNESS,
+    net = slide_on(points, arcs / (1.0 + strain), math.tan(_FRICTION_ANGLE))
+    return float(net.tensions[-1] / net.tensions[0])
+
+
+def slide_on(
+    points: Floats,
+    old_lengths: Floats,
+    friction: float,
+    stiffness: float = _STIFFNESS,
+) -> NetResponse:
+    """Net of a history on nodes that do not yield.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    old_lengths : ndarray, shape (n + 1,)
+        Unstressed lengths before the net slides [m].
+    friction : float
+        Tan phi [-].
+    stiffness : float
+        ES [N/m].
+
+    Raises
+    ------
+    SolveError
+        If there is no convergence.
+    """
+    from_foot = points - points[:, :1]
+    nodes = YieldingNodes(
+        positions=from_foot[:, 1:-1],
+        forces=np.ones_like(from_foot[:, 1:-1]),
+        compliance=np.zeros((2 * old_lengths.size - 2,) * 2),
     )
-    _require(step.outcome)
-    return float(step.tensions[-1] / step.tensions[0])
+    guess = NetGuess.at_rest(nodes.positions, np.zeros(old_lengths.size - 1, np.int8))
+    net, _ = settle_net(
+        *(nodes, guess, from_foot[:, -1], old_lengths),
+        friction=friction,
+        stiffness=stiffness,
+    )
+    return net
 
 
 def _bulge_tensions(count: int) -> tuple[float, float]:
     """Foot tension [N/m] after ``count`` increments: the paper's, the exact one."""
     friction = math.tan(math.radians(5.0))
-    unstressed = compute_segment_lengths(_bulge(0.0))
     points = _bulge(0.5)
-    bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
-    final = compute_segment_lengths(points)
-    first = solve_sliding(final, unstressed, bounds, stiffness=_STIFFNESS)
-    _require(first.outcome)
-    exact = first.lengths
-    paper = build_cable_state(final, exact, _STIFFNESS)
-    tensions = first.tensions
+    net = slide_on(points, measure_arcs(_bulge(0.0)), friction)
+    paper = build_cable_state(measure_arcs(points), net.lengths, _STIFFNESS)
     for share in np.linspace(0.5, 1.0, count + 1)[1:]:
         points = _bulge(float(share))
-        angles = compute_turning_angles(points)
-        final = compute_segment_lengths(points)
-        bounds = compute_ratio_bounds(angles, friction)
-        step = solve_sliding(final, exact, bounds, stiffness=_STIFFNESS)
-        _require(step.outcome)
-        exact, tensions = step.lengths, step.tensions
-        moved = advance_increment(
-            paper, final, angles, friction=friction, stiffness=_STIFFNESS
+        net = slide_on(points, net.lengths, friction)
+        paper = advance_increment(
+            paper,
+            measure_arcs(points),
+            compute_turning_angles(points),
+            friction=friction,
+            stiffness=_STIFFNESS,
         )
-        _require(moved.outcome)
-        paper = moved.state
-    return float(paper.tensions[0]), float(tensions[0])
+    return float(paper.tensions[0]), float(net.tensions[0])
 
 
 def _bulge(share: float) -> Floats:
     """Net of 12 nodes that bulges downslope, more below than above."""
     height = np.linspace(0.0, 1.0, 14)
     return np.array([2.0 * share * height * (1.0 - height) ** 2, height])
-
-
-def _require(outcome: Outcome) -> None:
-    if outcome is not Outcome.CONVERGED:
-        raise SolveError(outcome)
 
 
 PLACE = (367.0, 5e3)  # at which one figure is quoted [kg/m3, Pa]

@@ -1,0 +1,182 @@
+"""The net on nodes that do not yield: friction, slack, robustness.
+
+Unstressed lengths before the step are random and may leave segments slack. Closed
+forms: ``tests/verification/test_sliding_cable.py``.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from netdesign.addons.evidence.verification.closed_forms import slide_on
+from netdesign.addons.history.net_pulls import compute_tensions, measure_arcs
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
+from tests.each import each
+
+STIFFNESS = 2e7
+
+
+class Case(NamedTuple):
+    """A polygon and its unstressed lengths before the net slides."""
+
+    points: np.ndarray
+    old: np.ndarray
+    friction: float
+
+    @property
+    def final(self):
+        return measure_arcs(self.points)
+
+    @property
+    def bounds(self):
+        return compute_ratio_bounds(compute_turning_angles(self.points), self.friction)
+
+    def solve(self):
+        return slide_on(self.points, self.old, self.friction, STIFFNESS)
+
+
+def bulged_points(rng, n: int, grading: float):
+    """Net from (0, 0) to (0, 3), uneven bulge, segments graded to both ends."""
+    sizes = grading ** np.abs(np.linspace(-1.0, 1.0, n + 1))
+    along = np.concatenate([[0.0], np.cumsum(sizes * rng.uniform(0.5, 1.0, n + 1))])
+    along /= along[-1]
+    rough = 0.1 * np.diff(along).min() * rng.normal(size=n + 2)
+    rough[0] = 0.0
+    return np.array([2.0 * along * (1.0 - along) + rough, 3.0 * along])
+
+
+def random_case(seed: int) -> Case:
+    """1 to 40 nodes, friction 0 to 45 deg, strains to 4 %, a fifth of them slack."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 41))
+    points = bulged_points(rng, n, grading=rng.choice([1.0, 0.1, 1e-3]))
+    final = measure_arcs(points)
+    strains = rng.choice([1e-4, 1e-2]) * rng.normal(1.0, 2.0, n + 1)
+    old = final / (1.0 + strains)
+    old *= min(1.0, final.sum() / old.sum() / (1.0 + rng.choice([1e-6, 1e-3])))
+    return Case(points, old, math.tan(math.radians(rng.integers(0, 46))))
+
+
+def largest_breach(case: Case, net) -> float:
+    """Of (C14), from its definition and from nothing but the new lengths."""
+    jumps = np.diff(np.log((case.final - net.lengths) / net.lengths))
+    slid = np.cumsum(net.lengths - case.old)[:-1]
+    glides = np.abs(slid) > 1e-14 * case.old.sum()
+    gliding = np.abs(jumps + np.sign(slid) * case.bounds)
+    sticking = np.maximum(np.abs(jumps) - case.bounds, 0.0)
+    return float(np.where(glides, gliding, sticking).max(initial=0.0))
+
+
+@each("seed", range(200))
+def test_optimality_of_random_nets(seed):
+    case = random_case(seed)
+    net = case.solve()
+    # last digit of a length over the elongation, and the tolerance of the solve
+    rounding = 2.0**-50 * (case.final / (case.final - net.lengths)).max()
+    assert largest_breach(case, net) <= 1e-9 + rounding
+    assert net.tensions.min() > 0.0
+    assert net.lengths.sum() == pytest.approx(case.old.sum(), rel=1e-13)
+
+
+def compute_function(case: Case, lengths) -> float:
+    """The function of (C13), ES = 1."""
+    left = case.final - lengths
+    stored = (lengths * np.log(lengths) + left * np.log(left)).sum()
+    slid = np.cumsum(lengths - case.old)[:-1]
+    return float(stored + (case.bounds * np.abs(slid)).sum())
+
+
+@pytest.mark.parametrize("seed", [3, 17, 40])
+def test_every_small_slide_raises_the_function(seed):
+    rng = np.random.default_rng(seed)
+    points = bulged_points(rng, 12, grading=0.3)
+    old = measure_arcs(points) / 1.02 * rng.uniform(0.99, 1.01, 13)
+    case = Case(points, old, 0.4)
+    lengths = case.solve().lengths
+    least = compute_function(case, lengths)
+    reach = 0.1 * (case.final - lengths).min()
+    for _ in range(50):
+        travel = rng.uniform(-reach, reach, 12)
+        moved = lengths + np.diff(travel, prepend=0.0, append=0.0)
+        assert compute_function(case, moved) > least
+
+
+def test_one_node_by_hand():
+    """Lower segment 2 %, upper 0: glides to the foot until T_1 = T_0 exp(-kappa)."""
+    case = Case(np.array([[0.0, 0.3, 0.0], [0.0, 1.0, 2.0]]), np.ones(2), 0.5)
+    case = case._replace(old=case.final / np.array([1.02, 1.0]))
+    net = case.solve()
+    assert net.slide_signs.tolist() == [1]
+    lower, upper = (case.final - net.lengths) / net.lengths
+    kappa = 2.0 * math.atanh(0.5 * math.tan(math.atan(0.3)))
+    assert upper == pytest.approx(lower * math.exp(-kappa), rel=1e-9)
+    np.testing.assert_allclose(net.tensions, STIFFNESS * np.array([lower, upper]))
+
+
+def test_without_friction_tension_is_uniform():
+    case = random_case(5)._replace(friction=0.0)
+    strain = case.final.sum() / case.old.sum() - 1.0
+    np.testing.assert_allclose(case.solve().tensions, STIFFNESS * strain, rtol=1e-8)
+
+
+@pytest.mark.parametrize("friction", [40.0, 1e4])
+def test_nothing_glides_under_large_friction(friction):
+    """To the last digit; the second parts the net at every node."""
+    rng = np.random.default_rng(8)
+    points = bulged_points(rng, 12, grading=0.3)
+    old = measure_arcs(points) / rng.uniform(1.01, 1.012, 13)
+    net = Case(points, old, friction).solve()
+    assert not net.slide_signs.any()
+    np.testing.assert_array_equal(net.lengths, old)
+    tensions = compute_tensions(measure_arcs(points), old, STIFFNESS)
+    np.testing.assert_allclose(net.tensions, tensions, rtol=1e-13)
+
+
+def test_nodes_that_hold_without_bound_part_the_net():
+    """Two sharp corners: what lies beyond them does not matter."""
+    x = np.array([0.0, 0.2, 0.35, 2.0, 2.1, 2.1, 2.0, 0.35, 0.2, 0.0])
+    case = Case(np.array([x, np.linspace(0.0, 3.0, 10)]), np.ones(9), 2.0)
+    rng = np.random.default_rng(9)
+    case = case._replace(old=case.final / rng.uniform(1.0, 1.02, 9))
+    cuts = np.flatnonzero(np.isinf(case.bounds))
+    assert cuts.size
+    net = case.solve()
+    assert not net.slide_signs[cuts].any()
+    old = case.old.copy()
+    old[: cuts[0] + 1] *= rng.uniform(0.99, 1.0, cuts[0] + 1)
+    other = case._replace(old=old).solve()
+    beyond = slice(cuts[0] + 1, None)
+    np.testing.assert_allclose(other.lengths[beyond], net.lengths[beyond], rtol=1e-13)
+
+
+def test_mirrored_net_slides_the_other_way():
+    case = random_case(30)
+    points = case.points[:, ::-1] * np.array([[1.0], [-1.0]])
+    here = case.solve()
+    there = Case(points, case.old[::-1], case.friction).solve()
+    np.testing.assert_array_equal(there.slide_signs[::-1], -here.slide_signs)
+    np.testing.assert_allclose(there.tensions[::-1], here.tensions, rtol=1e-8)
+
+
+@pytest.mark.parametrize("surplus", [1.0 + 1e-12, 1.05])
+def test_net_longer_than_its_polygon_is_slack(surplus):
+    case = random_case(12)
+    old = case.old / case.old.sum() * case.final.sum() * surplus
+    net = case._replace(old=old).solve()
+    np.testing.assert_array_equal(net.tensions, 0.0)
+    for nothing in (net.forces, net.foot_pull, net.head_pull):
+        assert not nothing.any()
+
+
+@pytest.mark.parametrize("n", [10, 20, 40])
+def test_no_stall_at_any_friction_angle(n):
+    """Where others stalled: phi of 2 to 10 deg, fine meshes."""
+    rng = np.random.default_rng(n)
+    points = bulged_points(rng, n, grading=0.03)
+    old = measure_arcs(points) / (1.01 + 0.001 * np.sin(np.linspace(0.0, 9.0, n + 1)))
+    old[-1] *= 0.99  # pulled at the head; the more friction, the more nodes stick
+    for degrees in range(46):
+        net = Case(points, old, math.tan(math.radians(degrees))).solve()
+    assert {0} < set(net.slide_signs)  # at 45 deg, where most nodes stick
