@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -201,13 +202,12 @@ def init(site_file: Path, **asked: Any) -> None:
     netdesign init example.xlsx --example
     """
     from netdesign.edge.output import require_free
-    from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+    from netdesign.site.template.example import load_input_example
     from netdesign.site.template.office_workbook import WITH, write_input_workbook
 
     if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
-    named = filter(None, map(str.strip, (asked["more"] or "").split(",")))
-    more = list(dict.fromkeys((*(WITH_EXAMPLE if asked["example"] else ()), *named)))
+    more = [*filter(None, map(str.strip, (asked["more"] or "").split(",")))]
     strange = tuple(one for one in more if one not in WITH)
     if strange:
         raise UsageRefusal(say("usage.init_with", sheets=strange, known=tuple(WITH)))
@@ -268,7 +268,7 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     """Write a workbook of version 0.1 again, as one with Rows and Net types."""
     from netdesign.edge.output import require_free, write_files
     from netdesign.site.office.rewrite import read_old, rewrite
-    from netdesign.site.template.rewritten import render_rewritten
+    from netdesign.site.template.office_workbook import render_input
 
     if new.suffix.lower() != ".xlsx" or new.absolute() == old.absolute():
         raise UsageRefusal(say("usage.map_out", file=str(new)))
@@ -277,8 +277,10 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     if workbook is None:
         raise UsageRefusal(say("usage.map_not_old", file=str(old)))
     made = rewrite(workbook, asked["language"])
-    content, done = render_rewritten(made, asked["language"])
+    content = render_input(made.tables, asked["language"], (), made.measures)
     write_files({new: content}, overwrite=asked["force"])
-    for one in done:
+    for one in made.done:
         tell(one)
     tell(say("cli.wrote", path=str(new)), err=True)
+    command = shlex.join(["netdesign", "check", str(new)])
+    tell(say("rewrite.next", command=command), err=True)

@@ -12,7 +12,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.site.columns.office import load_plan
-from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+from netdesign.site.template.example import load_input_example
 from netdesign.site.template.office_workbook import write_input_workbook
 from tests.report.reading import read_workbook
 
@@ -50,9 +50,7 @@ def spoil_site(language):
 def run_all(folder, language, patch):
     """What each command told, by its name; its files are in the folder."""
     patch.chdir(folder)
-    write_input_workbook(
-        "site.xlsx", language=language, more=WITH_EXAMPLE, tables=shorten_example()
-    )
+    write_input_workbook("site.xlsx", language=language, tables=shorten_example())
     told = {}
     for name, line in COMMANDS.items():
         if name == "refused":

@@ -126,4 +126,4 @@ def write_types() -> bytes:
     (project,) = example["project"]
     named = {**project, "name": "Starting zone (example)"}
     tables = {"project": [named], **{name: example[name] for name in _TYPES}}
-    return render_input(tables, "en", ("tests", "parts"), {("rows", "snow"): "normal"})
+    return render_input(tables, measures={("rows", "snow"): "normal"})

@@ -259,7 +259,6 @@ def _choose(band: Band, cared: float) -> float:
 _ROW_KEYS = {"snow_thickness": "snow"}
 _ROWS = frozenset(column.field.key for column in load_columns("rows"))
 _NETS = {x.field.key: x for x in load_columns("net_types") if x.field.key != "id"}
-_STRUCTURE = {key for key, column in _NETS.items() if column.group == "structure"}
 
 
 def write_workbook(
@@ -306,11 +305,8 @@ def write_workbook(
     if faults:
         raise TerrainError("\n".join(faults))
     tables |= {"rows": lines, "net_types": list(nets.values())}
-    more = ["tests"] if tables.get("tests") else []
-    is_built = any(key in _STRUCTURE for net in nets.values() for key in net)
-    more += ["parts"] if is_built or any(map(tables.get, _PARTS)) else []
     measures = {("rows", "snow"): "normal", ("net_types", "slack"): measure}
-    return render_input(tables, language, more, measures, notes)
+    return render_input(tables, language, (), measures, notes)
 
 
 def _take_row(cells: Mapping[str, object], name: str) -> dict[str, object]:

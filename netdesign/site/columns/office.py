@@ -47,6 +47,8 @@ class Column:
         ``yes``, ``row`` (a check is not proven without it) or empty.
     has : str
         Who has it: ``office``, ``survey``, ``supplier`` or ``ground``.
+    like : str
+        Column of `all_tables` that it stands for, as ``Nets.slack``; empty of none.
     unit, choice : str
         Unit that is shown; of several measures the name of their list.
     group : str
@@ -64,6 +66,7 @@ class Column:
     field: Field
     need: str = ""
     has: str = ""
+    like: str = ""
     unit: str = ""
     choice: str = ""
     group: str = ""
@@ -83,7 +86,8 @@ def load_columns(table: str) -> tuple[Column, ...]:
 
 def _read_column(table: str, key: str, of: str) -> Column:
     own = load_file("office")[table][key]
-    place, _, name = own.get("like", f"{of}.{key}").rpartition(".")
+    stands_for = own.get("like", f"{of}.{key}")
+    place, _, name = stands_for.rpartition(".")
     like = dict(load_file("columns").get(place, {}).get(name, {}))
     entry = {key: own[key] for key in own if key not in _OF_TEMPLATE}
     if "unit" in own and not like.get("units") and own["unit"] in ("m", "-", "kN"):
@@ -95,6 +99,7 @@ def _read_column(table: str, key: str, of: str) -> Column:
     texts = {one: own.get(one, {}) for one in ("why", "note", "divided")}
     return Column(
         field=field,
+        like=stands_for,
         unit=own.get("unit", field.unit),
         texts=texts,
         **{one: own[one] for one in _PLAIN if one in own},

@@ -9,7 +9,6 @@ from functools import cache
 from netdesign.site.columns.all_tables import (
     IGNORE,
     UNANSWERED,
-    load_file,
     load_old_plans,
 )
 from netdesign.site.columns.fields import Field, normalise, normalise_unit
@@ -98,7 +97,7 @@ def _split(table: str, column: Column) -> Iterator[Target]:
     """Target of a column; of one with several measures, one each."""
     key = column.field.key
     if not column.choice:
-        field = _add_names(column.field, _find_like(table, key))
+        field = _add_names(column.field, _find_old(*column.like.rsplit(".", 1)))
         field = _add_symbol(field) if (table, key) in _SYMBOLS else field
         yield Target(table=table, key=key, field=field)
         return
@@ -127,13 +126,6 @@ def _add_symbol(field: Field) -> Field:
     symbol = field.label_in("en").split()[-1]
     named = {one: (*names, symbol) for one, names in field.headings.items()}
     return replace(field, headings=named)
-
-
-def _find_like(table: str, key: str) -> Field | None:
-    """Column of earlier workbooks that a column stands for."""
-    data = load_file("office")
-    like = data[table][key].get("like", f"{data['sheets'][table]['of']}.{key}")
-    return _find_old(*like.rsplit(".", 1))
 
 
 def _find_old(sheet: str, key: str) -> Field | None:

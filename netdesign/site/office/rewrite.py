@@ -1,16 +1,15 @@
-"""A workbook with sheet Nets as lines of the input workbook, and what was done.
+"""A workbook of version 0.1 as lines of the input workbook, and what was done.
 
 Every cell that is filled in either has a place there, or is named in the list.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from netdesign.site.cells.cells import Cell, TextFormat, Workbook
+from netdesign.site.cells.cells import TextFormat, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import FURTHER, load_old_plans
@@ -21,32 +20,21 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.columns.office import is_heading, load_text
+from netdesign.site.columns.office import is_heading, load_columns, load_text
 from netdesign.site.declared_sheet import split_replacement
-from netdesign.site.office.rewrite_rows import rewrite_rows
-from netdesign.site.office.rewrite_types import rewrite_types
+from netdesign.site.office.rewrite_lines import Lines, rewrite_rows, rewrite_types
 from netdesign.site.office.sheets import is_old
-from netdesign.site.office.told import Told, copy_cells, show
+from netdesign.site.office.told import Line, Told, is_typed, show
 from netdesign.site.readings import Reading, Row, read_cell
 from netdesign.site.tables import find_table, read_rows
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
-_FURTHER = dict(
-    zip(
-        (one.name for one in FURTHER),
-        ("monitoring", "winter", "reliability"),
-        strict=True,
-    )
-)
-_PARTS = ("ropes", "posts", "links", "soils")
-_SHEETS = {"layers": "snow", "tests": "tests", "declared": "declared"}
 _OF_PROJECT = ("density", "friction_angle", "inclination")
 _DOCUMENTS = {
     **dict.fromkeys(("density", "thickness", "snow_height"), "snow_document"),
     "glide_factor": "glide_document",
 }
-_LEFT = ("Nets", "Ends", "Anchors", "Ropes", "Posts", "Tests", "Links", "Snow")
 _UNHEARD = ("heading.unknown", "heading.close_to_missing", "table.no_heading_unread")
 _Ranged = dict[str, tuple[str, Reading]]  # text of the new cell, justification
 
@@ -61,15 +49,12 @@ class Rewritten:
         Lines by table and key.
     measures : mapping
         What unit cells measure, by table and key.
-    sheets : sequence of str
-        Sheets beside those that are always there.
     done : sequence of Message
         What was done, each kind once.
     """
 
-    tables: Mapping[str, Sequence[Mapping[str, object]]]
+    tables: Mapping[str, Sequence[Line]]
     measures: Mapping[tuple[str, str], str]
-    sheets: Sequence[str]
     done: Sequence[Message]
 
 
@@ -101,23 +86,17 @@ def rewrite(workbook: Workbook, language: Language) -> Rewritten:
     }
     ranged = _read_ranges(lines["Ranges"], language, told)
     texts = {key: text for key, (text, _) in ranged.items()}
-    made, measures = rewrite_rows(lines, texts, told)
-    made |= rewrite_types(lines, told)
-    common = made.pop("project")[0]
-    made["project"] = [_rewrite_project(lines["Project"], ranged, common, told)]
-    made["declared"] = list(_rewrite_declared(lines["Declared"], told))
-    for name in _FURTHER:
-        made[name] = [copy_cells(line, list(line), told) for line in lines[name]]
-    measures["layers", "thickness"] = _measure_layers(lines["Snow"])
-    _add_up_layers(made, measures)
-    for name in _LEFT:
-        told.leave_rest(name, lines[name])
-    sheets = [name for table, name in _SHEETS.items() if made.get(table)]
-    sheets += ["parts"] if any(made.get(one) for one in _PARTS) else []
-    sheets += [sheet for name, sheet in _FURTHER.items() if lines[name]]
+    tables, measures = rewrite_rows(lines, texts, told)
+    tables |= rewrite_types(lines, told)
+    tables["project"] = [_rewrite_project(lines, ranged, told)]
+    tables["declared"] = list(_rewrite_declared(lines["Declared"], told))
+    for name in (one.name for one in FURTHER):
+        tables[name] = [_copy_all(line) for line in lines.pop(name)]
+    for of_sheet in lines.values():
+        told.leave_rest(of_sheet)
     left = (one.message for one in unheard if one.rule.key in _UNHEARD)
     done = (*told.list_done(), *left)
-    return Rewritten(tables=made, measures=measures, sheets=sheets, done=done)
+    return Rewritten(tables=tables, measures=measures, done=done)
 
 
 def _free_all(plan: SheetPlan) -> SheetPlan:
@@ -126,29 +105,8 @@ def _free_all(plan: SheetPlan) -> SheetPlan:
     return replace(plan, fields=fields, required=False, one_of=())
 
 
-def _measure_layers(lines: Sequence[Row]) -> str:
-    is_vertical = any(one["height"].state == "given" for one in lines)
-    return "vertical" if is_vertical else "normal"
-
-
-def _add_up_layers(
-    made: Mapping[str, Sequence[dict[str, object]]],
-    measures: Mapping[tuple[str, str], str],
-) -> None:
-    """Give a row whose snow only its layers say the sum of these."""
-    is_alike = measures["rows", "snow"] == measures["layers", "thickness"]
-    for row in made["rows"]:
-        of_row = [one for one in made["layers"] if one.get("row") == row.get("id")]
-        sizes = [one.get("thickness") for one in of_row]
-        slope = row.get("slope_angle")
-        if "snow" in row or not sizes or not isinstance(slope, float):
-            continue
-        total = math.fsum(one for one in sizes if isinstance(one, float))
-        factor = math.cos(math.radians(slope))
-        if not is_alike:
-            is_vertical = measures["rows", "snow"] == "vertical"
-            total = total / factor if is_vertical else total * factor
-        row["snow"] = round(total, 3)
+def _copy_all(line: Row) -> Line:
+    return {key: show(one) for key, one in line.items() if is_typed(one)}
 
 
 def _read_ranges(lines: Sequence[Row], language: Language, told: Told) -> _Ranged:
@@ -157,83 +115,76 @@ def _read_ranges(lines: Sequence[Row], language: Language, told: Told) -> _Range
     to, mark = f" {load_text('to', language)} ", load_text("comma", language)
     ranged: _Ranged = {}
     for line in lines:
-        name = line["quantity"]
-        field = find_item(name.word, items)
-        ends = _read_ends(line, field) if field else []
-        numbers = (line[key].cell for key in ("span", "low", "high"))
-        if all(cell is None or cell.is_blank for cell in numbers):
+        if not any(is_typed(line[key]) for key in ("low", "high", "span")):
             told.take(*line.values())
             continue
-        if field is None or not ends:
-            for one in line.values():
-                if one.cell is not None and not one.cell.is_blank:
-                    told.leave(one, say("rewrite.of_range"))
+        field = find_item(line["quantity"].word, items)
+        ends = _read_ends(line, field) if field else ()
+        if field is None or len(ends) < 2:
+            told.leave("rewrite.of_range", line["quantity"])
+            told.take(*line.values())
             continue
-        texts = (f"{_scale(field.key, end):g}".replace(".", mark) for end in ends)
+        share = 100.0 if field.key == "slack" else 1.0
+        texts = (f"{round(share * end, 6):g}".replace(".", mark) for end in ends)
         ranged[field.key] = (to.join(texts), line["justification"])
-        told.do(say("rewrite.range"), name)
+        told.do(say("rewrite.range"), line["quantity"])
+        told.take(*(one for key, one in line.items() if key != "justification"))
     return ranged
 
 
-def _read_ends(line: Row, field: Field) -> list[float]:
-    """Low and high end of a line, in the first unit of its quantity."""
+def _read_ends(line: Row, field: Field) -> Sequence[float]:
+    """Low and high end of a line, in the first unit of its quantity; else none."""
     typed = normalise_unit(line["unit"].word.strip(" []()"))
     unit = typed or split_heading(line["quantity"].word)[1] or field.unit
-    span = line["span"].cell
-    if span is not None and not span.is_blank:
-        both = read_cell(span, replace(field, may_range=True), unit, [])
-        return list(both.span or ())
-    cells = (line["low"].cell, line["high"].cell)
-    ends = [_read_end(cell, field, unit) for cell in cells if cell]
-    known = [one for one in ends if one is not None]
-    return known if len(known) == len(cells) else []
+    cells = (line[key].cell for key in ("low", "high") if unit in field.units)
+    ends = [read_cell(cell, field, unit, []) for cell in cells if cell is not None]
+    return [one.number for one in ends if one.state == "given"]
 
 
-def _read_end(cell: Cell, field: Field, unit: str) -> float | None:
-    if unit not in field.units:
-        return None
-    reading = read_cell(cell, field, unit, [])
-    return reading.number if reading.state == "given" else None
-
-
-def _scale(key: str, end: float) -> float:
-    """End of a range in the unit that the new workbook shows."""
-    return round(100.0 * end, 6) if key == "slack" else end
-
-
-def _rewrite_project(
-    lines: Sequence[Row], ranged: _Ranged, common: Mapping[str, object], told: Told
-) -> dict[str, object]:
+def _rewrite_project(lines: Lines, ranged: _Ranged, told: Told) -> Line:
     """Lines of sheet Project: what identifies the study, and holds for the site."""
     items = load_old_plans()["Project"].items
-    named = {
-        field.key: line["value"]
-        for line in lines
-        if line["value"].word and (field := find_item(line["item"].word, items))
-    }
-    if law := named.pop("accepted_law", None):
-        told.done[say("rewrite.creep_law")] = [law.place]
-    texts = {key: one.word for key, one in named.items()}
-    numbers = (texts.get("number", ""), texts.pop("revision", ""))
-    texts["number"] = ", ".join(filter(None, numbers))
-    found: dict[str, object] = {**texts, **common}
+    project: Line = {}
+    for line in lines["Project"]:
+        field, value = find_item(line["item"].word, items), line["value"]
+        if field is None or field.key == "accepted_law":
+            told.leave("rewrite.creep_law" if field else "rewrite.left", line["item"])
+        elif is_typed(value):
+            project[field.key] = value.word
+        told.take(line["item"], value)
+    numbers = (project.get("number", ""), project.pop("revision", ""))
+    project["number"] = ", ".join(filter(None, map(str, numbers)))
+    project |= _find_common(lines, told)
     for key, (text, why) in ranged.items():
         if key in _OF_PROJECT:
-            found[key] = text
-        if why.state != "given":
-            continue
-        line = _DOCUMENTS.get(key, "")
-        if line and line not in found:
-            found[line] = why.word
+            project[key] = text
+        document = _DOCUMENTS.get(key, "")
+        if document and document not in project and is_typed(why):
+            project[document] = why.word
             told.do(say("rewrite.document"), why)
         else:
-            told.leave(why, say("rewrite.of_reason"))
-    return {key: value for key, value in found.items() if value != ""}
+            told.leave("rewrite.of_reason", why)
+    return project
 
 
-def _rewrite_declared(lines: Sequence[Row], told: Told) -> Iterator[dict[str, object]]:
+def _find_common(lines: Lines, told: Told) -> Line:
+    """What sheet Project says once, where all lines say the same."""
+    common: Line = {}
+    for column in load_columns("project"):
+        sheet, _, key = column.like.rpartition(".")
+        cells = [one[key] for one in lines.get(sheet, ()) if is_typed(one[key])]
+        if len({one.value for one in cells}) == 1:
+            common[column.field.key] = show(cells[0])
+            told.do(say("rewrite.once", name=column.field.name), *cells)
+        else:
+            told.leave("rewrite.several", *cells)
+    return common
+
+
+def _rewrite_declared(lines: Sequence[Row], told: Told) -> Iterator[Line]:
     for line in lines:
-        if split_replacement(line["check"].word):
-            told.leave(line["check"], say("rewrite.confirmed"))
-            continue
-        yield {key: show(one) for key, one in line.items() if one.state != "blank"}
+        is_confirmed = split_replacement(line["check"].word)
+        told.leave("rewrite.confirmed", *([line["check"]] if is_confirmed else []))
+        told.take(*line.values())
+        if not is_confirmed:
+            yield _copy_all(line)

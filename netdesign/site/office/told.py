@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from netdesign.site.cells.findings import quote, shorten
+from netdesign.site.columns.office import load_columns
 from netdesign.site.readings import Reading, Row
 from netdesign.words.message import Message, say
 
 _MOST_PLACES = 3  # named in one line
+Line = dict[str, object]  # of the new workbook, by key
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,52 +27,68 @@ class Told:
 
     def do(self, how: Message, *readings: Reading) -> None:
         """Cells that stand there in another form."""
-        given = [one for one in readings if one.state in ("given", "faulty")]
+        given = [one for one in readings if is_typed(one)]
         self.take(*given)
         if given:
             self.done.setdefault(how, []).extend(one.place for one in given)
 
-    def leave(self, reading: Reading, why: Message) -> None:
-        """A cell that has no place there."""
-        self.placed.add(reading.place)
-        how = say("rewrite.left", name=reading.field.name, why=why)
-        self.done.setdefault(how, []).append(_show_cell(reading))
+    def leave(self, key: str, *readings: Reading) -> None:
+        """Cells that are not copied, for a reason."""
+        for one in filter(is_typed, readings):
+            self.take(one)
+            how = say(key, name=one.field.name)
+            text = quote(one.cell.text) if one.cell else ""
+            self.done.setdefault(how, []).append(f"{one.place} = {text}")
 
-    def empty(self, reading: Reading, why: Message) -> None:
-        """A cell of the new workbook that is left empty: its reader refuses it."""
-        how = say("rewrite.refused", name=reading.field.name, why=why)
-        self.done.setdefault(how, []).append(_show_cell(reading))
-
-    def leave_rest(self, sheet: str, lines: Iterable[Row]) -> None:
-        """Cells of a sheet that nobody has placed."""
+    def leave_rest(self, lines: Iterable[Row]) -> None:
+        """Cells of a sheet that have no place."""
         for line in lines:
-            for reading in line.values():
-                is_typed = reading.cell is not None and not reading.cell.is_blank
-                if is_typed and reading.place not in self.placed:
-                    self.leave(reading, say(f"rewrite.of_{sheet.lower()}"))
+            rest = (one for one in line.values() if one.place not in self.placed)
+            self.leave("rewrite.left", *rest)
 
     def list_done(self) -> Iterator[Message]:
         """What was done, each kind once, with its first cells."""
         for how, places in self.done.items():
-            some = tuple(dict.fromkeys(places))
-            listed = shorten(list(some), _MOST_PLACES)
-            yield say("rewrite.done", how=how, places=listed)
+            some = list(dict.fromkeys(places))
+            yield say("rewrite.done", how=how, places=shorten(some, _MOST_PLACES))
 
 
-def _show_cell(reading: Reading) -> str:
-    text = reading.cell.text if reading.cell else ""
-    return f"{reading.place} = {quote(text)}"
+def is_typed(reading: Reading) -> bool:
+    """Something stands in the cell."""
+    return reading.cell is not None and not reading.cell.is_blank
 
 
 def show(reading: Reading) -> object:
     """Value of a cell in the first unit of its column; as typed if it is none."""
-    if reading.state in ("given", "default") and reading.value is not None:
-        return reading.value
-    return reading.text
+    return reading.text if reading.value is None else reading.value
 
 
-def copy_cells(line: Row, keys: Sequence[str], told: Told) -> dict[str, object]:
-    """Those cells of a line that are filled in, as they are."""
-    found = {key: line[key] for key in keys if line[key].state in ("given", "faulty")}
-    told.take(*found.values())
-    return {key: show(reading) for key, reading in found.items()}
+def copy_line(
+    table: str, line: Row, sheet: str, told: Told, skip: Collection[str] = ()
+) -> Line:
+    """Cells of a line that a table of the new workbook has, too.
+
+    Parameters
+    ----------
+    table : str
+        Of the new workbook.
+    line, sheet : Row, str
+        Of the old one.
+    told : Told
+        Takes the cells.
+    skip : collection of str
+        Keys of the columns that are left out.
+    """
+    copied: Line = {}
+    for column in load_columns(table):
+        key, (place, _, old) = column.field.key, column.like.rpartition(".")
+        is_other = place != sheet or old not in line or key in skip
+        if is_other or not is_typed(line[old]):
+            continue
+        told.take(line[old])
+        value = show(line[old])
+        is_share = column.unit == "%" or column.choice == "sag_unit"
+        if is_share and isinstance(value, float):
+            value = round(100.0 * value, 8)
+        copied[key] = value
+    return copied

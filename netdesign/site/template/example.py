@@ -10,7 +10,6 @@ from netdesign.edge.input_files import find_resource
 from netdesign.site.template.office_workbook import write_input_workbook
 from netdesign.words.catalogue import Language
 
-WITH_EXAMPLE = ("tests", "parts", "declared")  # sheets that it needs
 INPUT_EXAMPLE_FILE = "example_input.toml"
 
 
@@ -59,7 +58,6 @@ def write_site_workbook(
     write_input_workbook(
         path,
         language=language,
-        more=WITH_EXAMPLE if example else (),
         tables=load_input_example() if example else None,
         overwrite=overwrite,
     )

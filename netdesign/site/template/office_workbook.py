@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -71,7 +71,7 @@ def write_input_workbook(
     language : str
         Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``.
     more : sequence of str
-        Further sheets, by their names in `WITH`.
+        Further sheets, by their names in `WITH`; those with lines are always there.
     tables : mapping, optional
         Lines by table and key, as `office.toml` has them; words in English.
     overwrite : bool
@@ -108,8 +108,8 @@ def render_input(
     """
     content = BytesIO()
     workbook = start_workbook(content, language)
-    further = sorted((WITH[one] for one in more), key=is_further)
-    form = Form(workbook, language, [*DEFAULT, *further], tables, measures or {})
+    sheets = [*DEFAULT, *_list_further(tables, more)]
+    form = Form(workbook, language, sheets, tables, measures or {})
     for sheet in form.sheets:
         _write(form, sheet)
     write_notes(form)
@@ -122,6 +122,18 @@ def render_input(
     rows.activate()
     workbook.close()
     return content.getvalue()
+
+
+def _list_further(tables: Tables, more: Sequence[str]) -> Iterator[str]:
+    """Sheets beside those that are always there: asked for, or with lines."""
+    nets = load_columns("net_types")
+    structure = {one.field.key for one in nets if one.group == "structure"}
+    is_built = any(structure & one.keys() for one in tables.get("net_types", ()))
+    for name, sheet in WITH.items():
+        is_parts = name == "parts"
+        has_lines = any(map(tables.get, PARTS if is_parts else (sheet,)))
+        if name in more or has_lines or (is_parts and is_built):
+            yield sheet
 
 
 def _write(form: Form, name: str) -> None:

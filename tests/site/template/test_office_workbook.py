@@ -8,7 +8,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.office import PARTS, TABLES, load_columns, load_plan
 from netdesign.site.reader import read_site
-from netdesign.site.template.example import WITH_EXAMPLE, load_input_example
+from netdesign.site.template.example import load_input_example
 from netdesign.site.template.office_workbook import WITH, render_input
 from tests.each import each
 from tests.site.office.drawn import draw_tables
@@ -23,7 +23,7 @@ def write(path, content):
 
 
 def read_example(tmp_path, language):
-    content = render_input(load_input_example(), language, WITH_EXAMPLE)
+    content = render_input(load_input_example(), language)
     return read_site(write(tmp_path / f"{language}.xlsx", content))
 
 
@@ -72,9 +72,8 @@ def test_what_is_written_is_read_again(tmp_path, seed, language):
             if not isinstance(one, tuple)
         }
     ]
-    content = render_input(
-        tables, language, ("parts",), {("net_types", "slack"): "slack"}
-    )
+    measures = {("net_types", "slack"): "slack"}
+    content = render_input(tables, language, measures=measures)
     site = read_site(write(tmp_path / "site.xlsx", content))
     for line, row in zip(tables["rows"], site.rows, strict=True):
         (net,) = (one for one in tables["net_types"] if one["id"] == line["net_type"])
