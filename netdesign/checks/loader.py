@@ -152,6 +152,7 @@ class Standard:
     ``is_by_guideline``: the guideline's load decides even where it is the smaller.
     ``shared_sum``: how the pulls of two guys on one anchor are added.
     ``is_default``: the profile was not named, and the default is taken.
+    ``not_checked``: topics that others must check.
     """
 
     id: str
@@ -171,6 +172,7 @@ class Standard:
     shared_sum: SharedSum = "vector"
     is_floor_overruled: bool = False
     is_default: bool = False
+    not_checked: tuple[str, ...] = ()
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -281,10 +283,15 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(exclude={"load", "anchors"}),
+        **document.model_dump(exclude={"load", "scope", "anchors"}),
         choice_text=choice.text if choice else "",
         **_read_load(document.load, folder),
         shared_sum=document.anchors.sum,
+        not_checked=tuple(
+            topic
+            for topic, said in document.scope.model_dump().items()
+            if said == "not checked"
+        ),
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
         tables=tuple(
             StandardTable(

@@ -170,6 +170,21 @@ class LoadTable(_Table):
     governs: Literal["larger", "guideline"] = "larger"  # of guideline and coupled force
 
 
+Checked = Literal["checked", "not checked"]
+
+
+class ScopeTable(_Table):
+    """``scope``: what a study checks beside posts, guys and anchors.
+
+    What is not checked is told on the first page, with who must check it.
+    """
+
+    mesh: Checked = "checked"  # of the net, and its border ropes
+    connections: Checked = "checked"  # links between ropes and anchors
+    anchor_ground: Checked = "checked"  # cover of the bonds, distance to an edge
+    corrosion: Checked = "checked"  # of anchors and ropes over the design life
+
+
 class AnchorsTable(_Table):
     """``anchors``: how the pulls of two guys on one anchor are added."""
 
@@ -190,6 +205,7 @@ class DocumentFile(_Table):
     what_it_is_not: Text
     choice: str = ""  # one of those in choices.toml
     load: LoadTable = LoadTable()
+    scope: ScopeTable = ScopeTable()
     anchors: AnchorsTable = AnchorsTable()
 
 

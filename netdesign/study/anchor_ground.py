@@ -143,9 +143,12 @@ def check_cover(forces: RowForces) -> Check | None:
     """Check that the bores stay in the ground; None where all of them do.
 
     How much ground is enough around a bond is a condition, see `study/conditions.py`.
-    An anchor without a type may lie as badly as any.
+    The check is left out where the profile leaves the ground to others; an anchor
+    without a type may lie as badly as any.
     """
     row, pulls = forces.row, forces.pulls
+    if "anchor_ground" in forces.standard.not_checked:
+        return None
     for bond in list_bonds(row, pulls):
         if bond.cover is not None and bond.leaves_ground:
             named = name_member(bond.anchor)

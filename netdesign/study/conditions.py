@@ -142,9 +142,9 @@ def _list_of_snow(forces: RowForces) -> Iterator[Condition]:
 
 def _list_of_types(forces: RowForces) -> Iterator[Condition]:
     """List what the types of a row leave open of corrosion, grounds and sleeves."""
-    row = forces.row
+    row, left_out = forces.row, forces.standard.not_checked
     for resistance in _list_resistances(row):
-        if resistance.wear is not None:
+        if resistance.wear is not None and "corrosion" not in left_out:
             yield from _list_of_wear(resistance.wear, row.design_life)
         if resistance.mode == "pull_out" and (
             resistance.value is not None or resistance.tests
@@ -179,6 +179,8 @@ def _list_of_wear(wear: Wear, life: int) -> Iterator[Condition]:
 
 def _list_of_ground(forces: RowForces) -> Iterator[Condition]:
     """List the covers and edge distances that the ground has to have."""
+    if "anchor_ground" in forces.standard.not_checked:
+        return
     for bond in list_bonds(forces.row, forces.pulls):
         if not bond.has_soil and not bond.leaves_ground:
             yield _state("cover", bond.cover)

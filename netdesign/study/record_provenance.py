@@ -45,6 +45,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         is_floor_overruled=standard.is_floor_overruled,
         has_maker_floor=standard.has_maker_floor,
         is_by_guideline=standard.is_by_guideline,
+        not_checked=list(standard.not_checked),
         is_default=standard.is_default,
         proof_factor=find_proof_factor(standard),
         values=[*standard.listed, *_list_floor_values(standard)],

@@ -282,6 +282,7 @@ class ProfileRecord:
     is_by_guideline: bool = False  # its load decides even where it is the smaller
     is_default: bool = False  # not named by the user
     proof_factor: float | None = None  # load of a test over the design force it proves
+    not_checked: Items[str] = field(default_factory=list)  # topics that others check
 
 
 @dataclass(frozen=True, kw_only=True)

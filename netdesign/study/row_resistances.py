@@ -220,11 +220,12 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
     """Resistance with the steel that is left, and why it may not last so long.
 
     Bare steel without a given diameter has no known resistance. Steel of no kind loses
-    what a bar does, and proves no more than a rope. As it is, and no open point, of
-    what does not corrode, and what has a condition in the place of its protection.
+    what a bar does, and proves no more than a rope. As it is, and no
+    open point, of what does not corrode, what has a condition in the place of its
+    protection, and where the profile leaves corrosion to others.
     """
     wear, life = resistance.wear, basis.row.design_life
-    if wear is None:
+    if wear is None or "corrosion" in basis.standard.not_checked:
         return resistance, None
     if wear.is_bare and None in (wear.outer, wear.inner):
         lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))

@@ -37,8 +37,9 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
     """
     forces = variants[0]
     effects, row = forces.effects, forces.row
-    at_end = effects.find_support("edge")
+    at_end, not_checked = effects.find_support("edge"), forces.standard.not_checked
     held = row.row_end.resistances if row.row_end else ()
+    parts = () if "mesh" in not_checked else row.net_parts
     of_supports: dict[str, list[MemberCheck]] = {
         width.position: list(
             _judge_at(variants, width, row.resistances_at(width.position))
@@ -47,7 +48,7 @@ def judge_members(variants: Sequence[RowForces]) -> list[MemberCheck]:
     }
     judged = [
         *_place_second(forces, of_supports),
-        *_judge_at(variants, at_end, (*row.net_parts, *held)),
+        *_judge_at(variants, at_end, (*parts, *held)),
     ]
     open_cases = find_open(judged)
     turned: dict[str, list[MemberCheck]] = {
@@ -73,7 +74,10 @@ def _judge_at(
         if resistance.mode == "direction" or not _concerns(variants, resistance):
             continue
         yield _judge_worst(variants, width, resistance)
-        if resistance.mode in ("tendon", "rope") and resistance.member in CONNECTED:
+        is_rope = (
+            resistance.mode in ("tendon", "rope") and resistance.member in CONNECTED
+        )
+        if is_rope and "connections" not in variants[0].standard.not_checked:
             yield _judge_worst(variants, width, resistance, _find_chain)
 
 
@@ -272,10 +276,11 @@ def _is_covered(
 
 
 def _concerns(variants: Sequence[RowForces], resistance: Resistance) -> bool:
-    """Whether a row has the check: a post's foot where a case lifts it."""
-    return resistance.member != Member.POST_FOOT or any(
-        lifts(forces.largest.values(), forces.floor) for forces in variants
-    )
+    """Whether row and profile have the check: a post foot where a case lifts it."""
+    if resistance.member == Member.POST_FOOT:
+        return any(lifts(forces.largest.values(), forces.floor) for forces in variants)
+    not_checked = variants[0].standard.not_checked
+    return resistance.mode != "wedge" or "anchor_ground" not in not_checked
 
 
 def _find_chain(

@@ -278,13 +278,16 @@ def test_a_profile_says_which_load_governs(folder):
         load_standard(mine)
 
 
-def test_a_profile_says_its_choice():
+def test_a_profile_says_its_choice_and_what_it_does_not_check():
     """What document.toml and choices.toml have, read by themselves."""
     folder = find_resource("standards") / "eurocode"
     document = tomllib.loads((folder / "document.toml").read_text("utf-8"))
     choices = tomllib.loads((folder / "choices.toml").read_text("utf-8"))["choice"]
     (chosen,) = (one for one in choices if one["name"] == document["choice"])
+    scope = document.get("scope", {})
     loaded = load_standard("eurocode")
     assert loaded.choice_text == chosen["text"] != ""
+    unchecked = {topic for topic, said in scope.items() if said == "not checked"}
+    assert set(loaded.not_checked) >= unchecked
     other = load_standard("nf-p-95-304-style")
     assert other.choice_text == ""

@@ -24,6 +24,7 @@ from tests.make import load_rows, write_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:2]))
 NF = load_standard("nf-p-95-304-style")
+TOPICS = ("mesh", "connections", "corrosion", "anchor_ground")
 WORST = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 
 
@@ -332,6 +333,13 @@ def test_ground_that_slides_by_itself_fails(solved):
     assert "A slab of the slope, 4.1 m deep, slides by itself" in str(check.reason)
 
 
+def test_ground_that_others_check_has_no_wedge(solved):
+    less = replace(NF, not_checked=("anchor_ground",))
+    assert "uphill_anchor.wedge" in stand_in(solved, 43e3)[1]
+    checks = judge(solved, less)[1]
+    assert not [name for name in checks if "wedge" in name or "cover" in name]
+
+
 def test_anchors_that_cross_in_the_ground_are_not_proven(solved):
     row = solved[0].rows[0]
     crossing = replace(row.guys, are_shared=False)
@@ -368,6 +376,27 @@ def test_pulls_added_as_numbers_are_said_and_never_less(solved):
     assert added["uphill_guy.rope"].demand_kN == checks["uphill_guy.rope"].demand_kN
     for one, told in ((vector, "as vectors"), (study, "arithmetically")):
         assert [note for note in one.rows[0].notes if told in str(note)]
+
+
+@each("seed", range(12))
+def test_a_topic_more_never_makes_a_verdict_better(solved, seed):
+    draw = random.Random(seed)
+    row = solved[0].rows[0]
+    changes = {
+        "design_life": draw.choice((50, 80, 100, 130)),
+        "net_parts": change(row.net_parts, "mesh", value=draw.choice((90e3, 500e3))),
+        "guys": replace(row.guys, are_shared=draw.choice((None, True, False))),
+    }
+    links = {name: one for name, one in solved[0].links.items() if draw.random() < 0.8}
+    left_out = tuple(draw.sample(TOPICS, draw.randint(1, 4)))
+    everything, checks = judge(solved, links=links, **changes)
+    less = replace(NF, not_checked=left_out)
+    study, fewer = judge(solved, less, links=links, **changes)
+    assert WORST.index(everything.verdict) <= WORST.index(study.verdict)
+    for name, check in fewer.items():
+        better = WORST.index(checks[name].verdict) > WORST.index(check.verdict)
+        assert not better, name
+    assert study.profile.not_checked == list(left_out)
 
 
 @pytest.mark.parametrize(

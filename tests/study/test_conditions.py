@@ -73,6 +73,9 @@ def test_steel_that_nobody_protects_has_a_condition_and_is_proven(solved, wear, 
     study, checks = judge(solved, resistances=worn, end_resistances=None)
     assert key in state(study)
     assert not checks["uphill_anchor.tendon"].open
+    left_out = replace(NF, not_checked=("corrosion",))
+    study, _ = judge(solved, left_out, resistances=worn, end_resistances=None)
+    assert key not in state(study)
 
 
 def test_the_place_of_a_lateral_anchor_is_a_condition_of_the_profile_s_distance(solved):

@@ -184,7 +184,7 @@ def show_basis(study: Study, words: Words) -> Part:
         Paragraph(text=words("scope.decision"), look="small"),
         Pairs(
             pairs=(
-                *_list_scope(words),
+                *_list_scope(study, words),
                 *_list_documents(study, words),
                 *_list_approvals(study, words),
                 *_list_profile(study, words),
@@ -197,10 +197,16 @@ def show_basis(study: Study, words: Words) -> Part:
     return section("basis", words("heading.basis"), *blocks, level=3, look="basis")
 
 
-def _list_scope(words: Words) -> Iterator[Pair]:
-    """Who must check what the study does not treat."""
-    for key in _SCOPE:
-        yield Pair(name=words(f"scope.{key}_by"), text=words(f"scope.{key}"))
+def _list_scope(study: Study, words: Words) -> Iterator[Pair]:
+    """Who must check what the study does not treat; what its profile leaves out first.
+
+    What one of them has to check stands together.
+    """
+    found: dict[str, list[str]] = {}
+    for key in (*study.profile.not_checked, *_SCOPE):
+        found.setdefault(words(f"scope.{key}_by"), []).append(words(f"scope.{key}"))
+    for who, topics in found.items():
+        yield Pair(name=who, text=words.join(topics))
 
 
 def _list_profile(study: Study, words: Words) -> Iterator[Pair]:
