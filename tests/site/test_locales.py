@@ -54,7 +54,7 @@ def test_a_number_is_the_one_typed_or_refused(typed_number):
     assert is_taken_or_refused(typed_number)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=10_000)
 @given(typed_numbers())
 def test_ten_thousand_numbers_are_the_ones_typed_or_refused(typed_number):

@@ -185,7 +185,7 @@ def is_noticed(tmp_path, tables):
         return True
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_few_slips_by_ten_are_silent(tmp_path):
     kinds, silent = Counter(), Counter()
     for seed in range(3):
@@ -199,7 +199,7 @@ def test_few_slips_by_ten_are_silent(tmp_path):
 MOST_FALSE_ALARMS = 0.01
 
 
-@pytest.mark.parametrize("sites", [10, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("sites", [10, pytest.param(200, marks=pytest.mark.long)])
 def test_sensible_sites_are_asked_nothing(tmp_path, sites):
     """Drawn by what is built, not by what counts as usual here."""
     alarms = []

@@ -21,7 +21,7 @@ from tests.site.plausible.office import draw_office
 from tests.site.plausible.slips import FACTORS, is_noticed, list_known, list_slips
 from tests.small_site import RUN
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 MOST, MOST_BETTER = 0.05, 0.005
 LIKE = "swapped with the next line"
 SNOW_AND_N = {"Rows!C", "Rows!D"}
