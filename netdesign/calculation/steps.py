@@ -55,26 +55,29 @@ SPREADSHEET = Notation(
 
 # Text of a formula, or a symbol in it with the end that is wanted of its quantity.
 _Part = str | tuple[str, int]
+# What makes a quantity: a symbol, a number with its text, an operation and its parts.
+_Shape = str | tuple[str, "float | tuple[_Shape, ...]"]
 
 
 def write_formula(quantity: Quantity) -> str:
     """Right side of the equation that makes a quantity, of symbols; "" of a leaf."""
+    return _write(_find_shape(quantity, is_whole=True)) if quantity.operation else ""
+
+
+def _find_shape(quantity: Quantity, *, is_whole: bool = False) -> _Shape:
+    """What makes a quantity; of a part under a symbol the symbol alone."""
+    if quantity.symbol and not is_whole:
+        return quantity.symbol
     if not quantity.operation:
-        return ""
-    symbols = tuple(operand.symbol for operand in quantity.of)
-    if all(symbols):
-        return _write_of_symbols(quantity.operation, symbols)
-    return _write(_build_tree(quantity, is_whole=True))
+        number = quantity.value or 0.0
+        return repr(number), number
+    return quantity.operation, tuple(map(_find_shape, quantity.of))
 
 
-@lru_cache(maxsize=1024)
-def _write_of_symbols(operation: str, symbols: tuple[str, ...]) -> str:
-    """Formula of an operation on symbols: a study has a few of them, often."""
-    return _write(_join(operation, [ast.Name(id=symbol) for symbol in symbols]))
-
-
-def _write(tree: ast.expr) -> str:
-    parts = _list_parts(tree, PLAIN, 0, 0)
+@lru_cache(maxsize=4096)
+def _write(shape: _Shape) -> str:
+    """Formula of that shape: a study has a few hundred, each many times."""
+    parts = _list_parts(_build_tree(shape), PLAIN, 0, 0)
     return "".join(part if isinstance(part, str) else part[0] for part in parts)
 
 
@@ -167,17 +170,13 @@ def _find_signs(
     return before, notation.comma, after
 
 
-def _build_tree(quantity: Quantity, *, is_whole: bool = False) -> ast.expr:
-    """Tree of what makes a quantity; of a part under a symbol the symbol alone."""
-    if quantity.symbol and not is_whole:
-        return ast.Name(id=quantity.symbol)
-    if not quantity.operation:
-        return ast.Constant(value=quantity.value or 0.0)
-    return _join(quantity.operation, [_build_tree(operand) for operand in quantity.of])
-
-
-def _join(operation: str, of: list[ast.expr]) -> ast.expr:
-    """Tree of an operation on others."""
+def _build_tree(shape: _Shape) -> ast.expr:
+    if isinstance(shape, str):
+        return ast.Name(id=shape)
+    operation, parts = shape
+    if not isinstance(parts, tuple):
+        return ast.Constant(value=parts)
+    of = [_build_tree(part) for part in parts]
     if operation == "=":
         return of[0]
     if operation in _RANK:

@@ -7,6 +7,7 @@ import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -237,10 +238,16 @@ def load_standard(id_or_path: str | Path) -> Standard:
         If there is no such profile, or its files are not as they must be.
     """
     if str(id_or_path) in list_standards():
-        return _load_folder(find_resource("standards") / id_or_path)
+        return _load_own(str(id_or_path))
     if is_there(Path(id_or_path)) and Path(id_or_path).is_dir():
         return _load_folder(Path(id_or_path))
     raise StandardError(_explain_unknown(str(id_or_path)))
+
+
+@cache
+def _load_own(name: str) -> Standard:
+    """Profile that comes with the program; read once."""
+    return _load_folder(find_resource("standards") / name)
 
 
 _DEFAULT = "nf-p-95-304-style"

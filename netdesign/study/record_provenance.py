@@ -6,6 +6,7 @@ import importlib.metadata
 import platform
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import cache
 from typing import cast, get_args
 
 from netdesign import __version__
@@ -106,11 +107,13 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
         },
         libraries={
             "python": platform.python_version(),
-            **{name: importlib.metadata.version(name) for name in _LIBRARIES},
+            **{name: _find_version(name) for name in _LIBRARIES},
             "netdesign.core": name_core(),
         },
     )
 
+
+_find_version = cache(importlib.metadata.version)
 
 _SHA256 = ", sha256 "
 
