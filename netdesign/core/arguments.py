@@ -124,7 +124,7 @@ class YieldingArgument(ctypes.Structure):
 
 
 class PanelArgument(ctypes.Structure):
-    """``Panel`` of panel.c: strips, ropes, and what is asked."""
+    """``Panel`` of panel.c: strips, ropes of each panel, and what is asked."""
 
     _fields_ = [
         *((name, _INT) for name in ("n_strips", "n_points", "n_shears")),
@@ -132,10 +132,9 @@ class PanelArgument(ctypes.Structure):
         *((name, _REAL) for name in ("stiffness", "load_size")),
         *((name, _REAL * 2) for name in ("load", "to_foot", "head")),
         *((name, _POINTER) for name in ("lengths", "deflection", "shear")),
-        ("rope_weights", _POINTER),
-        *((name, _REAL * 2) for name in ("rope_stiffness", "excess")),
+        *((name, _POINTER) for name in ("rope_weights", "rope_stiffness", "excess")),
         *((name, _REAL) for name in ("still", "longest_step")),
-        *((name, _INT) for name in ("most_steps", "most_halvings", "steps")),
+        *((name, _INT) for name in ("most_steps", "most_halvings")),
     ]
 
 

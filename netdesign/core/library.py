@@ -25,7 +25,7 @@ from netdesign.words.message import Message, say
 _LOG = logging.getLogger(__name__)
 
 _FUNCTIONS = (
-    *("nd_plan", "nd_round", "nd_hang", "nd_root", "nd_panel"),
+    *("nd_plan", "nd_round", "nd_hang", "nd_root", "nd_panels"),
     *("nd_place", "nd_room", "nd_condense", "nd_answer", "nd_settle"),
 )
 

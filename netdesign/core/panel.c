@@ -10,7 +10,8 @@
 enum { SOLVED = 0, NO_EQUILIBRIUM = 1, TOO_MANY_STEPS = 2 };
 enum { AXES = 2, ROPES = 2, MOST_STRIPS = 16, MOST_UNKNOWNS = AXES * MOST_STRIPS + ROPES };
 
-/* A panel of K + 1 strips, the last one in mid-panel, and its two ropes. */
+/* A panel of K + 1 strips, the last one in mid-panel, and its two ropes; lengths,
+ * stiffness and excess of further ones stand behind its own. */
 typedef struct {
     int32_t n_strips, n_points, n_shears; /* points of a strip, of a rope */
     const double *offsets;                /* (2, n_points) */
@@ -21,10 +22,9 @@ typedef struct {
     const double *deflection;   /* (2, K + 1, K) */
     const double *shear;        /* (2, n_shears, K) */
     const double *rope_weights; /* (n_shears,) */
-    double rope_stiffness[ROPES], excess[ROPES];
+    const double *rope_stiffness, *excess; /* (2,) */
     double still, longest_step;
     int32_t most_steps, most_halvings;
-    int32_t steps; /* taken */
 } Panel;
 
 typedef struct {
@@ -179,14 +179,27 @@ static int go_on(const Panel *panel, double *point, At *at, int *is_last) {
 
 /* Point (2 K + 4,) in which nothing is missing, from one that is given; SOLVED,
  * NO_EQUILIBRIUM or TOO_MANY_STEPS. */
-EXPORT int32_t nd_panel(Panel *panel, double *point) {
-    if (panel->n_strips < 2 || panel->n_strips > MOST_STRIPS) return BAD_INPUT;
+static int32_t solve_panel(const Panel *panel, double *point, int32_t *steps) {
     At at;
     int is_last = 0;
     read_point(panel, point, &at);
-    for (panel->steps = 1; panel->steps <= panel->most_steps; panel->steps++) {
+    for (*steps = 1; *steps <= panel->most_steps; ++*steps) {
         if (go_on(panel, point, &at, &is_last)) return NO_EQUILIBRIUM;
         if (is_last) return SOLVED;
     }
     return TOO_MANY_STEPS;
+}
+
+/* The same for some panels: points (count, 2 K + 4); steps and ends (count, 2). */
+EXPORT int32_t nd_panels(const Panel *first, int32_t count, double *points,
+                         int32_t *ends) {
+    if (first->n_strips < 2 || first->n_strips > MOST_STRIPS) return BAD_INPUT;
+    Panel panel = *first;
+    for (int32_t k = 0; k < count; k++) {
+        ends[2 * k + 1] = solve_panel(&panel, points + k * unknowns_of(first), ends + 2 * k);
+        panel.lengths += first->n_strips;
+        panel.rope_stiffness += ROPES;
+        panel.excess += ROPES;
+    }
+    return SOLVED;
 }

@@ -79,13 +79,11 @@ def read_heads(
         if result.anchors is None:
             continue
         own = result.solution.head.error if result.solution else 0.0
-        ends = [(result.anchors, own)]
-        if has_panels:
-            ends += [(panel.anchors, panel.head.error) for panel in list_panels(result)]
-        states += [
-            (result.case.inclination, *anchors.head_pull, error * post_spacing)
-            for anchors, error in ends
-        ]
+        ends = [(*result.anchors.head_pull, own * post_spacing)]
+        if has_panels and isinstance(result.panel, PanelForces):
+            errors = result.panel.brought.error * post_spacing
+            ends += np.column_stack([result.panel.solved.head, errors]).tolist()
+        states += [(result.case.inclination, *end) for end in ends]
     inclinations, x, y, errors = np.array(states).reshape(-1, 4).T
     distinct, places = np.unique(inclinations, return_inverse=True)
     return HeadPulls(
@@ -93,10 +91,11 @@ def read_heads(
         places=places,
         pulls=np.array((x, y)),
         errors=errors,
-        has_panels=has_panels and any(map(list_panels, results)),
+        has_panels=has_panels and bool(list_panels(results)),
     )
 
 
-def list_panels(result: CaseResult) -> Sequence[PanelForces]:
-    """Panels that a case has forces of."""
-    return result.panel.variants if isinstance(result.panel, PanelForces) else ()
+def list_panels(results: Sequence[CaseResult]) -> list[PanelForces]:
+    """Forces by panels between posts, of the cases that have any."""
+    panels = (result.panel for result in results)
+    return [panel for panel in panels if isinstance(panel, PanelForces)]

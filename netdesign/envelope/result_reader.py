@@ -120,10 +120,12 @@ def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
     """
     if result.anchors is None or result.solution is None:
         raise ValueError("a case without a support")
-    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    states = (result.anchors, *(panel.anchors for panel in panels))
-    x, y = np.array([state.head_pull for state in states]).T
-    feet = np.array([state.foot_anchor.size for state in states])
+    pulls = np.array([result.anchors.head_pull])
+    feet = np.array([result.anchors.foot_anchor.size])
+    if isinstance(result.panel, PanelForces):
+        pulls = np.concatenate([pulls, result.panel.solved.head])
+        feet = np.append(feet, np.hypot(*result.panel.solved.foot.T))
+    x, y = pulls.T
     rise = y / np.where((x == 0.0) & (y == 0.0), 1.0, np.hypot(x, y))
     lifted = _lift((x, y), feet, spread_ends(layouts, result.solution.head_point))
     largest: Floats = np.array([rise.max(), *(one.max() for one in lifted)])

@@ -6,26 +6,31 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+import numpy as np
+
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import (
+    HeldPulls,
     PanelForces,
-    cover,
-    resolve_layouts,
+    PanelPulls,
+    Pulls,
+    hold_pulls,
     resolve_panels,
-    resolve_pulls,
     spread_out,
+    stand_on,
 )
 from netdesign.envelope.ranges import Case
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solve import FailedPanel
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import CaseEnd, Settings, SolvedState, describe_case
 from netdesign.solving.workers import Job
-from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.members import NetPart
@@ -48,6 +53,37 @@ class CaseTask:
     layout: SupportLayout | None
     panels: tuple[Panel, ...] = ()
     other_layouts: tuple[SupportLayout, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LayoutForces:
+    """Forces of a case on each layout that its support may have.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Members, and quantities of the panel between posts.
+    bands : ndarray, shape (layouts, names, 3)
+        Least, own and largest force [N].
+    """
+
+    names: tuple[str, ...]
+    bands: Floats
+
+    @property
+    def largest(self) -> dict[str, Band]:
+        """Forces on the layout that is worst for each."""
+        return self._name(self.bands.max(axis=0))
+
+    def take(self, place: int) -> dict[str, Band]:
+        """Forces on one of the layouts."""
+        return self._name(self.bands[place])
+
+    def _name(self, bands: Floats) -> dict[str, Band]:
+        return {
+            name: Band(low=low, value=value, high=high)
+            for name, (low, value, high) in zip(self.names, bands.tolist(), strict=True)
+        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,8 +111,8 @@ class CaseResult:
     panel : PanelForces, FailedPanel or None
         The panel between posts, on the first layout, or why it has no forces in this
         case; None of a row without one.
-    of_layouts : tuple of (SupportLayout, dict of str to Band)
-        The members' forces on each of several layouts [N]; empty of a single one.
+    of_layouts : LayoutForces or None
+        The members' forces on each of several layouts; None of a single one.
     """
 
     case: Case
@@ -87,7 +123,7 @@ class CaseResult:
     solution: SolvedState | None = None
     fault: Fault | None = None
     panel: PanelForces | FailedPanel | None = None
-    of_layouts: tuple[tuple[SupportLayout, dict[str, Band]], ...] = ()
+    of_layouts: LayoutForces | None = None
 
     @property
     def is_converged(self) -> bool:
@@ -106,10 +142,9 @@ class CaseResult:
 
         What it brings to the ground stays that on the first layout; `stand` gives it.
         """
-        if not self.of_layouts:
+        if self.of_layouts is None:
             return self
-        _, forces = self.of_layouts[place]
-        return replace(self, member_forces=forces, of_layouts=())
+        return replace(self, member_forces=self.of_layouts.take(place), of_layouts=None)
 
     def on_layout(self, layout: SupportLayout) -> CaseResult:
         """The same on another layout, between those that it has.
@@ -119,31 +154,24 @@ class CaseResult:
         ValueError
             Where that cannot hold what they hold.
         """
-        if not self.is_converged or self.solution is None:
+        if self.solution is None:
             return self
-        solution = self.solution
-        on_layouts = resolve_layouts(
-            [place_support(layout, solution.head_point)],
-            layout.post_spacing,
-            (solution.foot, solution.head),
-            self.panel if isinstance(self.panel, PanelForces) else None,
-        )
-        if isinstance(on_layouts, FailedSupport):
+        panel = self.panel if isinstance(self.panel, PanelForces) else None
+        brought = panel.brought if panel else None
+        places = [place_support(layout, self.solution.head_point)]
+        held = _hold(places, layout.post_spacing, self.solution, brought)
+        if not held.is_held.all():
             raise ValueError("a case that another layout holds")
-        forces = {**self.member_forces, **on_layouts[0]}
-        return replace(self, member_forces=forces, of_layouts=())
+        forces = _list_forces(held, self.solution, brought).take(0)
+        return replace(self, member_forces=forces, of_layouts=None)
 
     def stand(self, layout: SupportLayout) -> CaseResult:
         """The case with what its section brings to the ground on a layout."""
         if self.solution is None:
             return self
-        foot, head = self.solution.foot, self.solution.head
-        anchors = compute_anchor_forces(
-            place_support(layout, self.solution.head_point),
-            foot_pull_per_m=(foot.x, foot.y),
-            head_pull_per_m=(head.x, head.y),
-            post_spacing=layout.post_spacing,
-        )
+        points = place_support(layout, self.solution.head_point)
+        ends = _read_ends(self.solution)
+        anchors = stand_on(points, layout.post_spacing, ends)
         held = None if isinstance(anchors, FailedSupport) else anchors
         return replace(self, anchors=held)
 
@@ -211,65 +239,87 @@ def _bound_tension(state: SolvedState) -> Band:
 
 
 def _resolve_support(
-    task: CaseTask, layout: SupportLayout, solution: SolvedState
+    task: CaseTask, layout: SupportLayout, state: SolvedState
 ) -> CaseResult:
-    points = place_support(layout, solution.head_point)
-    pulls = [(solution.foot, solution.head)]
-    supports = resolve_pulls(points, layout.post_spacing, pulls)
-    if isinstance(supports, FailedSupport):
-        return _failed(task, supports.outcome, supports.reason)
-    ((anchors, bands),) = supports
-    panel = _resolve_panel(task, points, solution)
-    forces = {
-        **bands,
-        NetPart.MESH: _bound_tension(solution),
-        **(panel.worst if isinstance(panel, PanelForces) else {}),
-    }
-    result = CaseResult(
+    """Forces on all layouts; what fails on one fails, but for the panel."""
+    layouts, width = (layout, *task.other_layouts), layout.post_spacing
+    places = [place_support(layout, state.head_point) for layout in layouts]
+    brought = failure = None
+    if isinstance(panel := _resolve_panel(task, state), PanelPulls):
+        brought = panel
+    else:
+        failure = panel
+    held = _hold(places, width, state, brought)
+    if not held.is_held[:1, :, :1].all():
+        return _fail_support(task, held.explain(places, width, slice(1)))
+    if brought and not held.is_held[0].all():
+        failed = held.explain(places, width)
+        failure = FailedPanel(outcome=failed.outcome, reason=failed.reason)
+        brought, held = None, _hold(places, width, state, None)
+    if not held.is_held.all():
+        return _fail_support(task, held.explain(places, width))
+    anchors = stand_on(places[0], width, _read_ends(state))
+    if isinstance(anchors, FailedSupport):
+        return _fail_support(task, anchors)
+    forces = _list_forces(held, state, brought)
+    return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
-        member_forces=forces,
+        member_forces=forces.largest,
         anchors=anchors,
-        solution=solution,
-        panel=panel,
+        solution=state,
+        panel=brought.stand(places[0], held) if brought else failure,
+        of_layouts=forces if task.other_layouts else None,
     )
-    return _resolve_others(task, layout, result) if task.other_layouts else result
 
 
-def _resolve_others(
-    task: CaseTask, layout: SupportLayout, result: CaseResult
-) -> CaseResult:
-    """Case with its forces on the other layouts; what fails on one fails."""
-    solution, panel = result.solution, result.panel
-    if solution is None:
-        raise ValueError("a case without a solution")
-    on_layouts = resolve_layouts(
-        [place_support(layout, solution.head_point) for layout in task.other_layouts],
-        layout.post_spacing,
-        (solution.foot, solution.head),
-        panel if isinstance(panel, PanelForces) else None,
-    )
-    if isinstance(on_layouts, FailedSupport):
-        return _failed(task, on_layouts.outcome, on_layouts.reason)
-    first = result.member_forces
-    forces = (first, *({**first, **own} for own in on_layouts))
-    largest = {name: cover(by_member[name] for by_member in forces) for name in first}
-    layouts = (layout, *task.other_layouts)
-    return replace(
-        result,
-        member_forces=largest,
-        of_layouts=tuple(zip(layouts, forces, strict=True)),
-    )
+def _hold(
+    places: Sequence[SupportPoints],
+    width: float,
+    state: SolvedState,
+    brought: PanelPulls | None,
+) -> HeldPulls:
+    """Supports under the pulls of the section, then under those of each panel."""
+    own = (state.foot.error, state.foot.error, state.head.error, state.head.error)
+    pulls = Pulls(_read_ends(state)[None], np.array([own]))
+    if brought:
+        pairs = zip(pulls, brought.pulls, strict=True)
+        pulls = Pulls(*(np.concatenate(pair) for pair in pairs))
+    return hold_pulls(places, width, pulls)
+
+
+def _list_forces(
+    held: HeldPulls, state: SolvedState, brought: PanelPulls | None
+) -> LayoutForces:
+    """Forces by the section, and by the worst of its panels."""
+    mesh = _bound_tension(state)
+    bands = {str(member): band[..., 0] for member, band in held.bands.items()}
+    bands[NetPart.MESH] = np.array([mesh.low, mesh.value, mesh.high])
+    if brought:
+        of_panels = brought.read_members(held) | brought.read_ropes()
+        bands |= {name: band.max(axis=-1) for name, band in of_panels.items()}
+    shape = (len(held.is_held), 3)
+    each = [np.broadcast_to(band, shape) for band in bands.values()]
+    return LayoutForces(names=tuple(bands), bands=np.stack(each, axis=1))
+
+
+def _fail_support(task: CaseTask, failed: FailedSupport) -> CaseResult:
+    return _failed(task, failed.outcome, failed.reason)
 
 
 def _resolve_panel(
-    task: CaseTask, points: SupportPoints, solution: SolvedState
-) -> PanelForces | FailedPanel | None:
-    """Forces by the panel between posts, or why there are none."""
+    task: CaseTask, state: SolvedState
+) -> PanelPulls | FailedPanel | None:
+    """Panels between posts and their pulls, or why there are none."""
     net = task.job.scene.net if task.job else None
     if not task.panels or not isinstance(net, Net):
         return None
-    return resolve_panels(task.panels, net, points, solution)
+    return resolve_panels(task.panels, net, state)
+
+
+def _read_ends(state: SolvedState) -> Floats:
+    """Pulls of the section on foot and head (4,) [N/m]."""
+    return np.array([state.foot.x, state.foot.y, state.head.x, state.head.y])
 
 
 def build_task(

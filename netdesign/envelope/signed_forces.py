@@ -9,7 +9,6 @@ signed forces bound the members. Theory: structure/THEORY.md, eq. (S2).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -74,14 +73,13 @@ def read_signed(
     if solution is None or anchors is None:
         return None
     width, head = layouts[0].post_spacing, solution.head_point
-    panels = result.panel.variants if isinstance(result.panel, PanelForces) else ()
-    pulls = [
-        (solution.head.x * width, solution.head.y * width),
-        *(panel.solution.head for panel in panels),
-    ]
-    x, y = np.array(pulls).T
-    feet = np.array([anchors.foot_anchor.size, *map(_find_foot, panels)])
-    signed = _find_signed((x, y), feet, spread_ends(layouts, head))
+    pulls = np.array([(solution.head.x * width, solution.head.y * width)])
+    feet = np.array([anchors.foot_anchor.size])
+    panels = result.panel if isinstance(result.panel, PanelForces) else None
+    if panels:
+        pulls = np.concatenate([pulls, panels.solved.head])
+        feet = np.append(feet, panels.largest_feet)
+    signed = _find_signed((pulls[:, 0], pulls[:, 1]), feet, spread_ends(layouts, head))
     if signed is None:
         return None
     largest = {name: values.max(axis=0) for name, values in signed.items()}
@@ -91,11 +89,6 @@ def read_signed(
     return of_section | {
         name_in_panel(name): float(values[1:].max()) for name, values in largest.items()
     }
-
-
-def _find_foot(panel: PanelForces) -> float:
-    """Force on the more loaded foot anchor of a panel [N]."""
-    return max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
 
 
 def read_signed_errors(
@@ -110,9 +103,8 @@ def read_signed_errors(
     errors = _find_errors(foot * width, head * width, ends)
     if errors is None or not isinstance(result.panel, PanelForces):
         return errors
-    pulls = [(panel.foot.error, panel.head.error) for panel in result.panel.variants]
-    foot, head = (max(errors) for errors in zip(*pulls, strict=True))
-    beside = _find_errors(foot * width, head * width, ends) or {}
+    largest = float(result.panel.brought.error.max()) * width
+    beside = _find_errors(largest, largest, ends) or {}
     return errors | {name_in_panel(name): error for name, error in beside.items()}
 
 

@@ -9,8 +9,9 @@ of the strips that hang on it. Theory: panel/THEORY.md, section 3, (P1) to (P3).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +27,7 @@ from netdesign.panel.strips import (
     Stations,
     Strip,
     build_stations,
-    cut_lengths,
+    cut_strips,
 )
 
 
@@ -129,20 +130,18 @@ _TURNED = np.array([1.0, -1.0])  # what the lower rope gains the upper one loses
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PanelProblem:
-    """A panel to be solved.
+class PanelsAlike:
+    """Panels of one spacing and kind of anchors, whatever net hangs between them.
 
     Attributes
     ----------
-    panel : Panel
-        Spacing, ropes and cut.
-    strip : Strip
-        The net at the post.
+    panels : tuple of Panel, shape (n,)
+        Ropes and cut.
     stations : Stations
         Places of the strips.
-    lengths : ndarray, shape (K + 1,)
-        Unstressed, of the strips at the stations and in mid-panel [m].
-    stiffness, excess : ndarray, shape (2,)
+    cut_off : ndarray, shape (n, K + 1)
+        Of the strips at the stations and in mid-panel, by the cut [m].
+    stiffness, excess : ndarray, shape (n, 2)
         EA [N], and L_r / span - 1 [-], of lower and upper rope.
     deflection : ndarray, shape (2, K + 1, K)
         u H of each rope per load at each station [m2].
@@ -150,19 +149,57 @@ class PanelProblem:
         V of each at the points of integration, per load at each station [m].
     """
 
-    panel: Panel
-    strip: Strip
+    panels: tuple[Panel, ...]
     stations: Stations
-    lengths: Floats
+    cut_off: Floats
     stiffness: Floats
     excess: Floats
     deflection: Floats
     shear: Floats
 
+
+@lru_cache(maxsize=64)  # a row asks for the same ones in every case
+def liken_panels(panels: tuple[Panel, ...], count: int) -> PanelsAlike:
+    """Panels of one spacing and kind of anchors, at so many stations of each."""
+    first = panels[0]
+    stations = build_stations(count, has_mid_anchors=first.has_mid_anchors)
+    half, spans = first.post_spacing / 2.0, (stations.lower, stations.upper)
+    ropes = [(panel.lower, panel.upper) for panel in panels]
+    return PanelsAlike(
+        panels=panels,
+        stations=stations,
+        cut_off=np.array([cut_strips(panel, stations) for panel in panels]),
+        stiffness=np.array([[rope.stiffness for rope in both] for both in ropes]),
+        excess=np.array(
+            [[compute_excess_length(rope.sag) for rope in both] for both in ropes]
+        ),
+        deflection=half**2 * np.array([span.deflection for span in spans]),
+        shear=half * np.array([span.shear for span in spans]),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PanelProblem:
+    """Panels of strips like the one at the post.
+
+    Attributes
+    ----------
+    alike : PanelsAlike
+        Ropes, stations and cut.
+    strip : Strip
+        The net at the post.
+    lengths : ndarray, shape (n, K + 1)
+        Unstressed, of the strips at the stations and in mid-panel [m].
+    """
+
+    alike: PanelsAlike
+    strip: Strip
+    lengths: Floats
+
     @property
     def half(self) -> float:
         """Half the post spacing [m]."""
-        return self.panel.post_spacing / 2.0
+        return self.alike.panels[0].post_spacing / 2.0
 
     @property
     def load_size(self) -> float:
@@ -212,41 +249,14 @@ class PanelState:
     rope_lengths: RopeLengths
 
 
-def build_problem(strip: Strip, panel: Panel, count: int) -> PanelProblem:
-    """Panel of strips like the one at the post, at so many stations.
-
-    Raises
-    ------
-    SolveError
-        If the cut leaves next to no net.
-    """
-    stations = build_stations(count, has_mid_anchors=panel.has_mid_anchors)
-    ropes, half = (panel.lower, panel.upper), panel.post_spacing / 2.0
-    deflection, shear = _scale_spans(count, half, has_mid_anchors=panel.has_mid_anchors)
-    return PanelProblem(
-        panel=panel,
-        strip=strip,
-        stations=stations,
-        lengths=cut_lengths(panel, strip, stations),
-        stiffness=np.array([rope.stiffness for rope in ropes]),
-        excess=np.array([compute_excess_length(rope.sag) for rope in ropes]),
-        deflection=deflection,
-        shear=shear,
-    )
+def build_problem(strip: Strip, panels: Sequence[Panel], count: int) -> PanelProblem:
+    """Panels of one spacing and kind of anchors, at so many stations of each."""
+    alike = liken_panels(tuple(panels), count)
+    lengths = (1.0 + strip.slack) * (strip.chord - alike.cut_off)
+    return PanelProblem(alike=alike, strip=strip, lengths=lengths)
 
 
-@lru_cache(maxsize=8)
-def _scale_spans(
-    count: int, half: float, *, has_mid_anchors: bool
-) -> tuple[Floats, Floats]:
-    """Deflection and shear of both ropes on half a panel of so many metres."""
-    stations = build_stations(count, has_mid_anchors=has_mid_anchors)
-    spans = (stations.lower, stations.upper)
-    deflection = half**2 * np.array([span.deflection for span in spans])
-    return deflection, half * np.array([span.shear for span in spans])
-
-
-def describe_panel(
+def describe_panels(
     problem: PanelProblem,
 ) -> tuple[PanelArgument, tuple[Floats, ...]]:
     """Strips and ropes as the core takes them, and the arrays that have to stay.
@@ -256,45 +266,48 @@ def describe_panel(
     ValueError
         If an array is not of its shape.
     """
-    strips, strip = problem.lengths.size, problem.strip
+    strip, alike = problem.strip, problem.alike
+    count, strips = problem.lengths.shape
     points, places = strip.alike.weights.size, ROPE_WEIGHTS.size
     arrays = {
         "offsets": to_floats(strip.alike.offsets, (2, points)),
         "weights": to_floats(strip.alike.weights, (points,)),
-        "lengths": to_floats(problem.lengths, (strips,)),
-        "deflection": to_floats(problem.deflection, (2, strips, strips - 1)),
-        "shear": to_floats(problem.shear, (2, places, strips - 1)),
+        "lengths": to_floats(problem.lengths, (count, strips)),
+        "deflection": to_floats(alike.deflection, (2, strips, strips - 1)),
+        "shear": to_floats(alike.shear, (2, places, strips - 1)),
         "rope_weights": ROPE_WEIGHTS,
+        "rope_stiffness": to_floats(alike.stiffness, (count, 2)),
+        "excess": to_floats(alike.excess, (count, 2)),
     }
     argument = PanelArgument(strips, points, places)
     point_to(argument, **arrays)
     argument.stiffness, argument.load_size = strip.alike.stiffness, problem.load_size
     argument.load[:], argument.head[:] = strip.load, strip.head
     argument.to_foot[:] = strip.alike.to_foot
-    argument.rope_stiffness[:] = problem.stiffness
-    argument.excess[:] = problem.excess
     return argument, tuple(arrays.values())
 
 
-def guess_point(problem: PanelProblem) -> Floats:
+def guess_points(problem: PanelProblem) -> Floats:
     """Strips that pull as the net at the post, and ropes under that alone, (P3).
 
     Returns
     -------
-    ndarray, shape (2 K + 4,)
+    ndarray, shape (n, 2 K + 4)
         [-].
     """
-    strip, spacing = problem.strip, problem.panel.post_spacing
+    strip, panels = problem.strip, problem.alike.panels
     foot = strip.foot_pull
-    along = [
-        estimate_force_along(math.hypot(*pull), spacing, rope)[0]
-        for rope, pull in (
-            (problem.panel.lower, foot),
-            (problem.panel.upper, strip.load - foot),
-        )
-    ]
-    pulls = np.repeat(foot / problem.load_size, problem.lengths.size)
-    return np.concatenate([pulls, np.log(along)])
+    sizes = math.hypot(*foot), math.hypot(*(strip.load - foot))
+
+    @cache  # panels have ropes in common
+    def find_log(load: float, rope: Rope) -> float:
+        return math.log(estimate_force_along(load, 2.0 * problem.half, rope)[0])
+
+    points = np.empty((len(panels), 2 * problem.lengths.shape[1] + 2))
+    points[:, :-2] = np.repeat(foot / problem.load_size, problem.lengths.shape[1])
+    points[:, -2] = [find_log(sizes[0], panel.lower) for panel in panels]
+    points[:, -1] = [find_log(sizes[1], panel.upper) for panel in panels]
+    return points
 
 
 def read_loads(problem: PanelProblem, points: Floats) -> RopeLoads:
@@ -303,7 +316,7 @@ def read_loads(problem: PanelProblem, points: Floats) -> RopeLoads:
     Parameters
     ----------
     problem : PanelProblem
-        Strips and ropes; of several panels with one spacing and stations the first.
+        Strips and ropes.
     points : ndarray, shape (.., 2 K + 4)
         Pulls over the load, and log H [-].
     """
@@ -311,18 +324,20 @@ def read_loads(problem: PanelProblem, points: Floats) -> RopeLoads:
     along = np.exp(points[..., -2:])
     pulls = np.stack([foot, problem.strip.load[:, None] - foot], axis=-3)
     # mid-panel's strip shows only where it hangs
-    displacements = pulls[..., :-1] @ problem.deflection.transpose(0, 2, 1)
+    displacements = pulls[..., :-1] @ problem.alike.deflection.transpose(0, 2, 1)
     displacements /= along[..., None, None]
     return RopeLoads(along=along, pulls=pulls, displacements=displacements)
 
 
-def read_point(problem: PanelProblem, point: Floats) -> PanelState:
-    """Pulls, ropes and what is missing at a point.
+def read_point(problem: PanelProblem, place: int, point: Floats) -> PanelState:
+    """Pulls, ropes and what is missing at a point of one panel.
 
     Parameters
     ----------
     problem : PanelProblem
         Strips and ropes.
+    place : int
+        Of the panel.
     point : ndarray, shape (2 K + 4,)
         Pulls over the load, and log H [-].
 
@@ -330,35 +345,35 @@ def read_point(problem: PanelProblem, point: Floats) -> PanelState:
     -----------
     tests/panel/test_equations.py
     """
-    strip, loads = problem.strip, read_loads(problem, point)
-    shear = loads.pulls[..., :-1] @ problem.shear.transpose(0, 2, 1)
-    lengths = measure_lengths(shear, problem.stiffness, loads.along)
+    strip, alike, loads = problem.strip, problem.alike, read_loads(problem, point)
+    shear = loads.pulls[..., :-1] @ alike.shear.transpose(0, 2, 1)
+    lengths = measure_lengths(shear, alike.stiffness[place], loads.along)
     pulls = loads.pulls[0] - strip.alike.to_foot[:, None]
     ends, reached = reach_ends(strip.alike, pulls)
     moved = loads.displacements[1] - loads.displacements[0]
     wanted = strip.head[:, None] + moved
-    gaps = (ends - wanted / problem.lengths).ravel()
+    gaps = (ends - wanted / problem.lengths[place]).ravel()
     return PanelState(
         loads=loads,
-        missing=np.concatenate([gaps, lengths.excess - problem.excess]),
+        missing=np.concatenate([gaps, lengths.excess - alike.excess[place]]),
         reached=reached,
         rope_lengths=lengths,
     )
 
 
-def derive_missing(problem: PanelProblem, state: PanelState) -> Floats:
+def derive_missing(problem: PanelProblem, place: int, state: PanelState) -> Floats:
     """Derivative of what is missing by the point, shape (2 K + 4, 2 K + 4)."""
-    strips, size = problem.lengths.size, problem.load_size
+    lengths, size, alike = problem.lengths[place], problem.load_size, problem.alike
+    strips = lengths.size
     every = np.arange(strips)
     by_pull = np.zeros((2, strips, 2, strips))
     for row, column in np.ndindex(2, 2):
         by_pull[row, every, column, every] = state.reached[row, column]
-    moved = np.tensordot(1.0 / state.loads.along, problem.deflection, 1)
-    by_pull[[0, 1], :, [0, 1], :-1] += moved / problem.lengths[:, None]
-    moved_ropes = state.loads.displacements
-    by_along = -_TURNED[:, None, None] * moved_ropes / problem.lengths
+    moved = np.tensordot(1.0 / state.loads.along, alike.deflection, 1)
+    by_pull[[0, 1], :, [0, 1], :-1] += moved / lengths[:, None]
+    by_along = -_TURNED[:, None, None] * state.loads.displacements / lengths
     by_load = np.zeros((2, 2, strips))
-    by_load[..., :-1] = state.rope_lengths.by_shear @ problem.shear
+    by_load[..., :-1] = state.rope_lengths.by_shear @ alike.shear
     whole = np.empty((2 * strips + 2, 2 * strips + 2))
     whole[:-2, :-2] = size * by_pull.reshape(2 * strips, 2 * strips)
     whole[:-2, -2:] = by_along.reshape(2, -1).T

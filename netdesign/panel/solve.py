@@ -6,25 +6,23 @@ First: the result, forces on supports and ropes. Theory: panel/THEORY.md, sectio
 from __future__ import annotations
 
 import ctypes
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from netdesign.core.arguments import locate, to_floats
+from netdesign.core.arguments import locate
 from netdesign.core.library import find_core, require_sound
 from netdesign.coupling.solution import Solution
-from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome, SolveError, require_within
+from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.outcome import Outcome, require_within
 from netdesign.panel.equations import (
     PanelProblem,
     RopeLoads,
     build_problem,
     derive_missing,
-    describe_panel,
-    guess_point,
+    describe_panels,
+    guess_points,
     read_loads,
     read_point,
 )
@@ -128,6 +126,94 @@ class FailedPanel:
     reason: Message
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SolvedPanels:
+    """Panels of one strip, n of them, as arrays; NaN of one that failed. SI units.
+
+    Attributes
+    ----------
+    panels : tuple of Panel, shape (n,)
+        What was solved.
+    failures : dict of int to FailedPanel
+        By place, why one has no forces.
+    foot, mid_foot, head : ndarray, shape (n, 2)
+        (x, y) of the force on the foot anchor beside a post, on that in mid-panel and
+        on a post head [N].
+    along, tension : ndarray, shape (n, 2)
+        H and T of lower and upper rope [N].
+    mid_displacement : ndarray, shape (n, 2, 2)
+        (x, y) of each rope in mid-panel [m].
+    tensions : ndarray, shape (n, 2, 24)
+        Of each rope at ``ROPE_POINTS`` [N].
+    stations, curves, balance, steps : ndarray, shape (n, ..)
+        As a `PanelSolution` has them.
+    """
+
+    panels: tuple[Panel, ...]
+    failures: dict[int, FailedPanel]
+    foot: Floats
+    mid_foot: Floats
+    head: Floats
+    along: Floats
+    tension: Floats
+    mid_displacement: Floats
+    tensions: Floats
+    stations: Floats
+    curves: Floats
+    balance: Floats
+    steps: Ints
+
+    def describe(self, place: int) -> PanelSolution | FailedPanel:
+        """One of the panels."""
+        if place in self.failures:
+            return self.failures[place]
+        lower, upper = (
+            RopeForces(
+                along=float(self.along[place, rope]),
+                tension=float(self.tension[place, rope]),
+                mid_displacement=_as_point(self.mid_displacement[place, rope]),
+                tensions=self.tensions[place, rope],
+            )
+            for rope in (0, 1)
+        )
+        return PanelSolution(
+            panel=self.panels[place],
+            foot=_as_point(self.foot[place]),
+            mid_foot=_as_point(self.mid_foot[place]),
+            head=_as_point(self.head[place]),
+            lower=lower,
+            upper=upper,
+            stations=self.stations[place],
+            curves=self.curves[place],
+            balance=PanelBalance(*self.balance[place].tolist()),
+            steps=int(self.steps[place]),
+        )
+
+
+def choose_panels(parts: Sequence[SolvedPanels], places: Sequence[int]) -> SolvedPanels:
+    """Some panels, by their places among those of all parts behind one another."""
+    panels = [panel for part in parts for panel in part.panels]
+    firsts = np.cumsum([0, *(len(part.panels) for part in parts)]).tolist()
+    failures = {
+        first + place: failure
+        for first, part in zip(firsts, parts, strict=False)
+        for place, failure in part.failures.items()
+    }
+    arrays = [field.name for field in fields(SolvedPanels)][2:]
+    return SolvedPanels(
+        panels=tuple(panels[place] for place in places),
+        failures={
+            k: failures[place] for k, place in enumerate(places) if place in failures
+        },
+        **{
+            name: np.concatenate([getattr(part, name) for part in parts])[places]
+            for name in arrays
+        },
+    )
+
+
+# Share of the chord that a cut must leave between two ropes; choice of this program.
+LEAST_NET = 0.1
 # Stations of half a panel: the error falls to a tenth or so with each, where the net is
 # taut to a quarter; six cost hardly more than four.
 STATIONS = 6
@@ -138,7 +224,16 @@ _HALVINGS = 20
 _LONGEST_STEP = 2.0  # of log H
 _BALANCED = 1e-8
 _ON_GROUND = 1e-9  # depth below the ground, over the chord
-_TOO_MANY_STEPS = 2  # as in panel.c
+_SOLVED, _NOT_FOUND, _TOO_MANY_STEPS = 0, 1, 2  # as in panel.c
+_UNSOLVED = {
+    _NOT_FOUND: FailedPanel(
+        outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.not_found")
+    ),
+    _TOO_MANY_STEPS: FailedPanel(
+        outcome=Outcome.MAX_ITERATIONS, reason=Outcome.MAX_ITERATIONS.message
+    ),
+}
+_NO_NET = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("panel.no_net_left"))
 
 
 def solve_panel(
@@ -169,13 +264,13 @@ def solve_panel(
     -----------
     tests/verification/test_panel.py
     """
-    (solved,) = solve_strips(take_strip(solution), (panel,), stations=stations)
-    return solved
+    solved = solve_strips(take_strip(solution), (panel,), stations=stations)
+    return solved.describe(0)
 
 
 def solve_strips(
     strip: Strip, panels: Sequence[Panel], *, stations: int = STATIONS
-) -> list[PanelSolution | FailedPanel]:
+) -> SolvedPanels:
     """Panels of strips like the one at the post; otherwise as ``solve_panel``.
 
     Parameters
@@ -183,14 +278,9 @@ def solve_strips(
     strip : Strip
         At the post.
     panels : sequence of Panel
-        Spacing, ropes and cut.
+        Spacing, ropes and cut, at least one.
     stations : int
         K, strips on half the panel, 1 to 10 [-].
-
-    Returns
-    -------
-    list of PanelSolution or FailedPanel
-        One a panel.
 
     Raises
     ------
@@ -198,221 +288,183 @@ def solve_strips(
         If K is out of its range.
     """
     require_within("stations", stations, 1, LARGEST_COUNT)
-    core = find_core()
-    found: dict[int, PanelSolution | FailedPanel] = {}
-    alike: dict[tuple[bool, float], dict[int, _SolvedPoint]] = {}
+    alike: dict[tuple[bool, float], list[int]] = {}
     for place, panel in enumerate(panels):
-        try:
-            solved = _solve(build_problem(strip, panel, stations), core)
-        except SolveError as failure:
-            found[place] = _fail(failure)
-        else:
-            key = panel.has_mid_anchors, panel.post_spacing
-            alike.setdefault(key, {})[place] = solved
-    for points in alike.values():
-        found |= zip(points, _build_solutions(list(points.values())), strict=True)
-    return [found[place] for place in range(len(panels))]
+        key = panel.has_mid_anchors, panel.post_spacing
+        alike.setdefault(key, []).append(place)
+    parts = [
+        _solve_alike(build_problem(strip, [panels[k] for k in places], stations))
+        for places in alike.values()
+    ]
+    if len(parts) == 1:
+        return parts[0]
+    order = np.argsort(np.concatenate(list(alike.values())))
+    return choose_panels(parts, order.tolist())
 
 
-def _fail(failure: SolveError) -> FailedPanel:
-    return FailedPanel(outcome=failure.outcome, reason=failure.reason)
+def _solve_alike(problem: PanelProblem) -> SolvedPanels:
+    """Panels of one spacing and kind of anchors."""
+    chord, points = problem.strip.chord, guess_points(problem)
+    has_net = (chord - problem.alike.cut_off).min(axis=1) > LEAST_NET * chord
+    points[~has_net] = np.nan
+    core = find_core()
+    if core is None:
+        ends = [_solve(problem, place, point) for place, point in enumerate(points)]
+        steps, codes = np.array(ends).T
+    else:
+        steps, codes = _solve_compiled(core, problem, points)
+    points[codes != _SOLVED] = np.nan
+    failures = {
+        k: _UNSOLVED[code] if has_net[k] else _NO_NET
+        for k, code in enumerate(codes.tolist())
+        if code != _SOLVED
+    }
+    return _read_panels(problem, points, steps, failures)
 
 
-class _SolvedPoint(NamedTuple):
-    """Point, shape (2 K + 4,), at which nothing is missing; Newton steps to it."""
-
-    problem: PanelProblem
-    point: Floats
-    steps: int
-
-
-def _solve(problem: PanelProblem, core: ctypes.PyDLL | None) -> _SolvedPoint:
-    """Point at which nothing is missing.
+def _solve(problem: PanelProblem, place: int, point: Floats) -> tuple[int, int]:
+    """Move a point to where nothing is missing: steps, and how they ended.
 
     A step is halved until the next one, by the same derivatives, would be shorter:
     that needs no common measure of gaps and lengths (Deuflhard's natural test).
     """
-    point = guess_point(problem)
-    if core is not None:
-        return _solve_compiled(core, problem, point)
-    state = read_point(problem, point)
+    state = read_point(problem, place, point)
     for number in range(1, _MOST_STEPS + 1):
-        inverse = _invert(derive_missing(problem, state))
+        try:
+            inverse = np.linalg.inv(derive_missing(problem, place, state))
+        except np.linalg.LinAlgError:
+            return number, _NOT_FOUND
         step = -inverse @ state.missing
         share = min(1.0, _LONGEST_STEP / max(_LONGEST_STEP, *np.abs(step[-2:])))
         for _ in range(_HALVINGS):
-            tried = read_point(problem, point + share * step)
+            tried = read_point(problem, place, point + share * step)
             left = float(np.linalg.norm(inverse @ tried.missing))
-            if left <= _STILL:
-                return _SolvedPoint(problem, point + share * step, number)
-            if left <= (1.0 - share / 4.0) * float(np.linalg.norm(step)):
+            is_last = left <= _STILL
+            if is_last or left <= (1.0 - share / 4.0) * float(np.linalg.norm(step)):
                 break
             share /= 2.0
         else:
-            raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found"))
-        point, state = point + share * step, tried
-    raise SolveError(Outcome.MAX_ITERATIONS)
+            return number, _NOT_FOUND
+        point += share * step
+        if is_last:
+            return number, _SOLVED
+        state = tried
+    return _MOST_STEPS, _TOO_MANY_STEPS
 
 
 def _solve_compiled(
-    core: ctypes.PyDLL, problem: PanelProblem, point: Floats
-) -> _SolvedPoint:
-    """The same by the compiled core."""
-    argument, kept = describe_panel(problem)
+    core: ctypes.PyDLL, problem: PanelProblem, points: Floats
+) -> tuple[Ints, Ints]:
+    """The same by the compiled core, of all panels."""
+    argument, kept = describe_panels(problem)
     argument.still, argument.longest_step = _STILL, _LONGEST_STEP
     argument.most_steps, argument.most_halvings = _MOST_STEPS, _HALVINGS
-    unknowns = to_floats(point, (2 * problem.lengths.size + 2,)).copy()
-    code = core.nd_panel(ctypes.byref(argument), ctypes.c_void_p(locate(unknowns)))
+    ends = np.empty((len(points), 2), dtype=np.int32)
+    where = (ctypes.c_void_p(locate(array)) for array in (points, ends))
+    require_sound(core.nd_panels(ctypes.byref(argument), len(points), *where))
     del kept  # the core had its addresses
-    if require_sound(code) == _TOO_MANY_STEPS:
-        raise SolveError(Outcome.MAX_ITERATIONS)
-    if code:
-        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found"))
-    return _SolvedPoint(problem, unknowns, argument.steps)
+    steps, codes = ends.T.astype(np.int64)
+    return steps, codes
 
 
-def _invert(matrix: Floats) -> Floats:
-    try:
-        return np.asarray(np.linalg.inv(matrix))
-    except np.linalg.LinAlgError as singular:
-        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.not_found")) from singular
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Panels:
-    """Solved panels of one strip, spacing and kind of anchors, as arrays.
-
-    Attributes
-    ----------
-    problem : PanelProblem
-        The first one.
-    loads : RopeLoads
-        Of all of them; the panels are the first dimension.
-    curves : ndarray, shape (p, K + 1, 2, 2 n + 1)
-        Nodes of the strips [m].
-    lower, upper : ndarray, shape (p, 2, 2)
-        Forces of both bays on the supports of each rope: x and y, post and mid-panel
-        [N].
-    """
-
-    problem: PanelProblem
-    loads: RopeLoads
-    curves: Floats
-    lower: Floats
-    upper: Floats
-
-
-def _gather(points: Sequence[_SolvedPoint]) -> _Panels:
-    first = points[0].problem
-    loads = read_loads(first, np.array([one.point for one in points]))
-    lengths = np.array([one.problem.lengths for one in points])
+def _read_panels(
+    problem: PanelProblem,
+    points: Floats,
+    steps: Ints,
+    failures: dict[int, FailedPanel],
+) -> SolvedPanels:
+    """Results at the points; refused where out of balance or on the ground."""
+    loads, count = read_loads(problem, points), len(points)
     curves = draw_strips(
-        first.strip,
-        lengths.ravel(),
+        problem.strip,
+        problem.lengths.ravel(),
         np.moveaxis(loads.displacements, 0, 2).reshape(2, 2, -1),
         np.moveaxis(loads.pulls[:, 0], 0, 1).reshape(2, -1),
+    ).reshape(*problem.lengths.shape, 2, -1)
+    stations = problem.alike.stations
+    supports = tuple(  # x and y, post and mid-panel, of both bays
+        2.0
+        * problem.half
+        * loads.pulls[:, rope, :, :-1]
+        @ span.end_shear.T
+        * _BOTH_WAYS
+        for rope, span in enumerate((stations.lower, stations.upper))
     )
-    lower, upper = (
-        2.0 * first.half * loads.pulls[:, rope, :, :-1] @ span.end_shear.T * [1.0, -1.0]
-        for rope, span in enumerate((first.stations.lower, first.stations.upper))
+    balance = _measure_balance(problem, loads, curves, supports)
+    across = np.stack(
+        [np.hypot(x[:, 0], x[:, 1]).max(axis=1) for x in supports], axis=1
     )
-    return _Panels(
-        problem=first,
-        loads=loads,
-        curves=curves.reshape(*lengths.shape, 2, -1),
-        lower=lower,
-        upper=upper,
+    shear = loads.pulls[..., :-1] @ problem.alike.shear.transpose(0, 2, 1)
+    places = problem.half * (1.0 - np.append(stations.xi, 0.0))
+    return SolvedPanels(
+        panels=problem.alike.panels,
+        failures=_refuse(problem, curves, balance) | failures,
+        foot=supports[0][:, :, 0],
+        mid_foot=supports[0][:, :, 1],
+        head=supports[1][:, :, 0],
+        along=loads.along,
+        tension=np.hypot(loads.along, across / 2.0),
+        mid_displacement=loads.displacements[..., -1],
+        tensions=np.hypot(
+            loads.along[..., None], np.hypot(shear[:, :, 0], shear[:, :, 1])
+        ),
+        stations=np.broadcast_to(places, (count, places.size)),
+        curves=curves,
+        balance=balance,
+        steps=steps,
     )
 
 
-def _build_solutions(
-    points: Sequence[_SolvedPoint],
-) -> list[PanelSolution | FailedPanel]:
-    """Results of some panels; refused if not in balance or on the ground."""
-    panels = _gather(points)
-    problem = panels.problem
-    depths = -panels.curves[:, :, 1].min(axis=(1, 2))
-    ropes = [_describe_ropes(panels, which) for which in (0, 1)]
-    missing = np.array(_measure_balance(panels)).T.tolist()
-    places = problem.half * (1.0 - np.append(problem.stations.xi, 0.0))
-    found: list[PanelSolution | FailedPanel] = []
-    for k, (one, parts) in enumerate(zip(points, missing, strict=True)):
-        balance = PanelBalance(*parts)
-        try:
-            _require_sound(float(depths[k]), balance, problem)
-        except SolveError as failure:
-            found.append(_fail(failure))
-            continue
-        solution = PanelSolution(
-            panel=one.problem.panel,
-            foot=_as_point(panels.lower[k, :, 0]),
-            mid_foot=_as_point(panels.lower[k, :, 1]),
-            head=_as_point(panels.upper[k, :, 0]),
-            lower=ropes[0][k],
-            upper=ropes[1][k],
-            stations=places,
-            curves=panels.curves[k],
-            balance=balance,
-            steps=one.steps,
-        )
-        found.append(solution)
-    return found
+_BOTH_WAYS = np.array([1.0, -1.0])
 
 
-def _describe_ropes(panels: _Panels, which: int) -> list[RopeForces]:
-    """Lower (0) or upper rope of each panel."""
-    problem, loads = panels.problem, panels.loads
-    along = loads.along[:, which]
-    supports = (panels.lower, panels.upper)[which]
-    across = np.hypot(supports[:, 0], supports[:, 1]).max(axis=1) / 2.0
-    shear = loads.pulls[:, which, :, :-1] @ problem.shear[which].T
-    tensions = np.hypot(along[:, None], np.hypot(shear[:, 0], shear[:, 1]))
-    middles = loads.displacements[:, which, :, -1]
-    return [
-        RopeForces(
-            along=pull,
-            tension=math.hypot(pull, side),
-            mid_displacement=_as_point(middles[k]),
-            tensions=tensions[k],
-        )
-        for k, (pull, side) in enumerate(
-            zip(along.tolist(), across.tolist(), strict=True)
-        )
-    ]
+def _refuse(
+    problem: PanelProblem, curves: Floats, balance: Floats
+) -> dict[int, FailedPanel]:
+    """Panels that lie on the ground, or are not in balance."""
+    depths, missing = -curves[:, :, 1].min(axis=(1, 2)), balance.max(axis=1)
+    lies: Mask = depths > _ON_GROUND * problem.strip.chord
+    refused = {}
+    for k in np.flatnonzero(lies | ~(missing <= _BALANCED)).tolist():
+        if lies[k]:
+            outcome, reason = (
+                Outcome.OUT_OF_VALIDITY,
+                say("panel.lies_on_ground", depth=float(depths[k])),
+            )
+        else:
+            amount = float(missing[k])
+            outcome, reason = (
+                Outcome.BALANCE_VIOLATED,
+                say("panel.out_of_balance", missing=amount, accepted=_BALANCED),
+            )
+        refused[k] = FailedPanel(outcome=outcome, reason=reason)
+    return refused
 
 
-def _require_sound(depth: float, balance: PanelBalance, problem: PanelProblem) -> None:
-    """Refuse a panel that lies on the ground, or is not in balance."""
-    if depth > _ON_GROUND * problem.strip.chord:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, say("panel.lies_on_ground", depth=depth)
-        )
-    if not balance.largest <= _BALANCED:
-        raise SolveError(
-            Outcome.BALANCE_VIOLATED,
-            say("panel.out_of_balance", missing=balance.largest, accepted=_BALANCED),
-        )
-
-
-def _measure_balance(panels: _Panels) -> tuple[Floats, Floats, Floats]:
-    """Missing forces and moments, from curves and supports as they came out (P6)."""
-    problem, loads = panels.problem, panels.loads
+def _measure_balance(
+    problem: PanelProblem,
+    loads: RopeLoads,
+    curves: Floats,
+    supports: tuple[Floats, ...],
+) -> Floats:
+    """Missing forces and moments (n, 3), from curves and supports as they are (P6)."""
     strip, half = problem.strip, problem.half
-    load, weights = strip.load, problem.stations.weights
+    load, weights = strip.load, problem.alike.stations.weights
     size, chord = problem.load_size, strip.chord
-    lower, upper = panels.lower, panels.upper
+    lower, upper = supports
     force = lower.sum(axis=-1) + upper.sum(axis=-1) - 2.0 * half * load
     ends = loads.displacements + np.array([(0.0, 0.0), strip.head])[:, :, None]
     held = _cross(ends, loads.pulls).sum(axis=1)
-    turned = _cross(panels.curves, strip.forces).sum(axis=-1)
+    turned = _cross(curves, strip.forces).sum(axis=-1)
     lever = half**2 / 2.0 * load - half * (lower[..., 1] + upper[..., 1]) / 2.0
     moved = loads.displacements[..., -1]
     lever = lever - (loads.along[:, :, None] * moved).sum(axis=1)
-    return (
+    parts = (
         np.hypot(force[:, 0], force[:, 1]) / (2.0 * half * size),
         np.abs(turned - held)[:, :-1] @ weights / (size * chord),
         np.hypot(lever[:, 0], lever[:, 1]) / (half * size * chord),
     )
+    return np.stack(parts, axis=1)
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

@@ -133,8 +133,6 @@ def _build_span(xi: Floats, powers: Ints, fit: Floats, *, is_held: bool) -> Span
     )
 
 
-# Share of the chord that a cut must leave between two ropes; choice of this program.
-LEAST_NET = 0.1
 # The pulls at a history's end over its largest, less 1, at most: later snow is denser.
 FURTHEST = 0.1
 
@@ -299,37 +297,27 @@ def _pull_ends(curve: Floats, forces: Floats) -> tuple[Floats, Floats]:
     return foot + forces[:, 0], head + forces[:, -1]
 
 
-def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
-    """Unstressed length of the strip at each station and in mid-panel, (P4).
+def cut_strips(panel: Panel, stations: Stations) -> Floats:
+    """What the cut takes off the strip at each station and in mid-panel, (P4).
 
     Parameters
     ----------
     panel : Panel
         Its cut, and the ropes that it may follow.
-    strip : Strip
-        The net at the post.
     stations : Stations
         Places of the strips.
 
     Returns
     -------
     ndarray, shape (K + 1,)
-        [m].
-
-    Raises
-    ------
-    SolveError
-        If the ropes hang so low that less than ``LEAST_NET`` is left of the chord.
+        Of the chord [m].
     """
     lowered = np.zeros(stations.xi.size + 1)
     if panel.cut in ("upper", "fitted"):
         lowered += panel.upper.sag * stations.upper.drape
     if panel.cut == "fitted":
         lowered += panel.lower.sag * stations.lower.drape
-    lengths = strip.chord - panel.post_spacing * lowered
-    if not lengths.min() > LEAST_NET * strip.chord:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
-    return np.asarray((1.0 + strip.slack) * lengths)
+    return np.asarray(panel.post_spacing * lowered)
 
 
 def draw_strips(

@@ -309,42 +309,6 @@ def compute_many_forces(
     )
 
 
-def compute_forces_of_pulls(
-    points: SupportPoints,
-    *,
-    foot_pull_per_m: Vector[Floats],
-    head_pull_per_m: Vector[Floats],
-    post_spacing: float,
-) -> tuple[dict[str, Floats], Mask]:
-    """Member forces of one support under many pulls, as `compute_anchor_forces` has.
-
-    Parameters
-    ----------
-    points : SupportPoints
-        As there; the post has a length.
-    foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
-        As there, finite, of one shape [N/m].
-    post_spacing : float
-        As there [m].
-
-    Returns
-    -------
-    dict of str to ndarray, ndarray of bool
-        Forces by member [N], of use only where the second says that the head is held.
-
-    Verified by
-    -----------
-    tests/envelope/test_support_bands.py
-    """
-    of_members, is_held = compute_forces_of_layouts(
-        [points],
-        foot_pull_per_m=foot_pull_per_m,
-        head_pull_per_m=head_pull_per_m,
-        post_spacing=post_spacing,
-    )
-    return {member: force[0] for member, force in of_members.items()}, is_held[0]
-
-
 def compute_forces_of_layouts(
     places: Sequence[SupportPoints],
     *,
@@ -354,16 +318,23 @@ def compute_forces_of_layouts(
 ) -> tuple[dict[str, Floats], Mask]:
     """Member forces of several supports, each under all of the pulls.
 
+    As `compute_anchor_forces` has them.
+
     Parameters
     ----------
     places : sequence of SupportPoints
-        Supports; net and uphill guy share an anchor in all or in none of them. The
-        rest is as there.
+        Supports, whose posts have a length; net and uphill guy share an anchor in all
+        or in none of them.
+    foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
+        As there, finite, of one shape [N/m].
+    post_spacing : float
+        As there [m].
 
     Returns
     -------
     dict of str to ndarray, ndarray of bool
-        As there, of shape (supports, ...) for pulls of shape (...).
+        Forces by member [N], of use only where the second says that the head is held;
+        of shape (supports, ...) for pulls of shape (...).
 
     Verified by
     -----------

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
+
+import numpy as np
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -72,22 +73,18 @@ def measure_feet(
 
     Those of the sections, and of every panel if that is wanted.
     """
-    of_cases = map(list_panels, results) if has_panels else ()
-    panels = list(chain.from_iterable(of_cases))
     anchors = [result.anchors for result in results if result.anchors is not None]
-    anchors += [panel.anchors for panel in panels]
-    pulls = [(support.foot_anchor.x, support.foot_anchor.y) for support in anchors]
-    mids = [panel.solution.mid_foot for panel in panels]
-    pulls += [mid for mid in mids if any(mid)]
-    turns = [measure_pull(x, y, Member.FOOT_ANCHOR) for x, y in pulls]
-    shares = (
-        panel.solution.lower.along / panel.anchors.foot_anchor.size
-        for panel in panels
-        if panel.anchors.foot_anchor.size > 0.0
-    )
-    return FootPulls(
-        turns=(min(turns), max(turns)) if turns else (), along=max(shares, default=0.0)
-    )
+    pulls = [np.array([(one.foot_anchor.x, one.foot_anchor.y) for one in anchors])]
+    share = 0.0
+    for panel in list_panels(results) if has_panels else ():
+        solved, sizes = panel.solved, np.hypot(*panel.solved.foot.T)
+        pulls += [solved.foot, solved.mid_foot[solved.mid_foot.any(axis=1)]]
+        along = solved.along[sizes > 0.0, 0] / sizes[sizes > 0.0]
+        share = max(share, float(along.max(initial=0.0)))
+    x, y = np.concatenate([each.reshape(-1, 2) for each in pulls]).T
+    turns = measure_pull(x, y, Member.FOOT_ANCHOR)
+    ends = (float(turns.min()), float(turns.max())) if turns.size else ()
+    return FootPulls(turns=ends, along=share)
 
 
 def list_pulls(

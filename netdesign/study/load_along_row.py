@@ -12,6 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.head_pulls import HeadPulls, list_panels
@@ -20,6 +22,7 @@ from netdesign.envelope.ranges import Interval
 from netdesign.envelope.rows import LARGE
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor, HeadSpan
+from netdesign.numerics.arrays import Floats
 from netdesign.site.model import NetRow
 from netdesign.structure.head import FailedSupport, HeadForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
@@ -138,15 +141,13 @@ def _fail(
 
 def _find_least_tension(results: Sequence[CaseResult]) -> float:
     """Least tension of the guys on both sides, of which one is at work [N]."""
-    return min(
-        sum(bands[guy].low for guy in guys)
-        for result in results
-        if result.is_converged
-        for bands, guys in (
-            (result.member_forces, GUYS),
-            *((panel.bands, GUYS_BY_PANEL) for panel in list_panels(result)),
-        )
-    )
+    converged = (result.member_forces for result in results if result.is_converged)
+    least = [sum(forces[guy].low for guy in GUYS) for forces in converged]
+    least += [
+        float(np.sum([panel.bands[guy][0] for guy in GUYS_BY_PANEL], axis=0).min())
+        for panel in list_panels(results)
+    ]
+    return min(least)
 
 
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
@@ -289,14 +290,13 @@ def find_rope_factors(
     inclination is not lowered by more load at another: the cases at the least and the
     largest one are raised alone, too. Theory: panel/THEORY.md, (P12), (P13).
     """
-    solved = [result for result in results if list_panels(result)]
-    cases = list(map(list_panels, solved))
+    cases = list_panels(results)
     foot = floor.find(Member.FOOT_ANCHOR) if floor else None
     if not cases or floor is None or floor.head is None or foot is None:
         return RopeFactors()
-    angles = [result.case.inclination for result in solved]
+    angles = [x.case.inclination for x in results if list_panels([x])]
     groups = [cases] + [
-        [panels for panels, angle in zip(cases, angles, strict=True) if angle == end]
+        [panel for panel, angle in zip(cases, angles, strict=True) if angle == end]
         for end in {min(angles), max(angles)}
     ]
     lower, ridge, head = [], [], []
@@ -304,7 +304,7 @@ def find_rope_factors(
         feet, heads = _find_panel_factors(group, foot.force, floor.head.pull)
         lower += [_raise_rope(cases, group, rope, feet) for rope in _OF_LOWER]
         ridge += [_raise_rope(cases, group, rope, heads) for rope in _OF_RIDGE]
-        head += heads
+        head += heads.tolist()
     return RopeFactors(lower=max(lower), ridge=max(ridge), head=max(head))
 
 
@@ -313,40 +313,32 @@ _OF_RIDGE = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
 
 
 def _find_panel_factors(
-    cases: Sequence[Sequence[PanelForces]], foot: float, head: float
-) -> tuple[list[float], list[float]]:
+    cases: Sequence[PanelForces], foot: float, head: float
+) -> tuple[Floats, Floats]:
     """Pull on foot and on head [N] over the largest ones of each panel, at least 1."""
-    feet, heads = [], []
-    for variant in zip(*cases, strict=True):
-        solutions = [panel.solution for panel in variant]
-        pulls = (map(sum, zip(a.foot, a.mid_foot, strict=True)) for a in solutions)
-        feet.append(max(1.0, foot / max(math.hypot(*pull) for pull in pulls)))
-        at_head = max(math.hypot(*solution.head) for solution in solutions)
-        heads.append(max(1.0, head / at_head))
-    return feet, heads
+    feet = np.max([np.hypot(*panel.brought.feet.T) for panel in cases], axis=0)
+    heads = np.max([np.hypot(*panel.solved.head.T) for panel in cases], axis=0)
+    return np.maximum(1.0, foot / feet), np.maximum(1.0, head / heads)
 
 
 def _raise_rope(
-    every: Sequence[Sequence[PanelForces]],
-    cases: Sequence[Sequence[PanelForces]],
+    every: Sequence[PanelForces],
+    cases: Sequence[PanelForces],
     rope: str,
-    factors: Sequence[float],
+    factors: Floats,
 ) -> float:
     """Largest force of a rope in some cases, each panel's raised, over that of all.
 
     Where a panel's force is largest, it has a share of the largest of all panels:
     envelope/THEORY.md, (E3).
     """
-    sizes = [[panel.bands[rope].value for panel in panels] for panels in cases]
-    largest = [max(of_case) for of_case in sizes]
-    raised: list[float] = []
-    for factor, own in zip(factors, zip(*sizes, strict=True), strict=True):
-        near = LARGE * max(own)
-        pairs = zip(own, largest, strict=True)
-        shares = (force / most for force, most in pairs if most >= near)
-        raised.append(factor * max(shares))
-    of_all = max(panel.bands[rope].value for panels in every for panel in panels)
-    return max(raised) * (max(largest) / of_all if of_all else 1.0)
+    sizes = np.array([panel.bands[rope][1] for panel in cases])  # by case and panel
+    largest = sizes.max(axis=1)[:, None]
+    is_near = largest >= LARGE * sizes.max(axis=0)
+    shares = np.where(is_near, sizes / largest, 0.0).max(axis=0)
+    of_all = max(float(panel.bands[rope][1].max()) for panel in every)
+    raised = float((factors * shares).max())
+    return raised * (float(largest.max()) / of_all if of_all else 1.0)
 
 
 def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:

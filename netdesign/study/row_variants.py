@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
-from netdesign.envelope.head_pulls import HeadPulls, read_heads
-from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+import numpy as np
+
+from netdesign.envelope.head_pulls import HeadPulls, list_panels, read_heads
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
@@ -99,15 +101,11 @@ def _take_least(
     largest: Mapping[str, LargestForce], results: Sequence[CaseResult]
 ) -> dict[str, LargestForce]:
     """Largest forces by the section, and of each rope in the panel with the least."""
-    panels = [
-        result.panel.variants
-        for result in results
-        if isinstance(result.panel, PanelForces)
-    ]
+    panels = list_panels(results)
     kept = {key: force for key, force in largest.items() if key not in PANEL_QUANTITIES}
     for rope in RopeForce if panels else ():
-        most = (max(x.bands[rope].low for x in of) for of in zip(*panels, strict=True))
-        least = kilonewton_from_newton(min(most))
+        lows = np.array([panel.bands[rope][0] for panel in panels])
+        least = kilonewton_from_newton(float(lows.max(axis=0).min()))
         kept[rope] = replace(
             largest[rope], low_kN=least, value_kN=least, high_kN=least, bound_kN=least
         )

@@ -23,7 +23,7 @@ from netdesign.coupling.steady.compiled import prepare_rounds
 from netdesign.coupling.steady.net import find_contact_curve, start_net
 from netdesign.coupling.steady.solve import _build_problem, solve_steady
 from netdesign.outcome import ModelError, SolveError
-from netdesign.panel.equations import build_problem, guess_point
+from netdesign.panel.equations import build_problem, guess_points
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import _solve_compiled, solve_panel
 from netdesign.panel.strips import take_strip
@@ -104,14 +104,14 @@ def try_spoilt_panel(solution, rng):
     stations = int(rng.integers(1, 11))
     solve_panel(solution, panel, stations=stations)
     with suppress(SolveError):  # no net is left
-        problem = build_problem(take_strip(solution), panel, stations)
-        spoilt = replace(problem, deflection=spoil(problem.deflection, rng))
-        for one, point in (
-            (spoilt, guess_point(problem)),
-            (problem, spoil(guess_point(problem), rng)),
+        problem = build_problem(take_strip(solution), [panel], stations)
+        deflection = spoil(problem.alike.deflection, rng)
+        spoilt = replace(problem, alike=replace(problem.alike, deflection=deflection))
+        for one, points in (
+            (spoilt, guess_points(problem)),
+            (problem, spoil(guess_points(problem), rng)),
         ):
-            with suppress(SolveError):
-                _solve_compiled(library.find_core(), one, point)
+            _solve_compiled(library.find_core(), one, points)
 
 
 def main():

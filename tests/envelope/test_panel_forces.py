@@ -24,7 +24,6 @@ from netdesign.outcome import Outcome
 from netdesign.panel.solve import FailedPanel
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
-from netdesign.structure.layout import place_support
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
     NetPart,
@@ -156,13 +155,13 @@ def failing(monkeypatch):
     """No panel in heavy snow."""
     resolve = running.resolve_panels
 
-    def spoil(panels, net, points, state):
+    def spoil(panels, net, state):
         if state.foot.size > limit:
             return FailedPanel(
                 outcome=Outcome.OUT_OF_VALIDITY,
                 reason=say("panel.lies_on_ground", depth=state.foot.size / limit),
             )
-        return resolve(panels, net, points, state)
+        return resolve(panels, net, state)
 
     limit = solve(Case(density=330.0, friction_angle=0.5, inclination=0.5), None)
     limit = limit.solution.foot.size
@@ -224,15 +223,13 @@ def test_history_that_went_on_has_no_panel(at_rest_and_followed):
     _, history = at_rest_and_followed
     state = history.solution
     scene = build_scene(history.case)
-    points = place_support(LAYOUT, state.head_point)
     loaded = replace(state, foot=replace(state.foot, x=1.2 * state.foot.x))
-    failed = resolve_panels([PANEL], scene.net, points, loaded)
+    failed = resolve_panels([PANEL], scene.net, loaded)
     assert isinstance(failed, FailedPanel)
     assert failed.reason.key == "panel.history_went_on"
     odd = replace(state, method="staggered")
-    assert resolve_panels([PANEL], scene.net, points, odd).reason.key == (
-        "panel.not_staggered"
-    )
+    failed = resolve_panels([PANEL], scene.net, odd)
+    assert failed.reason.key == "panel.not_staggered"
 
 
 def test_ropes_that_nothing_checks_cost_no_case_and_keep_their_bounds(
