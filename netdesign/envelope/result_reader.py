@@ -34,6 +34,7 @@ from netdesign.structure.layout import (
     SupportLayout,
 )
 from netdesign.structure.members import (
+    GUYS,
     Member,
     RopeForce,
     name_in_panel,
@@ -147,8 +148,7 @@ _RESOLUTION = 0.5
 _NEAR = 0.9
 # Ropes are known to a tenth: a bound that is closer than this is worth no case.
 _ROPES_SHARE = 0.02
-_GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
-_PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
+_PANEL_GUYS = tuple(map(name_in_panel, GUYS))
 _ALONG = (RopeForce.LOWER_ALONG, RopeForce.UPPER_ALONG)
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
@@ -279,7 +279,7 @@ class ResultReader:
         ]
         floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
-            guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else _GUYS
+            guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else GUYS
             behind += [member for member in self.members if member in guys]
         if name in tuple(RopeForce):
             closest = _ROPES_SHARE * self.largest.get(name, 0.0)

@@ -34,7 +34,7 @@ from netdesign.structure.anchors import (
     compute_many_forces,
 )
 from netdesign.structure.layout import ManyLayouts, SupportLayout
-from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
+from netdesign.structure.members import CARRYING_MEMBERS, GUYS, Member, NetPart
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried first, and parts of each other range.
@@ -299,7 +299,7 @@ class _Scan:
         """
         tried = self.try_points(points)
         turn = tried.foot_turn
-        uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
+        uphill, downhill = (tried.of_members[guy] for guy in GUYS)
         signed = uphill - downhill
         members = (tried.of_members[member] for member in _LOADED)
         sought = (*members, tried.head_pull, turn, -turn, signed, -signed)
@@ -426,9 +426,6 @@ def _hold(
     """A loaded net on a layout, and the forces there."""
     at = replace(at, net=replace(at.net, layout=layout))
     return at, hold_net(at.net, loaded)
-
-
-_GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 
 
 class _FailedAtError(Exception):

@@ -27,6 +27,8 @@ class Member(StrEnum):
 # Those that carry a force to be resisted: all but the net.
 CARRYING_MEMBERS = tuple(member for member in Member if member is not Member.NET)
 
+GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
+
 
 class EndMember(StrEnum):
     """A member that holds the ropes' pull along the row, at its end."""

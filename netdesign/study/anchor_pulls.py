@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-
-import numpy as np
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.schema import LEAST_DIP, ROPE_ANGLE
-from netdesign.envelope.head_pulls import list_panels
-from netdesign.envelope.run import CaseResult
+from netdesign.envelope.row_pulls import FootPulls
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import BENDING
@@ -47,44 +43,6 @@ GUY_ANCHORS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 # supplier's manual asks for it (Geobrugg GBE-3000A).
 USUAL_DIP = math.radians(15.0)
 _CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FootPulls:
-    """Pulls of the net on foot anchors over the states of a row.
-
-    Attributes
-    ----------
-    turns : tuple of float
-        Least and largest inclination, as `measure_pull` has it [rad]; empty without
-        any state.
-    along : float
-        Largest pull of the lower rope along the row over that of the net on a foot [-].
-    """
-
-    turns: tuple[float, ...]
-    along: float
-
-
-def measure_feet(
-    results: Sequence[CaseResult], *, has_panels: bool = True
-) -> FootPulls:
-    """Pulls on the foot anchors: they are the same on every layout of a support.
-
-    Those of the sections, and of every panel if that is wanted.
-    """
-    anchors = [result.anchors for result in results if result.anchors is not None]
-    pulls = [np.array([(one.foot_anchor.x, one.foot_anchor.y) for one in anchors])]
-    share = 0.0
-    for panel in list_panels(results) if has_panels else ():
-        solved, sizes = panel.solved, np.hypot(*panel.solved.foot.T)
-        pulls += [solved.foot, solved.mid_foot[solved.mid_foot.any(axis=1)]]
-        along = solved.along[sizes > 0.0, 0] / sizes[sizes > 0.0]
-        share = max(share, float(along.max(initial=0.0)))
-    x, y = np.concatenate([each.reshape(-1, 2) for each in pulls]).T
-    turns = measure_pull(x, y, Member.FOOT_ANCHOR)
-    ends = (float(turns.min()), float(turns.max())) if turns.size else ()
-    return FootPulls(turns=ends, along=share)
 
 
 def list_pulls(

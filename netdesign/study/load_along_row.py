@@ -10,23 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
-
-import numpy as np
 
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
-from netdesign.envelope.head_pulls import HeadPulls, list_panels
-from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Interval
-from netdesign.envelope.rows import LARGE
-from netdesign.envelope.run import CaseResult
-from netdesign.guideline.floor import Floor, HeadSpan
-from netdesign.numerics.arrays import Floats
+from netdesign.envelope.row_pulls import HeadPulls, find_least_tension
+from netdesign.guideline.floor import HeadSpan
 from netdesign.site.model import NetRow
 from netdesign.structure.head import FailedSupport, HeadForces
 from netdesign.structure.layout import Point, SupportPoints, place_support
-from netdesign.structure.members import Member, RopeForce, name_in_panel
+from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import (
     EndGuy,
@@ -45,7 +38,6 @@ from netdesign.units import (
 )
 from netdesign.words.message import Message, say
 
-GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 
 
@@ -101,7 +93,7 @@ def _record(
     least = 0.0
     if not row.panel_assumed and not is_layout_assumed(row):
         in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
-        least = max(0.0, _find_least_tension(task.solved.results) - in_guys)
+        least = max(0.0, find_least_tension(task.solved.results) - in_guys)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
@@ -137,17 +129,6 @@ def _fail(
     if isinstance(held, FailedSupport):
         return held.reason
     return None if weigh_splay(points) else say("support.not_held_sideways")
-
-
-def _find_least_tension(results: Sequence[CaseResult]) -> float:
-    """Least tension of the guys on both sides, of which one is at work [N]."""
-    converged = (result.member_forces for result in results if result.is_converged)
-    least = [sum(forces[guy].low for guy in GUYS) for forces in converged]
-    least += [
-        float(np.sum([panel.bands[guy][0] for guy in GUYS_BY_PANEL], axis=0).min())
-        for panel in list_panels(results)
-    ]
-    return min(least)
 
 
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
@@ -267,78 +248,6 @@ def _share_end(
         return say("support.not_held_sideways")
     outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)
     return float(outer[0]), float(outer[2])
-
-
-class RopeFactors(NamedTuple):
-    """Pulls of the guideline's load over those of the solved cases, at least 1 [-].
-
-    ``lower`` and ``ridge`` raise the largest pull of each rope; ``head`` is that of the
-    panel whose heads are pulled least.
-    """
-
-    lower: float = 1.0
-    ridge: float = 1.0
-    head: float = 1.0
-
-
-def find_rope_factors(
-    results: Sequence[CaseResult], floor: Floor | None
-) -> RopeFactors:
-    """Factors by which the guideline's load raises what pulls along the row.
-
-    Of several panels that may be built each is raised by its own. What pulls at one
-    inclination is not lowered by more load at another: the cases at the least and the
-    largest one are raised alone, too. Theory: panel/THEORY.md, (P12), (P13).
-    """
-    cases = list_panels(results)
-    foot = floor.find(Member.FOOT_ANCHOR) if floor else None
-    if not cases or floor is None or floor.head is None or foot is None:
-        return RopeFactors()
-    angles = [x.case.inclination for x in results if list_panels([x])]
-    groups = [cases] + [
-        [panel for panel, angle in zip(cases, angles, strict=True) if angle == end]
-        for end in {min(angles), max(angles)}
-    ]
-    lower, ridge, head = [], [], []
-    for group in groups:
-        feet, heads = _find_panel_factors(group, foot.force, floor.head.pull)
-        lower += [_raise_rope(cases, group, rope, feet) for rope in _OF_LOWER]
-        ridge += [_raise_rope(cases, group, rope, heads) for rope in _OF_RIDGE]
-        head += heads.tolist()
-    return RopeFactors(lower=max(lower), ridge=max(ridge), head=max(head))
-
-
-_OF_LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
-_OF_RIDGE = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
-
-
-def _find_panel_factors(
-    cases: Sequence[PanelForces], foot: float, head: float
-) -> tuple[Floats, Floats]:
-    """Pull on foot and on head [N] over the largest ones of each panel, at least 1."""
-    feet = np.max([np.hypot(*panel.brought.feet.T) for panel in cases], axis=0)
-    heads = np.max([np.hypot(*panel.solved.head.T) for panel in cases], axis=0)
-    return np.maximum(1.0, foot / feet), np.maximum(1.0, head / heads)
-
-
-def _raise_rope(
-    every: Sequence[PanelForces],
-    cases: Sequence[PanelForces],
-    rope: str,
-    factors: Floats,
-) -> float:
-    """Largest force of a rope in some cases, each panel's raised, over that of all.
-
-    Where a panel's force is largest, it has a share of the largest of all panels:
-    envelope/THEORY.md, (E3).
-    """
-    sizes = np.array([panel.bands[rope][1] for panel in cases])  # by case and panel
-    largest = sizes.max(axis=1)[:, None]
-    is_near = largest >= LARGE * sizes.max(axis=0)
-    shares = np.where(is_near, sizes / largest, 0.0).max(axis=0)
-    of_all = max(float(panel.bands[rope][1].max()) for panel in every)
-    raised = float((factors * shares).max())
-    return raised * (float(largest.max()) / of_all if of_all else 1.0)
 
 
 def _place_heads(row: NetRow, heads: HeadPulls) -> list[SupportPoints]:

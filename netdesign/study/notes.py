@@ -20,12 +20,12 @@ from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.snow.heights import find_model_code_density
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import GUYS, EndMember, Member
 from netdesign.study.anchor_pulls import USUAL_DIP, may_share
 from netdesign.study.case_records import CaseRecord, PullRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.guideline_load import list_assumed
-from netdesign.study.load_along_row import GUYS, place_row
+from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
 from netdesign.study.posts import find_snow_pressure
 from netdesign.study.records import RowStudy

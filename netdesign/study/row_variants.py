@@ -7,26 +7,30 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
-import numpy as np
-
-from netdesign.envelope.head_pulls import HeadPulls, list_panels, read_heads
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES
+from netdesign.envelope.row_pulls import (
+    FootPulls,
+    HeadPulls,
+    RopeFactors,
+    find_least_ropes,
+    find_rope_factors,
+    measure_feet,
+    read_heads,
+)
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member, RopeForce
-from netdesign.study.anchor_pulls import FootPulls, list_pulls, measure_feet
+from netdesign.structure.members import Member
+from netdesign.study.anchor_pulls import list_pulls
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
 from netdesign.study.load_along_row import (
     EndShare,
-    RopeFactors,
     find_end_guy,
     find_held_sideways,
-    find_rope_factors,
     find_tilt,
 )
 from netdesign.study.member_force import (
@@ -101,11 +105,9 @@ def _take_least(
     largest: Mapping[str, LargestForce], results: Sequence[CaseResult]
 ) -> dict[str, LargestForce]:
     """Largest forces by the section, and of each rope in the panel with the least."""
-    panels = list_panels(results)
     kept = {key: force for key, force in largest.items() if key not in PANEL_QUANTITIES}
-    for rope in RopeForce if panels else ():
-        lows = np.array([panel.bands[rope][0] for panel in panels])
-        least = kilonewton_from_newton(float(lows.max(axis=0).min()))
+    for rope, force in find_least_ropes(results).items():
+        least = kilonewton_from_newton(force)
         kept[rope] = replace(
             largest[rope], low_kN=least, value_kN=least, high_kN=least, bound_kN=least
         )

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from netdesign.cable.funicular import build_alike
-from netdesign.envelope.head_pulls import list_panels
 from netdesign.envelope.panel_forces import PanelPulls, Pulls
+from netdesign.envelope.row_pulls import find_rope_factors, list_panels
 from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
 from netdesign.panel.solve import PanelSolution, choose_panels, solve_strips
 from netdesign.panel.strips import build_strip
 from netdesign.structure.members import Member, RopeForce
-from netdesign.study.load_along_row import find_rope_factors
 from tests.each import each
 from tests.panel.test_assumed import assume_all, draw_case, list_ends
 

@@ -10,12 +10,12 @@ from scipy.optimize import brentq
 from netdesign.calculation.quantity import leaf
 from netdesign.checks import load_standard
 from netdesign.checks.forces import place_end_support, pull_at_end
+from netdesign.envelope.row_pulls import find_rope_factors
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study import load_along_row
 from netdesign.study.guideline_load import find_effects
-from netdesign.study.load_along_row import find_rope_factors
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
