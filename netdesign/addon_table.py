@@ -15,7 +15,7 @@ from netdesign.words.message import say
 
 # Places below netdesign.addons: MODULE:NAME.
 COMMANDS = {
-    "bench": "evidence.bench_command:bench",
+    "bench": "evidence.command:bench",
     "paper": "evidence.command:paper",
     "snowpack": "winter.command:snowpack",
     "terrain": "terrain.command:terrain",

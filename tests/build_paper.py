@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from netdesign.addons.evidence.paper.runs import (
+from netdesign.addons.evidence.paper.study import (
     PaperRun,
     PaperSettings,
     PaperStudy,

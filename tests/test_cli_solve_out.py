@@ -111,8 +111,8 @@ def test_history_table_has_a_column_for_each_node():
 
 
 def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsys):
-    from netdesign.addons.evidence.paper import runs as module
-    from netdesign.addons.evidence.paper.runs import find_history
+    from netdesign.addons.evidence.paper import study as module
+    from netdesign.addons.evidence.paper.study import find_history
     from tests.build_paper import build_study
 
     made = build_study()

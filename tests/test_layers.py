@@ -63,7 +63,7 @@ ROWS = (
         "addons.evidence.benchmark",
     },
     {"addons.evidence.validation"},
-    {"addons.evidence.command", "addons.evidence.bench_command"},
+    {"addons.evidence.command"},
 )
 ROOMS = set().union(*ROWS)
 ROOT_MODULES = {"addon_table", "outcome", "units", "quantities"}
@@ -110,7 +110,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
-        "addons.evidence.validation.structure",
+        "addons.evidence.validation.validation",
         *("checks.schema", "files.scene", "study.document"),
         "edge.json_text",
     ),

@@ -27,7 +27,7 @@ def test_commands_and_benchmarks_start_without_the_modules_of_posix(tmp_path):
         f"for name in {sorted(POSIX - {'posix'})}: sys.modules[name] = None\n"
         "from pathlib import Path\n"
         "import netdesign.cli, netdesign.addons.evidence.benchmark.versions\n"
-        "from netdesign.addons.evidence.runner import Clock\n"
+        "from netdesign.addons.evidence.measurements import Clock\n"
         "with Clock() as clock: sum(range(10**5))\n"
         "assert clock.cpu_s >= 0\n"
     )

@@ -233,7 +233,7 @@ def read_scene(scene):
 
 def main():
     """Print the figures that are stored, beside those of the program."""
-    from netdesign.addons.evidence.verification.another_code import solve_shared
+    from netdesign.addons.evidence.verification.winters import solve_shared
 
     for scene in solve_shared():
         flow, unit, depth = read_scene(scene)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.verification.another_code import (
+from netdesign.addons.evidence.verification.winters import (
     list_another_code,
     load_results,
     solve_shared,

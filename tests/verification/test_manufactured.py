@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import sympy
 
-from netdesign.addons.evidence.verification import manufactured
-from netdesign.addons.evidence.verification.manufactured import (
+from netdesign.addons.evidence.verification import exact_solutions as manufactured
+from netdesign.addons.evidence.verification.exact_solutions import (
     BULK_RATIO,
     exact_body_force,
     exact_pressure,

@@ -12,17 +12,17 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from netdesign.addons.reliability.limit_state import (
-    LimitState,
-    Variable,
-    build_annual_maximum,
-)
 from netdesign.addons.reliability.reliability import (
     LARGEST_ERROR,
     NotAvailable,
     estimate_betas,
     find_design_points,
     find_reliability,
+)
+from netdesign.addons.reliability.variables import (
+    LimitState,
+    Variable,
+    build_annual_maximum,
 )
 from netdesign.checks import load_standard
 from netdesign.guideline.load_model import read_load_model

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import netdesign.addons.evidence.verification
-from netdesign.addons.evidence.verification.slab import (
+from netdesign.addons.evidence.verification.exact_solutions import (
     Slab,
     compute_influence_length,
     compute_slab_force,

@@ -1,4 +1,4 @@
-"""``netdesign verify``, ``validate``, ``paper``: the program against what is known."""
+"""``netdesign verify``, ``bench``, ``validate``, ``paper``: the program measured."""
 
 from __future__ import annotations
 
@@ -30,9 +30,12 @@ from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.addons.evidence.benchmark.precision import Row
+    from netdesign.coupling.scene import Scene
     from netdesign.study.document import Difference
     from netdesign.study.records import Study
-
 
 _FAIL, _NOT_PROVEN = 1, 4
 _SHOWN = 20  # differences at most
@@ -158,19 +161,20 @@ def validate(**asked: Any) -> None:
     netdesign validate --out validation
     netdesign validate --out validation --json > validation.json
     """
-    from netdesign.addons.evidence.validation.page import (
+    from netdesign.addons.evidence.measurements import spread
+    from netdesign.addons.evidence.validation.validation import (
         DOCUMENT_FILE,
         PAGE_FILE,
-        gather,
+        load_structures,
         render_validation,
+        validate_structure,
         write_validations,
     )
-    from netdesign.addons.evidence.validation.structure import load_structures
 
     require_places(asked["out"], [PAGE_FILE, DOCUMENT_FILE], asked)
     structures = load_structures()
     with follow(len(structures), "structures", asked) as on_done:
-        validations = gather(structures, on_done)
+        validations = spread(validate_structure, structures, on_done=on_done)
     write_outputs(asked["out"], render_validation(validations), asked)
     if asked["as_json"]:
         print_document(write_validations(validations))
@@ -188,7 +192,7 @@ def paper(**asked: Any) -> None:
     netdesign paper --out paper
     """
     from netdesign.addons.evidence.paper.page import PAGE_FILE, render_paper
-    from netdesign.addons.evidence.paper.runs import (
+    from netdesign.addons.evidence.paper.study import (
         PaperSettings,
         list_cases,
         run_study,
@@ -201,3 +205,134 @@ def paper(**asked: Any) -> None:
     write_outputs(asked["out"], render_paper(study), asked)
     if any(run.failure for run in study.runs.values()):
         sys.exit(_NOT_PROVEN)
+
+
+_RANDOM = ("--stress", "--errors")  # over random scenes
+
+
+@click.command()
+@take_options("bench")
+def bench(**asked: Any) -> None:
+    """Measure the program itself: run time against error, stability, honesty.
+
+    \b
+    netdesign bench --plot bench.svg
+    netdesign bench --stress 2000 --seed 1 --jobs 2
+    netdesign bench --errors 200 --seed 1 --jobs 2
+    netdesign bench --against netdesign-0.1.0-py3-none-any.whl
+    """
+    wanted = (*_RANDOM, "--against")
+    options = [name for name in wanted if asked[name.strip("-")] is not None]
+    _refuse_mixtures(options, asked)
+    if not options:
+        document = _run_named(asked)
+    elif options == ["--against"]:
+        document = _run_against(asked)
+    else:
+        document = _run_random(options[0], asked)
+    if asked["as_json"]:
+        print_document(document)
+    else:
+        _show(document, is_named=not options)
+    sys.exit(0 if document.get("pass", True) else _FAIL)
+
+
+def _refuse_mixtures(options: Sequence[str], asked: Mapping[str, Any]) -> None:
+    """Refuse options that do not go together."""
+    if len(options) > 1:
+        raise UsageRefusal(say("bench.one_of", given=tuple(options)))
+    if options and (asked["scenes"] or asked["plot"]):
+        raise UsageRefusal(say("bench.named_only"))
+    is_random = bool(set(options) & set(_RANDOM))
+    if asked["quick"] and is_random:
+        raise UsageRefusal(say("bench.not_quick"))
+    if not is_random:
+        refuse_without(("seed", "accuracy", "jobs"), *_RANDOM)
+
+
+def _show(document: dict[str, Any], *, is_named: bool) -> None:
+    from rich.console import Console
+
+    from netdesign.addons.evidence.benchmark.precision import print_bench
+    from netdesign.addons.evidence.measurements import show_document
+
+    show = print_bench if is_named else show_document
+    show(document, Console())
+
+
+def _run_random(option: str, asked: Mapping[str, Any]) -> dict[str, Any]:
+    """Document of a run over random scenes."""
+    from netdesign.addons.evidence.benchmark.random_scenes import (
+        attempt_scenes,
+        write_errors,
+        write_stress,
+    )
+
+    count, seed, accuracy = asked[option.strip("-")], asked["seed"], asked["accuracy"]
+    with follow(count, "scenes", asked) as on_done:
+        attempts = attempt_scenes(
+            count,
+            seed,
+            accuracy=accuracy,
+            jobs=asked["jobs"],
+            is_compared=option == "--errors",
+            on_done=on_done,
+        )
+    write = write_errors if option == "--errors" else write_stress
+    return write(attempts, seed, accuracy)
+
+
+def _run_against(asked: Mapping[str, Any]) -> dict[str, Any]:
+    from netdesign.addons.evidence.benchmark.versions import (
+        QUICK,
+        Size,
+        compare_versions,
+        count_runs,
+        open_version,
+        read_version,
+    )
+
+    size = QUICK if asked["quick"] else Size()
+    with open_version(asked["against"]) as python:
+        read_version(python)  # refused before the first run
+        with follow(count_runs(size), "runs", asked) as on_done:
+            return compare_versions(python, size, on_done)
+
+
+def _run_named(asked: Mapping[str, Any]) -> dict[str, Any]:
+    from netdesign.addons.evidence.benchmark.precision import (
+        draw_work_precision,
+        time_accuracies,
+        write_bench,
+    )
+    from netdesign.addons.evidence.benchmark.scenes import load_scenes
+
+    plot: Path | None = asked["plot"]
+    require_places(plot and plot.parent, [plot.name] if plot else [], asked)
+    names = asked["scenes"].split(",") if asked["scenes"] else ()
+    chosen = load_scenes(tuple(name.strip() for name in names))
+    rows = _measure(chosen, asked)
+    if plot is not None:
+        drawn = draw_work_precision(rows)
+        write_outputs(plot.parent, {plot.name: drawn.encode()}, asked)
+    return write_bench(rows, time_accuracies(chosen.values()))
+
+
+def _measure(chosen: Mapping[str, Scene], asked: Mapping[str, Any]) -> Sequence[Row]:
+    from netdesign.addons.evidence.benchmark.precision import (
+        QUICK,
+        measure_steady,
+        measure_transient,
+    )
+    from netdesign.addons.evidence.benchmark.scenes import HISTORY_SCENES
+
+    quick = asked["quick"]
+    rows: list[Row] = []
+    with follow(len(chosen), "scenes", asked) as on_done:
+        for name, scene in chosen.items():
+            rows += measure_steady(name, scene, **(QUICK if quick else {}))
+            if name in HISTORY_SCENES and not quick:
+                rows += measure_transient(name, scene)
+            if on_done is not None:
+                on_done(name)
+    return rows

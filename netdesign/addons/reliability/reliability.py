@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.addons.reliability.limit_state import LimitState
+from netdesign.addons.reliability.variables import LimitState
 from netdesign.numerics.arrays import Floats
 from netdesign.words.message import Message, say
 

@@ -14,7 +14,6 @@ from functools import partial
 import numpy as np
 
 from netdesign.addons.reliability.check_by_case import CheckByCase, find_check_by_case
-from netdesign.addons.reliability.limit_state import LimitState
 from netdesign.addons.reliability.reliability import (
     DesignPoint,
     NotAvailable,
@@ -29,10 +28,11 @@ from netdesign.addons.reliability.response import (
     meet,
     move,
 )
-from netdesign.addons.reliability.row_variables import (
+from netdesign.addons.reliability.variables import (
     HEIGHT,
     MODEL,
     RESISTANCE,
+    LimitState,
     RowVariable,
     list_lines,
     list_variables,

@@ -13,19 +13,20 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from netdesign.addons.terrain.fall_line import (
+from netdesign.addons.terrain.grid import Grid
+from netdesign.addons.terrain.plan import NetLine, Plan
+from netdesign.addons.terrain.surface import (
     LONGEST_BENCH,
     FallLines,
     Rows,
+    Surface,
+    choose_window,
     find_exit,
     find_first_crossings,
     find_mean,
     find_relief,
     follow_fall,
 )
-from netdesign.addons.terrain.grid import Grid
-from netdesign.addons.terrain.plan import NetLine, Plan
-from netdesign.addons.terrain.surface import Surface, choose_window
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
 

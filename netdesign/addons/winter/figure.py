@@ -10,7 +10,7 @@ from typing import Any
 from netdesign.addons.charts import Line, Mark, Panel, draw_panels, shade
 from netdesign.report.words import Words, show_member
 
-_FORCES, _MEMBERS, _SNOW, _AIR = 118.0, 96.0, 104.0, 52.0  # heights of the panels [pt]
+_FORCES, _MEMBERS, _SNOW, _AIR = 150.0, 96.0, 104.0, 64.0  # heights of the panels [pt]
 _LOOSE, _DENSE = 80.0, 600.0  # ends of the greys [kg/m3]
 _MEMBERS_SHOWN = ("foot_anchor", "uphill_guy", "post")
 
@@ -146,7 +146,6 @@ def _find_span(days: Sequence[Mapping[str, Any]]) -> tuple[date, date]:
     return min(every) - timedelta(days=3), max(every) + timedelta(days=5)
 
 
-_FORCES, _AIR = 150.0, 64.0  # heights of the panels [pt]
 _DAY, _NOON = timedelta(days=1), timedelta(hours=12)
 
 Points = list[tuple[datetime, float]]

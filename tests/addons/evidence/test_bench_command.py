@@ -5,9 +5,9 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from netdesign.addons.evidence.bench_command import bench
 from netdesign.addons.evidence.benchmark import precision, random_scenes
 from netdesign.addons.evidence.benchmark.random_scenes import Attempt
+from netdesign.addons.evidence.command import bench
 from netdesign.outcome import OutputError
 
 

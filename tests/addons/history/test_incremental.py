@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.verification.closed_forms import slide_on
-from netdesign.addons.history.incremental import (
+from netdesign.addons.history.net_pulls import compute_node_forces, measure_arcs
+from netdesign.addons.history.staggered import (
     CableState,
     advance_increment,
     build_cable_state,
 )
-from netdesign.addons.history.net_pulls import compute_node_forces, measure_arcs
 from netdesign.cable.net import compute_turning_angles
 from netdesign.outcome import Outcome, SolveError
 from tests.each import each

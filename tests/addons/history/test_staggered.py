@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history import staggered
-from netdesign.addons.history.incremental import advance_increment
 from netdesign.addons.history.settings import (
     TRANSIENT_LEVELS,
     StaggeredSettings,
@@ -16,6 +15,7 @@ from netdesign.addons.history.settings import (
 )
 from netdesign.addons.history.staggered import (
     add_drag,
+    advance_increment,
     measure_drag,
     run_exchange,
     solve_staggered,

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.stats import gumbel_r, lognorm, norm
 
-from netdesign.addons.reliability.limit_state import (
+from netdesign.addons.reliability.variables import (
     KINDS,
     Variable,
     build_annual_maximum,
     build_by_share,
+    load_assumed,
     read_kind,
 )
-from netdesign.addons.reliability.row_variables import load_assumed
 from netdesign.outcome import ModelError
 from netdesign.words.catalogue import render
 from tests.each import each

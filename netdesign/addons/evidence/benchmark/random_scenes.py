@@ -21,13 +21,13 @@ from functools import partial
 from itertools import islice
 from typing import Any, Literal
 
-from netdesign.addons.evidence.benchmark.fine_mesh import (
+from netdesign.addons.evidence.benchmark.precision import (
     find_level,
     solve_truth,
     state_error,
 )
 from netdesign.addons.evidence.benchmark.scenes import Tables, build_tables, draw_scene
-from netdesign.addons.evidence.runner import Clock, share, spread, summarise_times
+from netdesign.addons.evidence.measurements import Clock, share, spread, summarise_times
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.solve import solve_steady

@@ -31,7 +31,7 @@ from netdesign.addons.evidence.benchmark.scenes import (
     write_offices,
     write_site,
 )
-from netdesign.addons.evidence.runner import run_in_turns
+from netdesign.addons.evidence.measurements import run_in_turns
 from netdesign.core.library import name_core
 from netdesign.outcome import ModelError
 from netdesign.words.message import say

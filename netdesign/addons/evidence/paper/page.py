@@ -17,7 +17,7 @@ from netdesign.addons.charts import (
     draw_rectangle,
     shade,
 )
-from netdesign.addons.evidence.paper.runs import (
+from netdesign.addons.evidence.paper.study import (
     ASSUMED_SLOPE_DEG,
     ASSUMED_STIFFNESS,
     DESIGN_NET_DEG,
@@ -29,15 +29,16 @@ from netdesign.addons.evidence.paper.runs import (
     THICKNESS,
     PaperCase,
     PaperStudy,
+    Shape,
     Track,
     find_exchange,
     find_history,
     find_paper_time,
     find_steady,
+    list_tables,
 )
-from netdesign.addons.evidence.paper.tables import list_tables
 from netdesign.addons.history.moments import CRITERION
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats
 from netdesign.report.blocks import (
     Block,
     Figure,
@@ -67,42 +68,33 @@ _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
 _OUTLIERS = 0.005
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MeshPicture:
-    """A snow mesh to draw: nodes (2, n) [m], triangles (3, m), density (m,) [kg/m3]."""
-
-    title: str
-    nodes: Floats
-    triangles: Ints
-    density: Floats
-    face: Floats  # net or wall, shape (2, k) [m]
-
-
-def draw_meshes(pictures: Sequence[MeshPicture]) -> str:
+def draw_meshes(named: Sequence[tuple[str, Shape]]) -> str:
     """SVG of deformed meshes below each other, to one scale of length and density."""
+    pictures = [shape for _, shape in named]
     wide = max(float(np.ptp(picture.nodes[0])) for picture in pictures)
     tall = max(float(picture.nodes[1].max()) for picture in pictures)
-    right = max(float(picture.face[0].max()) for picture in pictures)
+    right = max(float(picture.curve[0].max()) for picture in pictures)
     shown = 1.0 if len(pictures) == 1 else _STACKED
     scale = shown * (WIDTH - 22.0) / (1.02 * wide)
     each = scale * tall * 1.06 + 22.0
     quantiles = [_find_ends(picture) for picture in pictures]
     limits = (min(low for low, _ in quantiles), max(high for _, high in quantiles))
     sketch = Chart()
-    for place, picture in enumerate(pictures):
+    for place, (title, picture) in enumerate(named):
         base = np.array([(wide * 1.03 - right) * scale, each * (place + 1) - 6.0])
-        sketch.text(2.0, each * place + TEXT_PT + 2.0, picture.title, bold=True)
+        sketch.text(2.0, each * place + TEXT_PT + 2.0, title, bold=True)
         _draw_mesh(sketch, picture, base, scale, limits)
     height = each * len(pictures) + 36.0
     _draw_scale(sketch, limits, height)
     density = ENGLISH("net_drawing.density")
     values = (ENGLISH("show.label", label=density, text=ENGLISH.show_range(limits)),)
     what = ENGLISH("net_drawing.mesh")
-    title = ENGLISH("drawing.with_values", what=what, values=values)
-    return sketch.write(height, title)
+    return sketch.write(
+        height, ENGLISH("drawing.with_values", what=what, values=values)
+    )
 
 
-def _find_ends(picture: MeshPicture) -> tuple[float, float]:
+def _find_ends(picture: Shape) -> tuple[float, float]:
     """Low and high density; nearly all of the snow's area lies between them."""
     first, second, third = picture.nodes[:, picture.triangles].transpose(1, 0, 2)
     side, other = second - first, third - first
@@ -121,7 +113,7 @@ def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
 
 def _draw_mesh(
     sketch: Chart,
-    picture: MeshPicture,
+    picture: Shape,
     base: Floats,
     scale: float,
     limits: tuple[float, float],
@@ -139,9 +131,9 @@ def _draw_mesh(
         sketch.shapes.append(
             f'<path d="{path}" fill="{fill}" stroke="#fff" stroke-width="0.25"/>'
         )
-    ends = [float(picture.nodes[0].min()), float(picture.face[0].max())]
+    ends = [float(picture.nodes[0].min()), float(picture.curve[0].max())]
     sketch.line(_place_points(np.array([ends, [0.0, 0.0]]), base, scale), width=1.0)
-    face = _place_points(picture.face, base, scale)
+    face = _place_points(picture.curve, base, scale)
     sketch.line(face, stroke=ACCENT, width=1.5)
     for at in (face[0], face[-1]):
         sketch.dot(at, 1.5, fill=ACCENT, stroke=ACCENT)
@@ -260,20 +252,11 @@ def _plate_meshes(study: PaperStudy) -> Plate | None:
     cases = [find_paper_time()]
     cases += [find_history(NORMAL_NET_DEG, phi) for phi in reversed(FRICTIONS_DEG)]
     cases.append(find_history(DESIGN_NET_DEG))
-    pictures = []
-    for case in cases:
-        run = study[case]
-        if run.shape is None or run.track is None:
-            continue
-        pictures.append(
-            MeshPicture(
-                title=_name_mesh(case, run.track),
-                nodes=run.shape.nodes,
-                triangles=run.shape.triangles,
-                density=run.shape.density,
-                face=run.shape.curve,
-            )
-        )
+    pictures = [
+        (_name_mesh(run.case, run.track), run.shape)
+        for run in map(study.__getitem__, cases)
+        if run.shape is not None and run.track is not None
+    ]
     if not pictures:
         return None
     return Plate(

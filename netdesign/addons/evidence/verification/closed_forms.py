@@ -13,13 +13,13 @@ from netdesign.addons.evidence.verification.case import (
     judge,
     observe_order,
 )
-from netdesign.addons.evidence.verification.manufactured import (
+from netdesign.addons.evidence.verification.exact_solutions import (
     PrescribedFlow,
     build_square,
     solve_prescribed,
 )
-from netdesign.addons.history.incremental import advance_increment, build_cable_state
 from netdesign.addons.history.net_pulls import NetResponse, measure_arcs
+from netdesign.addons.history.staggered import advance_increment, build_cable_state
 from netdesign.addons.history.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.addons.winter.settling import Hs2swe
 from netdesign.cable.funicular import (

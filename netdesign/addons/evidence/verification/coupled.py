@@ -15,7 +15,7 @@ from netdesign.addons.evidence.verification.case import (
     largest_difference,
     observe_order,
 )
-from netdesign.addons.evidence.verification.slab import (
+from netdesign.addons.evidence.verification.exact_solutions import (
     Slab,
     compute_slab_force,
     scale_slip_length,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from netdesign.addons.evidence.table import show_lines, show_rows
-from netdesign.addons.evidence.verification.another_code import list_another_code
+from netdesign.addons.evidence.measurements import show_lines, show_rows
 from netdesign.addons.evidence.verification.case import VerificationCase
 from netdesign.addons.evidence.verification.closed_forms import (
     list_cable,
@@ -26,9 +25,10 @@ from netdesign.addons.evidence.verification.coupled import (
     list_reference,
     list_walls,
 )
-from netdesign.addons.evidence.verification.manufactured import list_manufactured
+from netdesign.addons.evidence.verification.exact_solutions import list_manufactured
 from netdesign.addons.evidence.verification.panels import list_panels
 from netdesign.addons.evidence.verification.winters import (
+    list_another_code,
     list_snow_heights,
     list_winters,
 )

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.addons.evidence.benchmark.fine_mesh import solve_fine
+from netdesign.addons.evidence.benchmark.precision import solve_fine
 from netdesign.addons.evidence.benchmark.scenes import (
     DENSITY_KG_M3,
     FRICTION_DEG,
@@ -32,7 +32,7 @@ from netdesign.addons.evidence.benchmark.scenes import (
     build_tables,
     draw_scene,
 )
-from netdesign.addons.evidence.runner import spread
+from netdesign.addons.evidence.measurements import spread
 from netdesign.addons.evidence.scene import solve
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution

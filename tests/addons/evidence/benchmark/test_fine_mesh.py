@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.benchmark import fine_mesh as truths
-from netdesign.addons.evidence.benchmark.fine_mesh import (
+from netdesign.addons.evidence.benchmark import precision as truths
+from netdesign.addons.evidence.benchmark.precision import (
     HALVINGS,
     Truth,
     refine_size,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.benchmark import random_scenes
-from netdesign.addons.evidence.benchmark.fine_mesh import Truth
+from netdesign.addons.evidence.benchmark.precision import Truth
 from netdesign.addons.evidence.benchmark.random_scenes import (
     Attempt,
     attempt_scene,

@@ -10,7 +10,7 @@ from netdesign.addons.evidence.benchmark.precision import (
     summarise,
 )
 from netdesign.addons.evidence.benchmark.scenes import load_scenes
-from netdesign.addons.evidence.runner import fit_order, share, summarise_times
+from netdesign.addons.evidence.measurements import fit_order, share, summarise_times
 
 LEAST = {"finest": 2, "repeats": 1}
 

@@ -5,7 +5,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from netdesign.addons.evidence.paper.page import MeshPicture, draw_meshes
+from netdesign.addons.evidence.paper.page import draw_meshes
+from netdesign.addons.evidence.paper.study import Shape
 
 
 def texts(svg):
@@ -16,13 +17,9 @@ def texts(svg):
 def picture(density):
     nodes = np.array([[-4.0, 0.0, 0.0, -4.0], [0.0, 0.0, 2.0, 2.0]])
     triangles = np.array([[0, 0], [1, 2], [2, 3]])
-    return MeshPicture(
-        title="one",
-        nodes=nodes,
-        triangles=triangles,
-        density=np.asarray(density),
-        face=nodes[:, 1:3],
-    )
+    density = np.asarray(density)
+    curve = nodes[:, 1:3]
+    return "one", Shape(nodes=nodes, triangles=triangles, density=density, curve=curve)
 
 
 def test_density_scale_spans_the_densities():

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.addons.evidence.paper.runs import (
+from netdesign.addons.evidence.paper.study import (
     PaperSettings,
     find_exchange,
     find_history,
@@ -57,7 +57,7 @@ def test_exchange_stops_at_its_creep_time():
 
 
 def test_a_failure_is_a_result_with_its_reason(monkeypatch):
-    from netdesign.addons.evidence.paper import runs
+    from netdesign.addons.evidence.paper import study as runs
     from netdesign.outcome import Outcome, SolveError
 
     def fail(*_, **__):
@@ -71,8 +71,8 @@ def test_a_failure_is_a_result_with_its_reason(monkeypatch):
 
 
 def test_study_runs_every_case_once(monkeypatch):
-    from netdesign.addons.evidence.paper import runs as module
-    from netdesign.addons.evidence.paper.runs import PaperRun
+    from netdesign.addons.evidence.paper import study as module
+    from netdesign.addons.evidence.paper.study import PaperRun
 
     done = []
     monkeypatch.setattr(

@@ -1,14 +1,24 @@
-"""Runs of the source paper's study: what each is, what it recorded, at what error."""
+"""Runs of the source paper's study: what each is, what it recorded; tables of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 
-from netdesign.addons.evidence.runner import spread
+from netdesign.addons.evidence.measurements import (
+    CHANGES,
+    ERRORS,
+    FORCES,
+    INCLINATIONS,
+    TIMES,
+    Kind,
+    spread,
+    tabulate,
+)
 from netdesign.addons.evidence.scene import build_scene
 from netdesign.addons.history.moments import History
 from netdesign.addons.history.run import scale_history
@@ -25,6 +35,8 @@ from netdesign.coupling.solution import FailedSolution, Method, Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import SolveError
+from netdesign.report.blocks import Table, text_cell
+from netdesign.report.words import ENGLISH
 from netdesign.snow.creep_law import ICE_DENSITY, PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode
@@ -261,14 +273,10 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
         return PaperRun(case=case, failure=solution.reason)
     if not isinstance(solution.history, History):
         return PaperRun(case=case, failure=say("paper.no_history"))
-    track = _track_of(solution.history, solution.net_curve[1, 1:])
-    return PaperRun(
-        case=case,
-        foot=_at_plateau(track, "foot"),
-        head=_at_plateau(track, "head"),
+    return replace(
+        _record(case, solution.history, solution.net_curve[1, 1:]),
         foot_error=solution.foot.error,
         head_error=solution.head.error,
-        track=track,
         shape=_shape_of(solution),
     )
 
@@ -286,42 +294,35 @@ def _run_exchange(case: PaperCase, settings: PaperSettings) -> PaperRun:
     history = scale_history(run, scene)
     body = run.state.body
     heights = body.vertices[1, body.topology.net][1:] * scene.snowpack.thickness
-    track = _track_of(history, heights)
-    return PaperRun(
-        case=case,
-        foot=_at_plateau(track, "foot"),
-        head=_at_plateau(track, "head"),
-        track=track,
-    )
+    return _record(case, history, heights)
 
 
-def _at_plateau(track: Track, end: str) -> float | None:
-    """Pull where the plateau begins; None without one."""
-    if track.plateau is None:
-        return None
-    return float(getattr(track, end)[track.plateau])
+def _record(case: PaperCase, history: History, heights: Floats) -> PaperRun:
+    """Run with its track, and the pulls where its plateau begins."""
+    track, begin = _track_of(history, heights), history.plateau.index
+    if begin is None:
+        return PaperRun(case=case, track=track)
+    foot, head = float(track.foot[begin]), float(track.head[begin])
+    return PaperRun(case=case, foot=foot, head=head, track=track)
 
 
 def _track_of(history: History, heights: Floats) -> Track:
     moments = history.moments
-    lower, upper = (_nearest(heights, share) for share in (LOWER_HEIGHT, UPPER_HEIGHT))
+    wanted = np.outer((LOWER_HEIGHT, UPPER_HEIGHT), heights.max())
+    lower, upper = np.abs(heights - wanted).argmin(axis=1).tolist()
+    foot, head = (
+        np.hypot(*np.array([getattr(moment, end) for moment in moments]).T)
+        for end in ("foot", "head")
+    )
     return Track(
         times=np.array([moment.time for moment in moments]),
-        foot=_sizes([moment.foot for moment in moments]),
-        head=_sizes([moment.head for moment in moments]),
+        foot=foot,
+        head=head,
         lower=np.array([-moment.on_net[:, lower] for moment in moments]).T,
         upper=np.array([-moment.on_net[:, upper] for moment in moments]).T,
         heights=(float(heights[lower]), float(heights[upper])),
         plateau=history.plateau.index,
     )
-
-
-def _nearest(heights: Floats, share: float) -> int:
-    return int(np.abs(heights - share * heights.max()).argmin())
-
-
-def _sizes(vectors: Sequence[Floats]) -> Floats:
-    return np.asarray(np.hypot(*np.array(vectors).T))
 
 
 def _shape_of(solution: Solution) -> Shape:
@@ -351,7 +352,7 @@ def run_study(
     jobs: int = 1,
     on_done: Callable[[PaperRun], object] | None = None,
 ) -> PaperStudy:
-    """Run every case of the study.
+    """Run every case of the study; the same whatever the number of processes.
 
     Parameters
     ----------
@@ -361,14 +362,138 @@ def run_study(
         Processes; 1 stays in this one.
     on_done : callable, optional
         Called with each run as it ends.
-
-    Returns
-    -------
-    PaperStudy
-        The same whatever the number of processes.
     """
     settings = settings or PaperSettings()
     cases = list_cases()
     work = partial(run_case, settings=settings)
     runs = spread(work, cases, jobs=jobs, chunk=1, on_done=on_done)
     return PaperStudy(settings=settings, runs=dict(zip(cases, runs, strict=True)))
+
+
+Columns = tuple[tuple[str, Kind], ...]  # headings, or their keys, and kinds
+_WORDS = Kind(
+    show=lambda key: text_cell(ENGLISH(f"paper_value.{key}")), is_number=False
+)
+_NET = ("θ [°]", INCLINATIONS)
+
+
+def list_tables(study: PaperStudy) -> dict[str, Table]:
+    """Tables of the study by their anchors on the page."""
+    return {
+        "plateau": _tabulate_plateaus(study),
+        "friction": _tabulate_growth(study),
+        "inclination-and-gravity": _tabulate_parameters(study),
+    }
+
+
+def _tabulate_plateaus(study: PaperStudy) -> Table:
+    columns: Columns = (
+        _NET,
+        ("paper_table.method", _WORDS),
+        ("paper_table.foot", FORCES),
+        ("± ", ERRORS),
+        ("paper_table.head", FORCES),
+        ("± ", ERRORS),
+        ("paper_table.foot_against_steady", CHANGES),
+        ("paper_table.largest_foot", FORCES),
+        ("paper_table.plateau_from", TIMES),
+    )
+    rows = []
+    for net in NETS_DEG:
+        straight = find_history(net)
+        ways = {
+            "steady": find_steady(straight),
+            "sagged": replace(straight, start="sagged"),
+            "straight": straight,
+            "staggered": find_exchange(net),
+        }
+        steady = study[find_steady(straight)].foot
+        for way, case in ways.items():
+            run = study[case]
+            has_error = case.method != "staggered" and not run.failure
+            rows.append(
+                (
+                    *(net, f"way_{way}"),
+                    *(run.foot, run.foot_error if has_error else None),
+                    *(run.head, run.head_error if has_error else None),
+                    _change(run.foot, steady),
+                    None if run.track is None else float(run.track.foot.max()),
+                    run.plateau_time,
+                )
+            )
+    return tabulate(ENGLISH("paper_table.plateau"), columns, rows)
+
+
+def _tabulate_growth(study: PaperStudy) -> Table:
+    columns: Columns = (
+        ("paper_table.method", _WORDS),
+        _NET,
+        ("paper_table.force", _WORDS),
+        *((f"{phi:.0f}°", FORCES) for phi in FRICTIONS_DEG),
+        ("paper_table.change", CHANGES),
+    )
+    rows: list[tuple[object, ...]] = []
+    for net in NETS_DEG:
+        histories = [find_history(net, phi) for phi in FRICTIONS_DEG]
+        rows += _grow_histories("transient", net, [study[case] for case in histories])
+        steady = [study[find_steady(case)] for case in histories]
+        for end in ("foot", "head"):
+            values = [getattr(run, end) for run in steady]
+            rows.append(("steady", net, end, *values, _change(values[-1], values[0])))
+    exchanges = [study[find_exchange(NORMAL_NET_DEG, phi)] for phi in FRICTIONS_DEG]
+    rows += _grow_histories("staggered", NORMAL_NET_DEG, exchanges)
+    return tabulate(ENGLISH("paper_table.friction"), columns, rows)
+
+
+def _grow_histories(
+    method: str, inclination: float, runs: Sequence[PaperRun]
+) -> Iterator[tuple[object, ...]]:
+    """At one time for all: when the last of them has come to its plateau, or ended.
+
+    The change of a component of a node's force is told over that whole force.
+    """
+    tracks = [run.track for run in runs if run.track is not None]
+    if len(tracks) < len(runs):
+        return
+    ends = [float(track.times[-1]) for track in tracks]
+    begins = [run.plateau_time or end for run, end in zip(runs, ends, strict=True)]
+    time = min(max(begins), min(ends))
+    for end in ("foot", "head"):
+        values = [track.at(time, end) for track in tracks]
+        yield (method, inclination, end, *values, values[-1] / values[0] - 1.0)
+    for node in ("lower", "upper"):
+        forces = [
+            [float(np.interp(time, track.times, part)) for part in getattr(track, node)]
+            for track in tracks
+        ]
+        whole = math.hypot(*forces[0])
+        for axis, name in enumerate("xy"):
+            values = [abs(force[axis]) for force in forces]
+            change = (values[-1] - values[0]) / whole
+            yield (method, inclination, f"{node}_{name}", *values, change)
+
+
+def _tabulate_parameters(study: PaperStudy) -> Table:
+    columns: Columns = (
+        _NET,
+        ("paper_table.gravity", _WORDS),
+        ("paper_table.history_foot", FORCES),
+        ("paper_table.history_head", FORCES),
+        ("paper_table.steady_foot", FORCES),
+        ("paper_table.steady_head", FORCES),
+    )
+    cases = [find_history(net) for net in (NORMAL_NET_DEG, *INCLINATIONS_DEG)]
+    cases += [replace(find_history(net), gravity="parallel") for net in NETS_DEG]
+    rows = []
+    for case in cases:
+        history, steady = study[case], study[find_steady(case)]
+        ends = (history.foot, history.head, steady.foot, steady.head)
+        rows.append((case.inclination_deg, case.gravity, *ends))
+    return tabulate(ENGLISH("paper_table.parameters"), columns, rows)
+
+
+def _change(value: float | None, reference: float | None) -> float | None:
+    """Share by which a value differs from a reference; None without one of them."""
+    if value is None or reference is None:
+        return None
+    return value / reference - 1.0
