@@ -84,12 +84,11 @@ _BY_MEMBER: Mapping[str, Scopes] = {
 }
 # Sheets and columns of numbers of which no force depends.
 _ASKED_OF: Mapping[str, Scopes] = {
-    "column.Anchors.": _ANCHORS,
-    "column.Tests.": _ANCHORS,
-    "column.Links.": _STRUCTURE,
-    "column.Nets.mesh_strength": _STRUCTURE,
-    "column.Posts.bearing": _STRUCTURE,
-    "column.Posts.compression": _STRUCTURE,
+    "column.anchor_types.": _ANCHORS,
+    "column.tests.": _ANCHORS,
+    "column.links.": _STRUCTURE,
+    "column.net_types.mesh_strength": _STRUCTURE,
+    "column.posts.bearing": _STRUCTURE,
 }
 CLOSE = 0.9  # utilisation from which a passing check gets its limits
 _PLAUSIBLE = "inputs.plausible"  # id of the check of numbers that can hardly be meant

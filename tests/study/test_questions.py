@@ -14,8 +14,8 @@ from tests.small_site import RUN, build_row, build_site
 STANDARD = load_standard("nf-p-95-304-style")
 ASKED = say(
     "plausible.asked",
-    place="Posts!D2",
-    field=say("column.Posts.second_moment"),
+    place="Parts!D2",
+    field=say("column.posts.second_moment"),
     text='"3175"',
     rule=say("plausible.diameter", diameter=12.0),
 )
@@ -35,7 +35,7 @@ def test_the_row_is_not_proven_by_it_alone_and_the_other_one_passes(judged):
     assert [one.id for one in open_checks] == ["inputs.plausible"]
     for language in LANGUAGES:
         told = render(open_checks[0].reason, language)
-        assert "Posts!D2" in told
+        assert "Parts!D2" in told
         assert "3175" in told
         assert render(say("sheet.Declared"), language) in told
 

@@ -3,11 +3,14 @@
 import random
 from dataclasses import replace
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from netdesign.checks import OpenKind
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.site.reader import read_site
 from netdesign.study.scopes import (
     SCOPES,
     Scope,
@@ -17,7 +20,9 @@ from netdesign.study.scopes import (
     sum_up_row,
     sum_up_study,
 )
+from tests.make import write_site
 from tests.report.build_study import build_study
+from tests.study.knowing_less.drawn_tables import draw_tables
 from tests.turn import turn
 
 STUDY = build_study()
@@ -45,6 +50,30 @@ def test_every_check_that_there_is_belongs_to_a_scope():
     assert found["net", "gap"] == {Scope.SITING}
     # whose ends are not known has neither anchors nor structure
     assert found["net", "ends"] == {Scope.ANCHORS, Scope.STRUCTURE}
+
+
+@pytest.mark.parametrize(
+    ("block", "column", "typed", "asked"),
+    [
+        ("anchor_types", "pull_out", 4900.0, {Scope.ANCHORS}),
+        ("posts", "bearing", 4900.0, {Scope.STRUCTURE}),
+        ("net_types", "mesh_strength", 9000.0, {Scope.STRUCTURE}),
+        ("rows", "post_spacing", 9.0, set(SCOPES)),
+    ],
+)
+def test_a_doubted_cell_bears_on_what_its_number_decides(
+    tmp_path, block, column, typed, asked
+):
+    tables = draw_tables(11)
+    tests = ("test_count", "test_mean")  # a number of them would have to fit
+    for k, line in enumerate(tables[block]):
+        kept = {key: value for key, value in line.items() if key not in tests}
+        tables[block][k] = kept | {column: typed}
+    site = read_site(write_site(tmp_path / "site.xlsx", tables))
+    (doubt, *_) = site.rows[0].questions
+    check = replace(name_one("inputs", "plausible"), id="inputs.plausible")
+    check = check.with_open(OpenKind.VALUE_ASKED, doubt)
+    assert find_scopes(check) == asked
 
 
 @given(VERDICTS, VERDICTS, st.sampled_from(SCOPES))
