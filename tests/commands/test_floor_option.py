@@ -8,7 +8,7 @@ import pytest
 from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.make import write_rows
 
-QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-cache", "--quiet")
+QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet")
 OWN = re.compile(r'^load\.floor = "guideline"', re.M)
 
 

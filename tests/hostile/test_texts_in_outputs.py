@@ -10,6 +10,7 @@ import json
 import re
 import zipfile
 from enum import Enum
+from functools import cache
 from html.parser import HTMLParser
 
 import openpyxl
@@ -72,6 +73,7 @@ def attack(value, text, key=""):
     return value
 
 
+@cache
 def spoilt_study(text):
     study = attack(build_study(), text)
     rows = [
@@ -100,12 +102,19 @@ class TagReader(HTMLParser):
         self.attributes |= {name for name, _ in attrs}
 
 
-def test_a_page_holds_tags_of_the_program_alone(text):
+@pytest.fixture(scope="module")
+def plain():
+    """What a page of texts that attack nobody has."""
+    reader = TagReader()
+    reader.feed(render_html(spoilt_study("plain")))
+    return reader
+
+
+def test_a_page_holds_tags_of_the_program_alone(text, plain):
     """The same tags and attributes whatever the texts are; none that acts."""
     page = render_html(spoilt_study(text))
-    reader, plain = TagReader(), TagReader()
+    reader = TagReader()
     reader.feed(page)
-    plain.feed(render_html(spoilt_study("plain")))
     assert reader.tags <= plain.tags
     assert reader.attributes <= plain.attributes
     assert not plain.tags & {"script", "foreignobject", "iframe", "object", "embed"}
@@ -113,27 +122,34 @@ def test_a_page_holds_tags_of_the_program_alone(text):
     assert all(sign.isprintable() or sign in "\n\t\u00a0" for sign in page)
 
 
+@cache
+def make_workbook(text):
+    return render_workbook(spoilt_study(text))
+
+
+@cache
+def list_formulas(text):
+    """Formulas of the workbook by part; it has no link."""
+    with zipfile.ZipFile(io.BytesIO(make_workbook(text))) as archive:
+        parts = {n: archive.read(n).decode() for n in archive.namelist()}
+    assert not any("externalLink" in name for name in parts)
+    assert not any("hyperlink" in parts[n] for n in parts if "/_rels/" in n)
+    shown = {n: xml for n, xml in parts.items() if "/_rels/" not in n}
+    # A cell is compared with the text that it had: between quotes, so text alone.
+    bare = {n: QUOTED.sub('""', xml) for n, xml in shown.items()}
+    return {n: re.findall(r"<(?:c:)?f>(.*?)<", xml) for n, xml in bare.items()}
+
+
 @pytest.mark.long
 def test_a_workbook_holds_formulas_of_the_program_alone(text):
     """The same formulas whatever the texts are, and no link at all."""
-
-    def formulas(study):
-        with zipfile.ZipFile(io.BytesIO(render_workbook(study))) as archive:
-            parts = {n: archive.read(n).decode() for n in archive.namelist()}
-        assert not any("externalLink" in name for name in parts)
-        assert not any("hyperlink" in parts[n] for n in parts if "/_rels/" in n)
-        shown = {n: xml for n, xml in parts.items() if "/_rels/" not in n}
-        # A cell is compared with the text that it had: between quotes, so text alone.
-        bare = {n: QUOTED.sub('""', xml) for n, xml in shown.items()}
-        return {n: re.findall(r"<(?:c:)?f>(.*?)<", xml) for n, xml in bare.items()}
-
-    assert formulas(spoilt_study(text)) == formulas(spoilt_study("plain"))
+    assert list_formulas(text) == list_formulas("plain")
 
 
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.* extension is not supported")  # of openpyxl
 def test_a_workbook_of_hostile_texts_opens(text):
-    content = render_workbook(spoilt_study(text))
+    content = make_workbook(text)
     assert "Decision" in openpyxl.load_workbook(io.BytesIO(content)).sheetnames
 
 

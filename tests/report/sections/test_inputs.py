@@ -37,10 +37,13 @@ SLIP = InputEcho(
 FORMULA = "2.8417 m · (12.5 + (2.713 − 2.6728) / (2.8377 − 2.6728) · (16 − 12.5)), "
 
 
+STUDY = build_study(rows=1)
+
+
 def show_input(echo, words):
     """Cell of an input of a row that has no other."""
-    (row,) = build_study(rows=1).rows
-    study = replace(build_study(rows=1), rows=[replace(row, inputs=[echo])])
+    (row,) = STUDY.rows
+    study = replace(STUDY, rows=[replace(row, inputs=[echo])])
     *_, line = build_inputs(study, words).rows
     assert line[0].text.startswith(words.show(echo.label))
     return line[-1]
