@@ -40,8 +40,6 @@ __all__ = [
     "Standard",
     "Study",
     "SupportLayout",
-    "Wall",
-    "WallSolution",
     "build_ground_from_glide_factor",
     "build_layered_snowpack",
     "check",

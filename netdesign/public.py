@@ -15,10 +15,8 @@ from netdesign.checks import Standard as Standard
 from netdesign.checks import load_standard as load_standard
 from netdesign.coupling.scene import Scene as Scene
 from netdesign.coupling.scene import SolverSettings as SolverSettings
-from netdesign.coupling.scene import Wall as Wall
 from netdesign.coupling.solution import FailedSolution as FailedSolution
 from netdesign.coupling.solution import Solution as Solution
-from netdesign.coupling.solution import WallSolution as WallSolution
 from netdesign.coupling.steady.solve import solve_steady as solve_steady
 from netdesign.envelope.ranges import Interval as Interval
 from netdesign.envelope.ranges import Ranges as Ranges

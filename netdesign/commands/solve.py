@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+    from netdesign.coupling.solution import FailedSolution, Solution
     from netdesign.files.scene import SceneToSolve
     from netdesign.solving.solve import Settings
 
-    Solved = Solution | WallSolution | FailedSolution
+    Solved = Solution | FailedSolution
 
 
 _DOCUMENT, _HISTORY = "solution.json", "history.csv"
@@ -141,12 +141,9 @@ def _show_refusal(solution: Solved, document: dict[str, Any]) -> None:
 
 
 def _show_solution(document: dict[str, Any]) -> None:
-    for end, pull in (document["anchor_forces"] or {}).items():
+    for end, pull in document["anchor_forces"].items():
         tell(_describe_end(end, pull))
-    if document["wall"]:
-        tell(_describe_wall(document["wall"]))
-    else:
-        tell(say("solve.sag", sag=document["sag_m"]))
+    tell(say("solve.sag", sag=document["sag_m"]))
     if document["history"]:
         tell(_describe_plateau(document))
     for line in _describe_support(document.get("support")):
@@ -165,16 +162,6 @@ def _describe_end(end: str, pull: dict[str, float]) -> Message:
         x=pull["x_kN_per_m"],
         y=pull["y_kN_per_m"],
         error=pull["error_kN_per_m"],
-    )
-
-
-def _describe_wall(wall: dict[str, float]) -> Message:
-    return say(
-        "solve.wall",
-        x=wall["force_x_kN_per_m"],
-        y=wall["force_y_kN_per_m"],
-        error=wall["error_kN_per_m"],
-        moment=wall["moment_about_foot_kN"],
     )
 
 

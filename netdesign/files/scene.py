@@ -16,7 +16,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 
 from netdesign import addon_table
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Method
 from netdesign.edge.input_files import explain, explain_shape, list_faults, read_toml
 from netdesign.outcome import ModelError, SceneFileError
@@ -111,7 +111,7 @@ class SceneSupport:
 
 
 def build_support(
-    support: SupportTable | None, panel: PanelTable | None, net_height: float | None
+    support: SupportTable | None, panel: PanelTable | None, net_height: float
 ) -> SceneSupport | None:
     """Support of a scene in SI units; None without one.
 
@@ -119,8 +119,8 @@ def build_support(
     ----------
     support, panel : SupportTable, PanelTable or None
         The two tables.
-    net_height : float or None
-        Normal to the slope [m]; None of a wall.
+    net_height : float
+        Normal to the slope [m].
 
     Raises
     ------
@@ -130,11 +130,9 @@ def build_support(
     if support is None and panel is None:
         return None
     faults = [] if panel is None else _list_faults(panel)
-    if net_height is None:
-        faults.append(say("scene_file.support_of_wall"))
     if support is None:
         faults.append(say("scene_file.panel_without_support"))
-    if support is None or net_height is None or faults:
+    if support is None or faults:
         raise ModelError(say("text.lines", lines=tuple(faults)))
     layout = _build_layout(support, net_height)
     if panel is None:
@@ -254,9 +252,9 @@ class GroundTable(Table):
 
 
 class NetTable(Table):
-    """``[net]``; a rigid wall has no stiffness and slack, and may adhere."""
+    """``[net]``."""
 
-    kind: Literal["cable", "rigid"] = "cable"
+    kind: Literal["cable"] = "cable"
     inclination_deg: Annotated[float, Field(ge=0, lt=90)] = 30.0
     height_m: Positive | None = None
     stiffness_kN_per_m: Positive | None = None
@@ -340,21 +338,20 @@ def read_scene_file(path: Path, method: Method | None = None) -> SceneToSolve:
 def build_scene_of_file(file: SceneFile, method: Method | None = None) -> SceneToSolve:
     """Scene, settings and support in SI units; ``method`` overrules the file's."""
     snowpack = _snowpack(file)
-    creep_law = _creep_law(file.snow)
+    creep_law, net = _creep_law(file.snow), _net(file.net, snowpack.thickness)
     scene = Scene(
         snowpack=snowpack,
         ground=_ground(file.ground, snowpack.thickness, creep_law),
-        net=_net(file.net, snowpack.thickness),
+        net=net,
         creep_law=creep_law,
         fluidity=_fluidity(file.snow),
         ground_contact=file.ground.contact,
         net_contact=file.net.contact,
     )
-    height = scene.net.height_normal if isinstance(scene.net, Net) else None
     return SceneToSolve(
         scene=scene,
         settings=_settings(file.solve, method or file.solve.method, scene),
-        support=build_support(file.support, file.panel, height),
+        support=build_support(file.support, file.panel, net.height_normal),
     )
 
 
@@ -451,26 +448,19 @@ def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> Groun
     return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law.name)
 
 
-def _net(net: NetTable, thickness: float) -> Net | Wall:
+def _net(net: NetTable, thickness: float) -> Net:
     height = net.height_m or thickness
     inclination = math.radians(net.inclination_deg)
-    friction = None if net.friction_deg is None else math.radians(net.friction_deg)
-    if net.kind == "rigid":
-        if net.stiffness_kN_per_m is not None or net.slack is not None:
-            raise ModelError(say("scene_file.wall_has_none"))
-        return Wall(
-            height_normal=height, inclination=inclination, friction_angle=friction
-        )
     if net.stiffness_kN_per_m is None:
         raise ModelError(say("scene_file.cable_stiffness"))
-    if friction is None:
+    if net.friction_deg is None:
         raise ModelError(say("scene_file.cable_friction"))
     return Net(
         height_normal=height,
         inclination=inclination,
         stiffness_per_m=newton_from_kilonewton(net.stiffness_kN_per_m),
         slack=net.slack or 0.0,
-        friction_angle=friction,
+        friction_angle=math.radians(net.friction_deg),
     )
 
 

@@ -13,10 +13,8 @@ from netdesign.coupling.solution import (
     RELEASED,
     Balance,
     Cost,
-    EndPull,
     FailedSolution,
     Solution,
-    WallSolution,
 )
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.creep_law import FLUIDITY_EXPONENT
@@ -33,7 +31,7 @@ SOLUTION_SCHEMA = "netdesign.solution/1"
 
 
 def write_solution_document(
-    solution: Solution | WallSolution | FailedSolution,
+    solution: Solution | FailedSolution,
     settings: Settings,
     wall_s: float,
     bound: Solution | None = None,
@@ -52,17 +50,12 @@ def write_solution_document(
             "reason": render(solution.reason, language),
             **({} if bound is None else {"upper_bound": _write_bound(bound)}),
         }
-    held = (
-        _write_wall(solution)
-        if isinstance(solution, WallSolution)
-        else _write_net(solution)
-    )
     history = getattr(solution, "history", None)
     return {
         "schema": SOLUTION_SCHEMA,
         "outcome": solution.outcome.value,
-        "method": solution.method if isinstance(solution, Solution) else "steady",
-        **held,
+        "method": solution.method,
+        **_write_net(solution),
         **({} if support is None else {"support": support}),
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
@@ -143,25 +136,6 @@ def _write_net(solution: Solution) -> dict[str, Any]:
     }
 
 
-def _write_wall(solution: WallSolution) -> dict[str, Any]:
-    force = solution.force
-    nodes = _write_nodes(
-        solution.wall_nodes, solution.wall_forces, solution.wall_slides
-    )
-    return {
-        "anchor_forces": None,
-        "wall": {
-            "force_x_kN_per_m": kilonewton_from_newton(force.x),
-            "force_y_kN_per_m": kilonewton_from_newton(force.y),
-            "moment_about_foot_kN": kilonewton_from_newton(solution.moment_about_foot),
-            "error_kN_per_m": kilonewton_from_newton(force.error),
-        },
-        "tension_kN_per_m": None,
-        "sag_m": None,
-        "nodes": nodes,
-    }
-
-
 def _write_nodes(curve: Floats, forces: Floats, slides: Mask) -> list[dict[str, Any]]:
     return [
         {
@@ -189,7 +163,7 @@ def _write_balance(balance: Balance) -> dict[str, float]:
     }
 
 
-def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[Message]:
+def _list_flags(solution: Solution, settings: Settings) -> list[Message]:
     """Remarks that a reader must know before using the numbers."""
     law = solution.scene.creep_law
     missed = _find_missed_accuracy(solution, settings)
@@ -197,7 +171,7 @@ def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[M
     flags = [] if history is None else history.list_flags(solution.scene)
     if missed is not None:
         flags.append(missed)
-    if getattr(solution, "is_released", False):
+    if solution.is_released:
         flags.append(RELEASED)
     if not solution.scene.is_calibrated:
         low, high = law.calibrated
@@ -207,16 +181,11 @@ def _list_flags(solution: Solution | WallSolution, settings: Settings) -> list[M
     return flags
 
 
-def _find_missed_accuracy(
-    solution: Solution | WallSolution, settings: Settings
-) -> Message | None:
+def _find_missed_accuracy(solution: Solution, settings: Settings) -> Message | None:
     """Accuracy that was not reached, or control of it that was switched off."""
     if settings.accuracy is None:
         return say("solution.staggered_error")
-    if isinstance(solution, WallSolution):
-        pulls: tuple[EndPull, ...] = (solution.force,)
-    else:
-        pulls = solution.foot, solution.head
+    pulls = solution.foot, solution.head
     error = max((pull.error / pull.size for pull in pulls if pull.size), default=0.0)
     if error <= (1.0 + 1e-9) * settings.accuracy:
         return None

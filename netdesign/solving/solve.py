@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     RELEASED,
     Balance,
@@ -22,7 +22,6 @@ from netdesign.coupling.solution import (
     Method,
     MethodSettings,
     Solution,
-    WallSolution,
 )
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.edge.json_text import list_fields
@@ -36,13 +35,13 @@ Settings = SolverSettings | MethodSettings
 
 def solve_scene(
     scene: Scene, settings: Settings | None = None
-) -> Solution | WallSolution | FailedSolution:
-    """Snow against the scene's net or wall; the settings choose the method.
+) -> Solution | FailedSolution:
+    """Snow against the scene's net; the settings choose the method.
 
     Parameters
     ----------
     scene : Scene
-        Snow, ground and net or wall.
+        Snow, ground and net.
     settings : SolverSettings or MethodSettings, optional
         Of the steady state (default), or of a method that an add-on brings.
     """
@@ -50,11 +49,6 @@ def solve_scene(
     with np.errstate(all="ignore"):
         if settings is not None and not isinstance(settings, SolverSettings):
             return settings.solve(scene)
-        if isinstance(scene.net, Wall):
-            # few runs push a wall: they alone wait for the import
-            from netdesign.coupling.steady.rigid import solve_rigid
-
-            return solve_rigid(scene, settings)
         return solve_steady(scene, settings)
 
 

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import FailedSolution, WallSolution
+from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import (
     SENTENCE,
     Fault,
@@ -119,10 +119,6 @@ def _solve(job: Job) -> CaseEnd:
     solution = solve_scene(job.scene, job.settings)
     if isinstance(solution, FailedSolution):
         return solution
-    if isinstance(solution, WallSolution):
-        return FailedSolution(
-            outcome=Outcome.OUT_OF_VALIDITY, reason=say("worker.wall")
-        )
     history = solution.history
     reason = None if history is None else history.unproven
     if reason is not None:

@@ -26,8 +26,6 @@ def list_scenes(count):
         tables["snow"].pop("layers", None)
         tables["ground"] = {"law": "free"}
         tables["gravity"] = {"mode": "parallel"}
-        if number % 3 == 0:
-            tables["net"] = {"kind": "rigid", "inclination_deg": 0.37 * (number % 9)}
         try:
             found.append(build_tables(tables))
         except ModelError:

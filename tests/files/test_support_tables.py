@@ -101,7 +101,7 @@ def test_given_values_become_si():
         ("post_spacing_m = 3.7", "", "support.post_spacing_m"),
         ("post_spacing_m = 3.7", "post_spacing_m = nan", "support.post_spacing_m"),
         ("[support]\npost_spacing_m = 3.7", "", "needs [support]"),
-        (CABLE, 'kind = "rigid"', "a wall has none"),
+        (CABLE, f'{CABLE}\nkind = "rigid"', "net.kind"),
         ('cut = "upper"', 'cut = "upper"\nend_guy_deg = 81', "panel.end_guy_deg = 81"),
         ('cut = "upper"', 'cut = "upper"\nclips = 3', "panel.clips"),
     ],
