@@ -13,7 +13,6 @@ from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowEnvelope, RowTask
 from netdesign.envelope.run import run_cases
-from netdesign.envelope.search import Cases, FrictionSkip
 from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.study.row_to_check import build_row_task, build_scene
 
@@ -107,14 +106,3 @@ def estimate_hidden(extreme, results):
             before, here, after = three
             hidden += abs(before - 2.0 * here + after) / 8.0
     return hidden
-
-
-def run_grid(task, counts, runner):
-    """Cases of a grid with so many samples of each axis, and how many took no solve."""
-    sizes = [counts[name] for name in task.ranges.axes]
-    points = list(product(*([k / (n - 1) for k in range(n)] for n in sizes)))
-    skip = FrictionSkip(task.ranges.axes)
-    cases = Cases(task, points, skip)
-    while batches := cases.ask():
-        cases.tell(runner.solve_batches(batches))
-    return cases.finish(), skip.skipped

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from pathlib import Path
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
 _USUAL_CASES = 18  # of a search, for each range
+_MOST_GRID_CASES = 100_000
 _DOCUMENT = "envelope.json"
 
 
@@ -50,6 +52,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     \b
     netdesign envelope scene.toml --density 250:450 --friction 15:45
     netdesign envelope scene.toml --inclination 25:35 --json
+    netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene_file
@@ -58,7 +61,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     refuse_jobs(asked["executor"])
     ranging = [one.name or "" for one in _list_options()]
     given = {name: asked[name] for name in ranging if asked[name] is not None}
-    _require_ranges(given)
+    counts = _read_counts(given)
     read = read_scene_file(scene_file, "steady")
     spans = _build_ranges(given)
     require_valid(read.scene, spans)
@@ -66,9 +69,9 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     if read.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
-    with open_phases(_list_phases(len(given)), asked) as (runner, progress):
+    with open_phases(_list_phases(counts, len(given)), asked) as (runner, progress):
         task = _build_task(read.scene, confirm, spans, asked["accuracy"])
-        document = _solve(task, runner, progress, start)
+        document = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
     if out:
@@ -87,8 +90,8 @@ def _list_options() -> list[click.Parameter]:
     return [one for one in command.params if one.type is RANGE]
 
 
-def _require_ranges(given: dict[str, GivenRange]) -> None:
-    """Refuse what makes no envelope."""
+def _read_counts(given: dict[str, GivenRange]) -> dict[str, int]:
+    """Samples of a grid's ranges, none of a search; refuses what makes no envelope."""
     if not given:
         flags = tuple(one.opts[0] for one in _list_options())
         raise UsageRefusal(say("usage.no_range", flags=flags))
@@ -96,17 +99,28 @@ def _require_ranges(given: dict[str, GivenRange]) -> None:
         raise UsageRefusal(
             say("usage.many_ranges", count=len(given), most=_MOST_RANGES)
         )
+    counts = {name: one.count for name, one in given.items() if one.count is not None}
+    if counts and len(counts) < len(given):
+        raise UsageRefusal(say("usage.mixed_ranges"))
+    cases = math.prod(counts.values())
+    if cases > _MOST_GRID_CASES:
+        raise UsageRefusal(say("usage.large_grid", cases=cases, most=_MOST_GRID_CASES))
+    return counts
 
 
-def _list_phases(ranging: int) -> list[Phase]:
+def _list_phases(counts: dict[str, int], ranging: int) -> list[Phase]:
     """Phases with about so many cases; confirmations are part of a search."""
     from netdesign.edge.progress import Phase
 
-    cases = _USUAL_CASES * ranging
-    return [
-        Phase(key="envelope", words=say("phase.search"), cases=cases),
-        Phase(key="outputs", words=say("phase.outputs"), cases=0),
+    number = math.prod(counts.values()) if counts else _USUAL_CASES * ranging
+    phases = [
+        Phase(
+            key="envelope",
+            words=say("phase.grid" if counts else "phase.search"),
+            cases=number,
+        )
     ]
+    return [*phases, Phase(key="outputs", words=say("phase.outputs"), cases=0)]
 
 
 def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
@@ -143,12 +157,20 @@ def _build_task(scene: Scene, confirm: str, ranges: Ranges, accuracy: float) -> 
 
 
 def _solve(
-    task: RowTask, runner: Runner, progress: RunProgress, start: float
+    task: RowTask,
+    counts: dict[str, int],
+    runner: Runner,
+    progress: RunProgress,
+    start: float,
 ) -> dict[str, Any]:
-    """Document of a bounded search."""
-    from netdesign.envelope.search import search_rows
-    from netdesign.files.cases import write_envelope_document
+    """Document of a grid with these counts; without any, of a bounded search."""
+    from netdesign.envelope.search import run_grid, search_rows
+    from netdesign.files.cases import write_envelope_document, write_grid_document
 
+    if counts:
+        results, skipped = run_grid(task, counts, runner)
+        elapsed = time.perf_counter() - start
+        return write_grid_document(results, skipped, runner.counts, elapsed, speak())
     (found,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, speak())
@@ -177,7 +199,10 @@ def _show(document: dict[str, Any]) -> None:
 
 def _describe_extreme(one: dict[str, Any], words: Words) -> Message:
     case = ", ".join(words.name_values(one["case"].items()))
-    limit = say("envelope.nowhere_above", bound=one["upper_bound"], high=one["high"])
+    bound = one["upper_bound"]
+    limit = say("envelope.no_bound")
+    if bound is not None:
+        limit = say("envelope.nowhere_above", bound=bound, high=one["high"])
     return say("envelope.at_case", max=one["max"], limit=limit, case=case)
 
 

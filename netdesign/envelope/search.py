@@ -10,9 +10,9 @@ coarsest meshes, then again near a largest force. Theory: envelope/THEORY.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, product
 
 from netdesign.edge.progress import Wave
 from netdesign.envelope.result_reader import ResultReader, bound_lifted
@@ -415,3 +415,16 @@ def _describe_wave(asked: _Asked) -> Wave:
         cases_waiting=sum(len(batch) for _, batches in asked for batch in batches),
         gap=max((search.gap for search, _ in asked), default=0.0),
     )
+
+
+def run_grid(
+    task: RowTask, counts: Mapping[str, int], runner: Runner
+) -> tuple[list[CaseResult], int]:
+    """Cases of a grid with so many samples of each axis, and how many took no solve."""
+    sizes = [counts[name] for name in task.ranges.axes]
+    points = list(product(*([k / (n - 1) for k in range(n)] for n in sizes)))
+    skip = FrictionSkip(task.ranges.axes)
+    cases = Cases(task, points, skip)
+    while batches := cases.ask():
+        cases.tell(runner.solve_batches(batches))
+    return cases.finish(), skip.skipped

@@ -13,7 +13,7 @@ from typing import Any
 from netdesign import __version__
 from netdesign.core.library import name_core
 from netdesign.coupling.solution import Solution
-from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
@@ -92,6 +92,54 @@ def write_envelope_document(
     }
 
 
+def write_grid_document(
+    results: Sequence[CaseResult],
+    skipped: int,
+    counts: Counts,
+    wall_s: float,
+    language: Language = "en",
+) -> dict[str, Any]:
+    """Document of a grid of cases, which has no upper bound.
+
+    Parameters
+    ----------
+    results : sequence of CaseResult
+        All cases.
+    skipped : int
+        How many of them took no solve.
+    counts : Counts
+        Of the run.
+    wall_s : float
+        Time that the cases took [s].
+    language : str
+        Of the reason.
+    """
+    reason = describe_gap(results)
+    extremes = find_extremes(results)
+    return {
+        "schema": SCHEMA,
+        "outcome": "not_proven" if reason else "sampled",
+        "reason": render(reason or "", language),
+        "ranges": {
+            key: [min(values), max(values)]
+            for key, values in _list_values(results).items()
+        },
+        "extremes": [
+            {
+                "quantity": QUANTITY_KEYS[member],
+                "max": kilonewton_from_newton(extreme.force.value),
+                "upper_bound": None,  # a grid says nothing between its cases
+                "low": kilonewton_from_newton(extreme.force.low),
+                "high": kilonewton_from_newton(extreme.force.high),
+                "case": show_case(extreme.governing.case.values),
+                "coincident": _list_coincident(extreme),
+            }
+            for member, extreme in extremes.items()
+        ],
+        **_describe_run(results, skipped, counts, wall_s),
+    }
+
+
 def _describe_run(
     results: Sequence[CaseResult], skipped: int, counts: Counts, wall_s: float
 ) -> dict[str, Any]:
@@ -133,6 +181,11 @@ def _write_bound(
 def _list_coincident(extreme: Extreme) -> dict[str, float]:
     coincident = show_coincident(extreme, tuple(QUANTITY_KEYS))
     return {QUANTITY_KEYS[other]: force for other, force in coincident.items()}
+
+
+def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
+    cases = [show_case(result.case.values) for result in results]
+    return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 
 def _write_addition(envelope: RowEnvelope, addition: Addition) -> dict[str, Any]:

@@ -85,6 +85,25 @@ def test_a_second_run_solves_nothing_and_says_the_same(scene, tmp_path):
     assert without_run(second) == without_run(first)
 
 
+def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
+    found = document(
+        scene, "--density", "250:450:3", "--friction", "15:45:2", store=store
+    )
+    assert found["outcome"] == "sampled"
+    assert found["cases"]["asked"] == 6
+    assert all(one["upper_bound"] is None for one in found["extremes"])
+
+
+@pytest.mark.long
+def test_a_grid_never_exceeds_the_bound_of_the_search(scene, store):
+    searched = document(scene, *RANGES, store=store)
+    grid = document(
+        scene, "--density", "250:450:4", "--friction", "15:45:4", store=store
+    )
+    for one, other in zip(searched["extremes"], grid["extremes"], strict=True):
+        assert other["max"] <= one["high"]
+
+
 def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path):
     arguments = ("envelope", scene, *RANGES, "--out", tmp_path / "o", "--quiet")
     assert run(*arguments, store=store).code == 0
@@ -102,7 +121,12 @@ def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path)
         (("--density", "300:300"), 2, "'300:300' is empty"),
         (("--density", "250-450"), 2, "accepted is low:high"),
         ((), 2, "no range is given: accepted are --density"),
-        (("--density", "250:450:3"), 2, "accepted is low:high"),
+        (("--density", "250:450:3", "--friction", "15:45"), 2, "give n in all of them"),
+        (
+            ("--density", "250:450:401", "--friction", "15:45:250"),
+            2,
+            "100250 cases: at most 100000 in a grid",
+        ),
         (("--density", "250:950"), 3, "snow density = 950.0: must lie from 10 to 908"),
         (("--friction", "15:80"), 3, "friction"),
         (

@@ -12,12 +12,11 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.result_reader import read_signed, read_signed_errors
 from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.envelope.search import search_rows
+from netdesign.envelope.search import run_grid, search_rows
 from netdesign.panel.inputs import list_panels
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
-from tests.grid import run_grid
 from tests.solving.small_scene import COARSE, PANEL, build_scene
 
 SPACING = PANEL.post_spacing

@@ -19,7 +19,7 @@ from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, refine_settings
 from netdesign.envelope.run import build_task, run_cases
-from netdesign.envelope.search import search_rows
+from netdesign.envelope.search import run_grid, search_rows
 from netdesign.outcome import Outcome
 from netdesign.panel.solve import FailedPanel
 from netdesign.search.maxima import SearchSettings
@@ -31,7 +31,6 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.words.message import say
-from tests.grid import run_grid
 from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
 
 TASK = RowTask(

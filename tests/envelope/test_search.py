@@ -12,7 +12,7 @@ from netdesign.envelope import rows
 from netdesign.envelope.ranges import PARAMETERS, Case, Interval, Ranges
 from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
-from netdesign.envelope.search import RowSearch, search_rows
+from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.outcome import ModelError, Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
@@ -20,7 +20,6 @@ from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
-from tests.grid import run_grid
 from tests.solving.made_up_workers import Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 

@@ -295,8 +295,9 @@ def test_a_refusal_of_one_scene_stays_a_refusal(call, scene, monkeypatch):
     assert ended.err == "error: no such net\n"
 
 
-def test_a_fault_in_an_envelope_leaves_a_valid_document(call, scene, spoil):
-    ranges = ("--density", "250:400", "--accuracy", "0.1")
+@pytest.mark.parametrize("samples", ["", ":3"], ids=["search", "grid"])
+def test_a_fault_in_an_envelope_leaves_a_valid_document(call, scene, spoil, samples):
+    ranges = ("--density", f"250:400{samples}", "--accuracy", "0.1")
     options = ("--json", "--no-cache", "--quiet", "--jobs", "1")
     calls = spoil()
     assert call("envelope", scene, *ranges, *options).code == 0

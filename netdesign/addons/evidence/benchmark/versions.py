@@ -64,10 +64,11 @@ class Size:
 
     repeats: int = 5
     scenes: tuple[str, ...] = NAMES
+    samples: int = 10
     rows: int = 20
 
 
-QUICK = Size(repeats=1, scenes=("paper-0", "paper-30"), rows=1)
+QUICK = Size(repeats=1, scenes=("paper-0", "paper-30"), samples=3, rows=1)
 
 
 class Figure(NamedTuple):
@@ -90,8 +91,9 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
     scenes = [
         ["solve", str(NAMED / f"{scene}.toml"), "--json"] for scene in size.scenes
     ]
-    first = [_search("short", "1", density="300:310")]
+    first = [_search("short", "1", density="300:310:2")]
     spans = {"density": "250:450", "friction": "15:45", "inclination": "25:35"}
+    grid = {name: f"{span}:{size.samples}" for name, span in spans.items()}
     check = ["check", "--jobs", _PROCESSES, "--quiet", "--force", "--out"]
     site, length, resistance = (
         Figure([[*check, str(folder / "out"), str(folder / listed)]], [], _CHECKED)
@@ -113,6 +115,7 @@ def list_figures(size: Size, folder: Path) -> dict[str, Figure]:
         "solve": Figure(scenes[:1]),
         "scenes": Figure(scenes, scenes),
         "row": Figure([_search("row", "1", **spans)], first, (0, 4)),
+        "grid": Figure([_search("row", _PROCESSES, **grid)], first, (0, 4)),
         "site": site,
         "again": site,
         "length": length,
