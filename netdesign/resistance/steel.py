@@ -58,11 +58,6 @@ class RoundSection:
         return math.pi / 32.0 * fourth / self.outer
 
     @property
-    def second_moment(self) -> float:
-        """I [m4]."""
-        return 0.5 * self.outer * self.modulus
-
-    @property
     def axial_resistance(self) -> float:
         """N_Rk = A f, eq. (R3) [N]."""
         return self.area * self.strength
@@ -178,10 +173,10 @@ END_MOMENT = math.exp(-0.25 * math.pi) * math.sin(0.25 * math.pi)
 HEAD_GRADE = 235e6  # of a tube at the head of an anchor [Pa]
 
 
-def find_ground_lever(
-    section: RoundSection, *, ground: str, modulus: float | None
-) -> float:
+def find_ground_lever(section: RoundSection, ground: str) -> float:
     """Lever that the ground's yielding at the mouth adds, e_0; (R9a), (R9b).
+
+    A solid bar yields over ``IN_SOIL`` or ``IN_ROCK`` of its diameter.
 
     Parameters
     ----------
@@ -189,32 +184,19 @@ def find_ground_lever(
         Of the bar or tube that bends.
     ground : str
         Kind of the ground, as in sheet Anchors; "" where it is not known: soil.
-    modulus : float or None
-        E_s, measured: force for each length and deflection of the bar [Pa]. None where
-        it was not measured: then that with which a solid bar yields over ``IN_SOIL`` or
-        ``IN_ROCK`` of its diameter.
 
     Returns
     -------
     float
         [m].
 
-    Raises
-    ------
-    ModelError
-        If the modulus is out of its range.
-
     Verified by
     -----------
     tests/verification/test_members_by_hand.py
     """
-    if modulus is None:
-        hollow = section.inner / section.outer
-        most = IN_ROCK if ground in ROCK else IN_SOIL
-        return most * section.outer * math.sqrt(math.sqrt(1.0 - hollow**4))
-    require_within("modulus of the ground", modulus, 1e5, 1e11, "Pa")
-    stiffness = 1e6 * load_catalogue()["buckling"]["E_MPa"] * section.second_moment
-    return float(END_MOMENT * (4.0 * stiffness / modulus) ** 0.25)
+    hollow = section.inner / section.outer
+    most = IN_ROCK if ground in ROCK else IN_SOIL
+    return most * section.outer * math.sqrt(math.sqrt(1.0 - hollow**4))
 
 
 def find_least_tube(ground_lever: float) -> float:

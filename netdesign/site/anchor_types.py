@@ -52,13 +52,13 @@ def read_anchors(
 def _read_anchor(line: Row, ground: str = "") -> AnchorType:
     """What an anchor is, in the ground of its type, else of its row."""
     has_tube = line["tube_diameter"].state == "given"
-    section = _build_section(line)
+    section, word = _build_section(line), line["ground"].word or ground
     return AnchorType(
         kind=line["kind"].word,
         section=section,
         lever=_find_lever(line, section),
         is_lever_assumed=line["lever_arm"].state != "given",
-        ground_lever=_yield_at_mouth(section, line, ground) if section else 0.0,
+        ground_lever=find_ground_lever(section, word) if section else 0.0,
         has_tube=has_tube,
         across=line["head_across"].given_si,
         drilled=line["drilled_length"].given_si,
@@ -78,12 +78,6 @@ def _read_soil(line: Row) -> Soil | None:
         weight=weight,
         is_drained=line["soil_water"].word == "drained",
     )
-
-
-def _yield_at_mouth(section: RoundSection, line: Row, ground: str) -> float:
-    """Lever that the ground at the mouth of a bore adds, (R9a) and (R9b) [m]."""
-    word = line["ground"].word or ground
-    return find_ground_lever(section, ground=word, modulus=None)
 
 
 def _build_section(line: Row) -> RoundSection | None:

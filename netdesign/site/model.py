@@ -86,8 +86,7 @@ class NetRow:
     resistances: tuple[Resistance, ...] = field(hash=False)
     inputs: tuple[InputEcho, ...] = field(default=(), hash=False)
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
-    length: float | None = None  # from the first post to the last [m]
-    post_count: int | None = None  # None where neither number nor length is given
+    post_count: int | None = None
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     ground_type: str = ""  # where its anchors stand; "" where nobody says it
@@ -157,6 +156,12 @@ class NetRow:
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""
         return next(one for one in self.net_parts if one.member == part)
+
+    @property
+    def length(self) -> float | None:
+        """From the first post to the last [m]; None where their number is not given."""
+        count = self.post_count
+        return None if count is None else (count - 1.0) * self.layout.post_spacing
 
     @property
     def has_end(self) -> bool:

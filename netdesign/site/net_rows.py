@@ -252,7 +252,6 @@ def _compose_net_row(
         end_resistances=find_resistances(at_end, types) if is_other else None,
         end_anchors=read_anchor_types(at_end, types) if is_other else None,
         inputs=inputs,
-        length=_find_length(row),
         post_count=row["post_count"].given_count,
         gap=math.inf if gap is None else gap,
         altitude=row["altitude"].given_si,
@@ -268,12 +267,6 @@ def _compose_net_row(
         row_end=build_row_end(at_end, end, types) if has_end else None,
         net_parts=find_net_parts(row, types),
     )
-
-
-def _find_length(row: Row) -> float | None:
-    """Length of the row by its posts [m]."""
-    count = row["post_count"].given_count
-    return None if count is None else (count - 1.0) * row["post_spacing"].si
 
 
 def _understand_thickness(

@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.outcome import Outcome, require_within
+from netdesign.outcome import require_within
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
@@ -24,7 +24,6 @@ from netdesign.structure.head import (
     list_directions,
 )
 from netdesign.structure.layout import Point, SupportPoints
-from netdesign.words.message import say
 
 LEAST_SPLAY, MOST_SPLAY = math.radians(5.0), math.radians(60.0)
 _FLATTEST = 1e-3  # of an end guy to the row; its anchor then lies far away [rad]
@@ -97,27 +96,6 @@ class Guys:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SplayedHead:
-    """Forces at a head held by two splayed guys on each side of the post.
-
-    Attributes
-    ----------
-    post_compression, post_tension : float
-        Of which one is 0 [N].
-    uphill_guy_tension, downhill_guy_tension : float
-        Of the more loaded guy of each side [N].
-    is_one_sided : bool
-        One guy of each side is slack, the two on the loaded side share the load.
-    """
-
-    post_compression: float
-    post_tension: float
-    uphill_guy_tension: float
-    downhill_guy_tension: float
-    is_one_sided: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class SplayWeights:
     """Geometry of a head, as the bounds (S17) and (S18) need it.
 
@@ -143,55 +121,6 @@ class SplayWeights:
         return max(0.5, 1.0 - self.uphill)
 
 
-def compute_splayed_head(
-    pull: Point, points: SupportPoints, *, sideways: float, splay: float
-) -> SplayedHead | FailedSupport:
-    """Find the forces of post and guys under a pull and a load along the row.
-
-    Parameters
-    ----------
-    pull : tuple of float, shape (2,)
-        Force of the net on the head in the section, (x, y) [N].
-    points : SupportPoints
-        Head, post base and anchors, in the section [m].
-    sideways : float
-        S, load on the head along the row [N].
-    splay : float
-        beta, between a guy and the plane of the section [rad].
-
-    Returns
-    -------
-    SplayedHead or FailedSupport
-        Forces at least 0 [N], or why ropes and post cannot hold the head.
-
-    Raises
-    ------
-    ModelError
-        If the splay is out of its range.
-
-    Verified by
-    -----------
-    tests/structure/test_splay.py
-    """
-    require_within("splay", splay, LEAST_SPLAY, MOST_SPLAY, "rad")
-    flat = compute_head_forces(pull, points)
-    if isinstance(flat, FailedSupport):
-        return flat
-    held = sideways / math.tan(splay)
-    tension = flat.uphill_guy_tension + flat.downhill_guy_tension  # one is 0
-    if tension >= held:
-        larger = 0.5 * (tension + held) / math.cos(splay)
-        is_uphill = flat.uphill_guy_tension > 0.0
-        return SplayedHead(
-            post_compression=flat.post_compression,
-            post_tension=flat.post_tension,
-            uphill_guy_tension=larger if is_uphill else 0.0,
-            downhill_guy_tension=0.0 if is_uphill else larger,
-            is_one_sided=False,
-        )
-    return _share_on_loaded_side(pull, points, held, splay)
-
-
 def is_held_sideways(
     pulls: Floats,
     places: Sequence[SupportPoints],
@@ -200,7 +129,9 @@ def is_held_sideways(
     share: float,
     splay: float,
 ) -> bool:
-    """Whether `compute_splayed_head` holds all of some heads, and `weigh_splay` each.
+    """Whether post and guys hold all of some heads, and `weigh_splay` each.
+
+    Theory: structure/THEORY.md, eqs. (S15) and (S16).
 
     Parameters
     ----------
@@ -381,38 +312,6 @@ def _list_ropes(
         end = math.dist((*points.head, 0.0), guy.find_anchor(points))
         lengths.append([*long, end])
     return np.array(ways), np.array(lengths)
-
-
-def _share_on_loaded_side(
-    pull: Point, points: SupportPoints, held: float, splay: float
-) -> SplayedHead | FailedSupport:
-    """Eq. (S16): one guy uphill, one downhill and the post, all in force."""
-    post, uphill, downhill = list_directions(points)
-    above, below = cross(uphill, post), cross(downhill, post)
-    if not above * below < 0.0:
-        return _fail()
-    in_uphill = (-cross(pull, post) - held * below) / (above - below)
-    in_downhill = held - in_uphill
-    compression = (
-        _dot(pull, post)
-        + in_uphill * _dot(uphill, post)
-        + in_downhill * _dot(downhill, post)
-    )
-    if min(in_uphill, in_downhill) < 0.0:
-        return _fail()
-    return SplayedHead(
-        post_compression=max(compression, 0.0),
-        post_tension=max(-compression, 0.0),
-        uphill_guy_tension=in_uphill / math.cos(splay),
-        downhill_guy_tension=in_downhill / math.cos(splay),
-        is_one_sided=True,
-    )
-
-
-def _fail() -> FailedSupport:
-    return FailedSupport(
-        outcome=Outcome.NO_EQUILIBRIUM, reason=say("support.not_held_sideways")
-    )
 
 
 def _dot(a: Point, b: Point) -> float:

@@ -17,14 +17,17 @@ from netdesign.envelope.ranges import Interval
 from netdesign.envelope.row_pulls import HeadPulls, find_least_tension
 from netdesign.guideline.floor import HeadSpan
 from netdesign.site.model import NetRow
-from netdesign.structure.head import FailedSupport, HeadForces
-from netdesign.structure.layout import Point, SupportPoints, place_support
+from netdesign.structure.head import (
+    FailedSupport,
+    HeadForces,
+    compute_head_forces,
+)
+from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import (
     EndGuy,
     EndHead,
-    compute_splayed_head,
     hold_end_guy,
     is_held_sideways,
     share_with_end_guy,
@@ -68,9 +71,9 @@ def find_held_sideways(
     states = (heads.pulls, places, heads.places)
     if not is_held_sideways(*states, share=value.value, splay=splay):
         pairs = zip(heads.pulls.T.tolist(), heads.places.tolist(), strict=True)
-        failed = (_fail((x, y), places[k], value.value, splay) for (x, y), k in pairs)
-        reason = next((message for message in failed if message is not None), None)
-        return reason or say("support.not_held_sideways")
+        held = (compute_head_forces((x, y), places[k]) for (x, y), k in pairs)
+        reasons = (head.reason for head in held if isinstance(head, FailedSupport))
+        return next(reasons, say("support.not_held_sideways"))
     return _record(task, heads, floor, (value.value, splay))
 
 
@@ -118,17 +121,6 @@ def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
         "downhill_part": max(float(weight.largest_downhill) for weight in weights),
         "post_part": max(float(weight.post) for weight in weights),
     }
-
-
-def _fail(
-    pull: Point, points: SupportPoints, share: float, splay: float
-) -> Message | None:
-    """Reason why the load along the row is not held under a pull on the head."""
-    sideways = share * math.hypot(*pull)
-    held = compute_splayed_head(pull, points, sideways=sideways, splay=splay)
-    if isinstance(held, FailedSupport):
-        return held.reason
-    return None if weigh_splay(points) else say("support.not_held_sideways")
 
 
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import pytest
 
-from netdesign.outcome import ModelError
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,
@@ -64,16 +63,15 @@ def test_along_the_axis_a_bar_has_its_tendon():
     [
         ("free", 1e-4, 0.3, -1),
         ("angle", 0.02, 1.2, -1),
-        ("modulus", 1e6, 2e10, 1),
         ("outer", 0.02, 0.09, 1),
     ],
 )
 def test_a_bar_bears_less_in_softer_ground_and_farther_out(key, low, high, sense):
     """Monotone, and without a jump."""
 
-    def bear(outer=0.04, angle=0.2, free=0.02, modulus=20e6):
+    def bear(outer=0.04, angle=0.2, free=0.02):
         bar = RoundSection(outer=outer, strength=5e8)
-        lever = free + find_ground_lever(bar, ground="till", modulus=modulus)
+        lever = free + find_ground_lever(bar, "till")
         return compute_bent_bar_resistance(bar, angle=angle, lever=lever).value
 
     values = [low * (high / low) ** (n / 900) for n in range(901)]
@@ -81,13 +79,6 @@ def test_a_bar_bears_less_in_softer_ground_and_farther_out(key, low, high, sense
     steps = [sense * (two - one) for one, two in pairwise(found)]
     assert min(steps) >= 0.0
     assert max(steps) < 0.02 * max(found)
-
-
-@pytest.mark.parametrize("modulus", [0.0, 9e4, 2e11, math.nan])
-def test_ground_that_is_none_is_named(modulus):
-    bar = RoundSection(outer=0.03, strength=5e8)
-    with pytest.raises(ModelError, match="modulus of the ground"):
-        find_ground_lever(bar, ground="till", modulus=modulus)
 
 
 @pytest.mark.parametrize("moment", [0.0, 3.3e3, 17.9e3, 29.0e3])

@@ -2,13 +2,16 @@
 
 import math
 import random
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.outcome import ModelError, Outcome
 from netdesign.structure.head import FailedSupport, compute_head_forces
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.splay import compute_splayed_head, weigh_splay
+from netdesign.structure.splay import Guys, is_held_sideways, weigh_splay
+from tests.structure.splayed_head import compute_splayed_head
 
 POINTS = SupportPoints(
     net_foot=(0.0, 0.0),
@@ -84,15 +87,15 @@ def test_post_that_does_not_stand_between_its_guys_is_not_held():
     found = compute_splayed_head((14.0, -97.0), beside, sideways=30.0, splay=BETA)
     assert isinstance(found, FailedSupport)
     assert found.outcome is Outcome.NO_EQUILIBRIUM
-    assert "tension of ropes" in str(found.reason)
+    assert not is_held_sideways(
+        np.array([[14.0], [-97.0]]), [beside], np.array([0]), share=0.3, splay=BETA
+    )
 
 
 @pytest.mark.parametrize("degrees", [0.0, 4.9, 60.1, math.nan])
 def test_splay_out_of_range_is_refused(degrees):
     with pytest.raises(ModelError, match="splay"):
-        compute_splayed_head(
-            (1.0, -9.0), POINTS, sideways=1.0, splay=math.radians(degrees)
-        )
+        Guys(count=2, splay=math.radians(degrees))
 
 
 def test_bounds_of_checks_hold_for_drawn_pulls():
@@ -139,3 +142,26 @@ def test_bounds_of_checks_hold_for_drawn_pulls():
             near[member] = max(near[member], exact[member] / bound)
     assert one_sided > 500
     assert all(ratio > 0.999 for ratio in near.values()), near  # none is idle
+
+
+def test_heads_are_held_where_each_of_them_is():
+    draw, told = random.Random(7), []
+    for _ in range(900):
+        base = draw.uniform(0.3, 1.9)
+        points = replace(
+            POINTS,
+            post_base=(base, 0.0),
+            downhill_anchor=(base + draw.uniform(-1.0, 6.0), 0.0),
+        )
+        splay, share = draw.uniform(0.1, 1.0), draw.uniform(0.02, 0.6)
+        pull = (draw.uniform(-70.0, 70.0), draw.uniform(-120.0, 20.0))
+        sideways = share * math.hypot(*pull)
+        found = compute_splayed_head(pull, points, sideways=sideways, splay=splay)
+        is_held = not isinstance(found, FailedSupport) and weigh_splay(points)
+        states = np.array([pull, (31.0, -97.0)]).T  # one that is held beside it
+        answer = is_held_sideways(
+            states, [points, POINTS], np.array([0, 1]), share=share, splay=splay
+        )
+        assert answer is bool(is_held)
+        told.append(answer)
+    assert 100 < sum(told) < 800

@@ -262,8 +262,8 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
 UNSEEN = {
     (0, name)
     for name in ("notes", "findings", "range_inputs", "project_cells", "map_file",
-                 "map_sha256", "winter", "what_if", "monitoring", "declared",
-                 "text_format")
+                 "map_sha256", "library_file", "library_sha256", "winter", "what_if",
+                 "monitoring", "declared", "text_format")
 }  # fmt: skip
 
 

@@ -17,7 +17,8 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.members import Member
-from netdesign.structure.splay import compute_splayed_head, weigh_splay
+from netdesign.structure.splay import weigh_splay
+from tests.structure.splayed_head import compute_splayed_head
 
 # Guys of 4 and 3 m to both sides: 5 m long, u = (-0.8, -0.6), d = (0.8, -0.6).
 TRIANGLES = SupportPoints(

@@ -10,7 +10,8 @@ from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import calculate_force
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.splay import compute_splayed_head, weigh_splay
+from netdesign.structure.splay import weigh_splay
+from tests.structure.splayed_head import compute_splayed_head
 
 
 def pull_both(flat, points, sideways, splay):
