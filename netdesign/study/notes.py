@@ -303,15 +303,7 @@ def list_one_anchor_notes(checks: Sequence[Check]) -> list[Message]:
     )
     if foot is None or along is None:
         return []
-    return [
-        say(
-            "row.one_anchor",
-            foot=foot,
-            along=along,
-            both=math.hypot(foot, along),
-            turned=math.degrees(math.atan2(along, foot)),
-        )
-    ]
+    return [say("row.one_anchor", both=math.hypot(foot, along))]
 
 
 def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:

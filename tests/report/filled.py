@@ -3,7 +3,7 @@
 from netdesign.report.blocks import Figure, Figures, Heading, Items, Paragraph, Part
 from netdesign.report.sections.basis import anchor_rows
 
-ROW = ("checks", "worked")
+ROW = ("checks",)
 ANNEXES = ("checks", "quality", "cases", "profile", "verify")
 
 
@@ -12,7 +12,7 @@ def list_sections(study, *, has_annexes=False):
     anchors = dict.fromkeys(anchor_rows(study).values())
     of_rows = [f"{anchor}-{name}" for anchor in anchors for name in ROW]
     annexes = [f"annex-{name}" for name in ANNEXES] if has_annexes else []
-    return ["decision", "schedule", "basis", *of_rows, *annexes]
+    return ["decision", "schedule", "basis", *of_rows, "worked", *annexes]
 
 
 def list_filled(blocks):

@@ -62,6 +62,6 @@ def test_page_prints_on_a4(browser, tmp_path, count):
     content = target.read_bytes()
     assert content.startswith(b"%PDF")
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
-    assert len(boxes) >= 4
+    assert len(boxes) >= 3  # decision, schedule, rows
     for box in boxes:
         assert [float(side) for side in box] == pytest.approx(MINIMUM_PT, abs=1.5)

@@ -20,6 +20,7 @@ from netdesign.report.blocks import (
 
 _W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 NAMESPACE = f'xmlns:w="{_W}"'
+KEEP = "<w:keepNext/>"  # a paragraph on one page with the next
 POINT = 20  # twentieths of a point, in which widths are counted
 SMALLEST_PT = 7.5
 _CELL_PT = 7.5
@@ -32,7 +33,8 @@ _CAPITAL = 0.35  # more than the width of another sign
 _WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
 _PART = "xxxxx"  # of a word of a heading that may stand alone
 # Looks that are bold in a document.
-_SMALL_PIECES = (SMALL, "beside")
+_BESIDE = "beside"
+_SMALL_PIECES = (SMALL, _BESIDE)
 _BOLD = ("strong", "name", "ratio", "figure", "hidden")
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
@@ -70,7 +72,10 @@ def list_runs(text: Text, *, has_symbols: bool = False) -> Runs:
         elif isinstance(piece, Piece):
             is_small = piece.look == SMALL
             begins = is_small and runs and not runs[-1].text.endswith("\n")
-            runs.append(replace(piece, text=f"\n{piece.text}") if begins else piece)
+            text = f"\n{piece.text}" if begins else piece.text
+            if piece.look == _BESIDE and runs:  # a number's second one
+                text = re.sub("^ ", "\u00a0", text)
+            runs.append(replace(piece, text=text))
     return tuple(runs)
 
 
@@ -108,7 +113,9 @@ def write_paragraph(runs: str, style: str, look: str = "") -> str:
     return f"<w:p><w:pPr>{named}{look}</w:pPr>{runs}</w:p>"
 
 
-def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
+def write_table(
+    grid: Grid, styles: tuple[str, str], width_pt: float, *, keeps: bool = False
+) -> str:
     """Table over the whole width; its headings are repeated on each page.
 
     Parameters
@@ -119,6 +126,8 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         Ids of the style of tables and of that of the paragraphs in a cell.
     width_pt : float
         Between the margins of the page [pt].
+    keeps : bool
+        On one page, with what follows.
     """
     least, wanted = _measure_columns(grid)
     is_tight = sum(least) > width_pt
@@ -128,9 +137,9 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
             grid = _loosen(grid)
             least, wanted = _measure_tight(grid)
     widths = [round(POINT * w) for w in share_width(least, wanted, width_pt)]
-    head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight)]
+    head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight, True)]
     lines = [
-        _write_line(line, grid, widths, styles[1], False, is_tight)
+        _write_line(line, grid, widths, styles[1], False, is_tight, keeps)
         for line in grid.lines
     ]
     columns = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
@@ -155,6 +164,7 @@ def _write_line(
     style: str,
     is_head: bool,
     is_tight: bool,
+    keeps: bool,
 ) -> str:
     spans = len(cells) == 1 < len(widths)
     taken = [sum(widths)] if spans else widths
@@ -163,7 +173,7 @@ def _write_line(
     inside = ""
     for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False):
         runs = write_runs(cell, is_bold=is_head, is_small=is_small)
-        look = "<w:keepNext/>" if is_head else ""
+        look = KEEP if keeps else ""
         look += '<w:jc w:val="right"/>' if is_number and not spans else ""
         inside += (
             f'<w:tc><w:tcPr><w:tcW w:w="{width}" w:type="dxa"/>{spanned}</w:tcPr>'

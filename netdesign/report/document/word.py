@@ -32,6 +32,7 @@ from netdesign.report.blocks import (
 )
 from netdesign.report.document import styles
 from netdesign.report.document.markup import (
+    KEEP,
     POINT,
     Grid,
     Runs,
@@ -114,6 +115,7 @@ def _add_svg(document: Document, svg: str, number: int) -> str:
 
 
 _SHEET = "sheet"  # look of a part that begins a page
+_KEPT = ("row",)  # looks of parts that stand on one page if they can
 _HIGHEST = 0.8  # of a page that a drawing may take
 _BETWEEN = 6.0  # drawings in one line [pt]
 _VERDICTS = tuple(signs.symbol for signs in VERDICTS.values())
@@ -134,6 +136,7 @@ class Writer:
     headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
     begins_page: bool = False  # the next heading
+    keeps: bool = False  # what is written now stays with what follows
 
     @property
     def width_pt(self) -> float:
@@ -176,7 +179,9 @@ class Writer:
             return
         self.begins_page = self.begins_page or _SHEET in block.look.split()
         for one in block.blocks:
+            self.keeps = block.look in _KEPT or self.keeps
             self._write_block(one)
+        self.keeps = False
 
     def _write_items(self, block: Items) -> None:
         for number, item in enumerate(block.items, 1):
@@ -208,7 +213,8 @@ class Writer:
         is_small = True if block.look in _SMALL_LOOKS else None
         runs = write_runs(list_runs(block.text), is_small=is_small)
         style = _STYLES.get(block.look, styles.TEXT)
-        self._add(write_paragraph(runs, self._ids[style]))
+        look = KEEP if self.keeps and block.look == "meta" else ""
+        self._add(write_paragraph(runs, self._ids[style], look))
 
     def _write_table(self, table: Table) -> None:
         if table.look == "ranges" and table.rows:  # short lines would fill the page
@@ -237,11 +243,12 @@ class Writer:
             most = (share * width, _HIGHEST * self.height_pt)
             runs += write_picture(self.document, one.svg, self.pictures, most)
         captions = [one.caption for one in block.figures if one.caption]
-        look = "<w:keepNext/>" if captions else ""
+        look = KEEP if captions else ""
         self._add(write_paragraph(runs, self._ids[styles.TEXT], look))
         texts = tuple(x for one in captions for x in (*list_runs(one), Piece(" ")))
         if texts:
-            self._add_paragraph(texts, styles.SMALL)
+            look = KEEP if self.keeps else ""
+            self._add(write_paragraph(write_runs(texts), self._ids[styles.SMALL], look))
 
     def _add(self, markup: str) -> None:
         """Put a paragraph or table at the end of the text."""
@@ -257,7 +264,7 @@ class Writer:
         if is_table or any(one.text for one in caption):
             self._add_paragraph(caption or (Piece("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
-        self._add(write_table(grid, both, self.width_pt))
+        self._add(write_table(grid, both, self.width_pt, keeps=self.keeps))
 
 
 def _list_pairs(block: Pairs) -> Grid:

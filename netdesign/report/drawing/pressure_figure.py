@@ -20,7 +20,7 @@ from netdesign.report.drawing.plain_svg import (
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.case_records import GuidelineCase, GuidelineRecord
 
-_WIDTH, _HEIGHT = 160.0, 152.0
+_WIDTH, _HEIGHT = 160.0, 132.0
 _LEFT, _TOP, _BELOW = 22.0, 16.0, 46.0
 _SAMPLE = 16.0  # of a line in the legend
 _DASH = "4 2.4"

@@ -13,7 +13,7 @@ from netdesign.report.words import Words
 from netdesign.study.case_records import Drawing
 
 PAPER = 336.0  # width of the drawing [pt]
-_TALLEST = 186.0
+_TALLEST = 168.0
 _SIDE, _ABOVE, _BELOW = 8.0, 6.0, 24.0  # room for labels and scales [pt]
 _LABELS = 62.0  # left of the ground, beside the bores [pt]
 # Symbols are measured in heights of the net's head.

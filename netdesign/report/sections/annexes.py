@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Iterator
 
 from netdesign.checks.check import CasePoint
@@ -25,6 +26,7 @@ from netdesign.report.blocks import (
 )
 from netdesign.report.sections import basis, worked
 from netdesign.report.sections.basis import label_rows, name_profile
+from netdesign.report.what_if import name_study
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -80,17 +82,21 @@ def _name_symbol(symbol: str, unit: str, words: Words) -> str:
     return name if unit == "-" else f"{name} [{show_unit(unit)}]"
 
 
-def _write_command(words: Words) -> str:
-    """Command that makes the document again, in its language."""
-    language = "" if words.language == "en" else f" --language {words.language}"
-    return f"netdesign report study.json{language}"
+_BUILT_IN = "example.xlsx"  # which `verify` has, too
+
+
+def name_verification(study: Study) -> str:
+    """Command that solves every case of a report again and compares it."""
+    site = study.provenance.site_file
+    named = f" --site {shlex.quote(site)}" if site and site != _BUILT_IN else ""
+    return show_text(f"netdesign verify --study {name_study(study)}{named}")
 
 
 def build_provenance(study: Study, words: Words) -> Table:
     """All that is needed to repeat the study."""
     made = study.provenance
     pairs = {
-        "command_again": _write_command(words),
+        "verify_report": name_verification(study),
         "results_hash": hash_results(study),
         "program": f"netdesign {made.version}",
         "started": made.started,

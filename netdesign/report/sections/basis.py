@@ -186,7 +186,6 @@ def show_basis(study: Study, words: Words) -> Part:
             pairs=(
                 *_list_scope(study, words),
                 *_list_documents(study, words),
-                *_list_approvals(study, words),
                 *_list_profile(study, words),
             ),
             look="keys",
@@ -212,11 +211,9 @@ def _list_scope(study: Study, words: Words) -> Iterator[Pair]:
 def _list_profile(study: Study, words: Words) -> Iterator[Pair]:
     """The limit profile in some lines, and the least load."""
     profile = study.profile
-    assumed, count = count_assumed(study)
     told = {
         "limit_profile": name_profile(study, words),
         "profile_choice": _name_choice(profile, words),
-        "unconfirmed": words("show.assumed_counted", assumed=assumed, count=count),
         "floor": describe_floor(study, words),
         "odd_values": words.join(list_odd_values(profile, words)),
     }
@@ -243,18 +240,6 @@ def _list_documents(study: Study, words: Words) -> Iterator[Pair]:
     if lacking:
         asked = words("documents.to_confirm", what=words.join(lacking))
         yield Pair(name=words("documents.lacking"), text=asked)
-
-
-def _list_approvals(study: Study, words: Words) -> Iterator[Pair]:
-    """Values of rows beside the limits of their approvals."""
-    found: dict[str, list[str]] = {}
-    for row in study.rows:
-        for check in row.checks:
-            if check.mode == "approval" and check.finding is not None:
-                found.setdefault(words.show(check.finding), []).append(row.id)
-    if found:
-        told = label_rows(found, study, words)
-        yield Pair(name=words("documents.approvals"), text=symbols("\n".join(told)))
 
 
 def _name_choice(profile: ProfileRecord, words: Words) -> str:
@@ -318,9 +303,14 @@ def list_notes(study: Study, words: Words) -> list[str]:
 _BESIDE = (
     *("row.model_code", "row.model_code_above", "row.loaded_net", "row.guys_in_snow"),
     *("row.shared_sum", "row.base_friction"),
+    *("row.end_stiffness", "panel.assumed"),  # among the assumed ranges of page 1
 )
 # The schedule has the dip of every bore, and marks what is flat or weak.
 _IN_SCHEDULE = ("row.borehole_flat", "row.drilled_along_pull", "row.weak_tendon")
+
+
+# Notes of which the largest number is said for all rows.
+_LARGEST = {"row.one_anchor": "both"}
 
 
 def is_of_row(note: Message) -> bool:
@@ -328,11 +318,22 @@ def is_of_row(note: Message) -> bool:
     return note.key not in (*_IN_SCHEDULE, *_BESIDE)
 
 
+def list_row_notes(row: RowStudy, study: Study, words: Words) -> Iterator[str]:
+    """Notes of a row; one with a number has that of the worst row of the study."""
+    for note in row.notes:
+        if note.key in _LARGEST:
+            key, name = note.key, _LARGEST[note.key]
+            same = (x for each in study.rows for x in each.notes if x.key == key)
+            yield words.show(max(same, key=lambda x: float(str(x.arguments[name]))))
+        elif is_of_row(note):
+            yield words.show(note)
+
+
 def share_notes(study: Study, words: Words) -> dict[str, list[str]]:
     """Notes that several rows have, word by word, with the rows: told once."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        notes = (words.show(one) for one in row.notes if is_of_row(one))
+        notes = list_row_notes(row, study, words)
         for note in dict.fromkeys(notes):
             rows.setdefault(note, []).append(show_text(row.id))
     return {note: ids for note, ids in rows.items() if len(ids) > 1}

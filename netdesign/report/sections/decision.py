@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator
 
 from netdesign.checks.check import Check
-from netdesign.outcome import SEVERITY
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.blocks import (
     HIDDEN,
     SMALL,
@@ -45,7 +44,7 @@ from netdesign.report.sections.checks import (
 )
 from netdesign.report.sections.rated import (
     ANCHORS,
-    find_deciding,
+    find_shown,
     find_structure,
     list_anchor,
     rate,
@@ -53,7 +52,7 @@ from netdesign.report.sections.rated import (
     show_need,
 )
 from netdesign.report.sections.scopes import list_exceeding
-from netdesign.report.what_if import build_what_if, mark_verdict, name_kind, name_study
+from netdesign.report.what_if import build_what_if, mark_verdict, name_kind
 from netdesign.report.words import Words, show_text
 from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study, find_input
@@ -61,6 +60,7 @@ from netdesign.study.scopes import Scope
 from netdesign.study.to_do import WHO, list_to_do
 from netdesign.words.names import name, name_check
 
+_NO_BREAK = "\u00a0"
 _SHOWN = (0.95, 0.54)  # utilisations of the legend
 
 
@@ -203,13 +203,15 @@ def _describe_row(row: RowStudy, words: Words) -> str:
         texts.append(f"{words.show_given(slope)}°")
     if height is not None:
         texts.append(f"D_K {words.show_fixed(height, 1)} m")
-    return " · ".join(texts)
+    return " · ".join(texts).replace(" ", _NO_BREAK)
 
 
 def _tell_governing(row: RowStudy, words: Words) -> Content:
     """Governing check; below it E_d against R_d, or what is needed."""
-    check = find_deciding(row)
-    if check is None or check.verdict is not row.verdict:
+    check = find_shown(row)
+    if check is None or (
+        check.verdict is not row.verdict and row.verdict is not Verdict.DECLARED
+    ):
         return (Piece(describe_briefly(row, words)),)
     text = _compare(check, words)
     named = words.show(name_check(check.member, check.mode))
@@ -307,19 +309,8 @@ def _sign(study: Study, words: Words) -> Part:
         look="sign",
     )
     tied = words("show.signed_study", digest=compute_digest(study))
-    command: Content = (Piece(f"{tied} "), Piece(name_verification(study), "code"))
     return Part(
         kind="div",
         look="sign-off",
-        blocks=(table, Paragraph(text=command, look="small")),
+        blocks=(table, Paragraph(text=tied, look="small")),
     )
-
-
-_BUILT_IN = "example.xlsx"  # which `verify` has, too
-
-
-def name_verification(study: Study) -> str:
-    """Command that solves every case of a report again and compares it."""
-    site = study.provenance.site_file
-    named = f" --site {shlex.quote(site)}" if site and site != _BUILT_IN else ""
-    return show_text(f"netdesign verify --study {name_study(study)}{named}")

@@ -137,12 +137,17 @@ def find_shown(row: RowStudy) -> Check | None:
 
 
 def find_worked(row: RowStudy) -> Check | None:
-    """Check of a force that is worked out: the deciding one, else the most used."""
+    """Check of a force that is worked out: the deciding one, else the most used.
+
+    What a document proves comes last: of such a row the anchors have the word.
+    """
     deciding = find_deciding(row)
     is_whole = deciding is not None and deciding.is_of_force
     if is_whole and row.verdict is not Verdict.DECLARED:
         return deciding
-    return find_highest([check for check in row.checks if check.is_of_force])
+    forces = [check for check in row.checks if check.is_of_force]
+    own = [force for force in forces if force.verdict is not Verdict.DECLARED]
+    return find_highest(own or forces)
 
 
 def find_needed(check: Check) -> float | None:

@@ -1,4 +1,4 @@
-"""Page of a net row: sketch, loads, governing checks, one worked out, conditions."""
+"""Net row in a report: sketch, loads, governing checks, what would turn one, notes."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from netdesign.report.blocks import (
     force_cell,
     key_columns,
     section,
+    strong,
     symbols,
     text_cell,
 )
@@ -34,11 +35,9 @@ from netdesign.report.drawing.pressure_figure import (
 )
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.sections.bars import show_answer
-from netdesign.report.sections.basis import is_of_row
 from netdesign.report.sections.checks import (
     describe_cause,
     list_flips,
-    name_case,
     name_few,
 )
 from netdesign.report.sections.rated import (
@@ -53,7 +52,6 @@ from netdesign.report.sections.rated import (
     list_part,
     rate,
 )
-from netdesign.report.sections.worked import work_out
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -75,7 +73,7 @@ _DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 
 @dataclass(frozen=True, slots=True)
 class RowPage:
-    """Builds the page of one row, notes and conditions ``told`` elsewhere left out.
+    """Builds the part of one row, with the notes that no other row has.
 
     ``anchor`` is its place in the page, ``ids`` are the names of all rows like it.
     """
@@ -84,14 +82,13 @@ class RowPage:
     ids: Sequence[str]
     anchor: str
     words: Words
-    told: frozenset[str]
+    notes: tuple[str, ...]
 
     def build(self) -> Part:
-        """All of the page."""
+        """All of the part."""
         t = self.words
         ids = ", ".join(map(show_text, self.ids))
         name = name_row(ids, t, count=len(self.ids))
-        shown = find_worked(self.row)
         says = self._tell(find_deciding(self.row))
         title: Content = (Piece(name, "name"), Piece(f" {says}", "says"))
         head = Part(
@@ -101,22 +98,22 @@ class RowPage:
                 Paragraph(text=symbols(self._list_facts()), look="meta"),
             ),
         )
-        sides = tuple(self._show_sides(shown))
         return Part(
             kind="article",
             id=self.anchor,
-            look="sheet row",
+            look="row",
             blocks=(
                 head,
                 *self._show_figures(),
-                self._section("checks", t("row_page.checks"), *self._show_checks()),
-                self._section("worked", *self._show_worked(shown)),
-                Part(kind="div", look="two", blocks=sides),
+                section(
+                    f"{self.anchor}-checks",
+                    t("row_page.checks", row=ids),
+                    *self._show_checks(),
+                    level=3,
+                ),
+                *self._show_beside(),
             ),
         )
-
-    def _section(self, name: str, heading: str, *blocks: Block) -> Part:
-        return section(f"{self.anchor}-{name}", heading, *blocks, level=3)
 
     def _tell(self, shown: Check | None) -> str:
         """``passes, 0.95: Net anchor (foot), pull-out``."""
@@ -124,10 +121,11 @@ class RowPage:
         text = t(f"row_page.{self.row.verdict}")
         if shown is None:
             return text
-        used = t.show_number("utilisation", shown.used)
         if shown.used is None and shown.declared:
-            used = show_text(shown.declared.document)
-        elif shown.used is None:
+            document = show_text(shown.declared.document)
+            return t("row_page.by_document", document=document)
+        used = t.show_number("utilisation", shown.used)
+        if shown.used is None:
             used = t.show_with_unit("demand_kN", shown.demand_kN)
         named = t.show(name_check(shown.member, shown.mode))
         if used == MISSING:
@@ -232,7 +230,8 @@ class RowPage:
         others = [check for check in row.checks if check.id not in told]
         if whole is not None and whole.declared:  # what it proves is information
             others = [other for other in others if not is_of_structure(other)]
-        yield from self._show_others(others)
+        within = [x for x in others if x.mode == "approval" and x.finding is not None]
+        yield from self._show_others(others, within)
         if not row.checks:
             reasons = tuple(t.show(one) for one in row.reasons)
             yield Items(items=reasons or (t("heading.no_check"),), look="reasons")
@@ -269,8 +268,13 @@ class RowPage:
             symbols="headings",
         )
 
-    def _show_others(self, checks: Sequence[Check]) -> Iterator[Block]:
-        """Checks that are not shown: those that are met by number, others at length."""
+    def _show_others(
+        self, checks: Sequence[Check], within: Sequence[Check]
+    ) -> Iterator[Block]:
+        """Checks that are not shown: those that are met by number, others at length.
+
+        Of an approval that is kept its limits stand beside the values of the row.
+        """
         t = self.words
         others: dict[tuple[Verdict, str], list[Check]] = {}
         for check in checks:
@@ -285,13 +289,17 @@ class RowPage:
                 text = self._name_used(shared)
             texts.append((Badge(show_verdict(verdict, t), "sign"), Piece(text)))
         rest = len(others) - len(texts)
+        met = [check for check in checks if check.verdict is Verdict.PASS]
+        for check in within:
+            if check in met:
+                limits = symbols(t.show(check.finding))
+                texts.append((Badge(show_verdict(check.verdict, t), "sign"), *limits))
         if rest > 0:
             texts.append((Piece(t("row_page.more", count=rest)),))
-        met = sum(check.verdict is Verdict.PASS for check in checks)
         if texts:
             yield Items(items=tuple(texts), look="reasons")
         if met:
-            yield Paragraph(text=t("row_page.met", count=met), look="small")
+            yield Paragraph(text=t("row_page.met", count=len(met)), look="small")
 
     def _name_used(self, checks: Sequence[Check]) -> str:
         """Checks that say no more than their utilisations, with these."""
@@ -305,36 +313,20 @@ class RowPage:
             texts + ([t("to_do.more_checks", count=rest)] if rest > 0 else [])
         )
 
-    def _show_worked(self, shown: Check | None) -> tuple[str, Block]:
-        t = self.words
-        if shown is None:
-            none = Paragraph(text=t("heading.no_utilisation"), look="none")
-            return t("heading.worked_check"), none
-        heading = t.join((show_check(t, shown), name_case(shown, t)))
-        return heading, work_out(shown, t)
-
-    def _show_sides(self, shown: Check | None) -> Iterator[Part]:
-        """What the governing check passes with, and what the row asks of the site."""
-        t = self.words
-        flips = list_flips(shown, t) if shown else ()
-        passes = self.row.verdict in (Verdict.PASS, Verdict.DECLARED)
-        heading = t("row_page.passes_while" if passes else "row_page.would_pass")
-        lists = {heading: flips, t("row_page.conditions"): tuple(self._list_notes())}
-        for title, items in lists.items():
-            empty = "row_page.no_value" if title == heading else "show.none"
-            none = Paragraph(text=t(empty), look="none")
-            blocks = Items(items=tuple(map(symbols, items))) if items else none
-            yield Part(kind="div", blocks=(Heading(text=title, level=3), blocks))
-
-    def _list_notes(self) -> Iterator[str]:
-        """Conditions with a number of the row's own, and its notes, each once."""
+    def _show_beside(self) -> Iterator[Block]:
+        """What the governing check passes with, and notes on this row alone."""
         t, row = self.words, self.row
-        own = [t.show(condition.message) for condition in row.conditions]
-        if own := [text for text in own if text not in self.told]:
-            yield t.join(own)
-        for text in dict.fromkeys(t.show(x) for x in row.notes if is_of_row(x)):
-            if text not in self.told:
-                yield text
+        check = find_worked(row)
+        flips = list_flips(check, t) if check else ()
+        passes = row.verdict in (Verdict.PASS, Verdict.DECLARED)
+        lines: list[Content] = []
+        if check and flips:
+            key = "row_page.passes_while" if passes else "row_page.would_pass"
+            label = t(key, check=show_check(t, check))
+            lines.append((*strong(f"{label} "), *symbols(t.join(flips))))
+        lines += map(symbols, self.notes)
+        if lines:
+            yield Items(items=tuple(lines), look="reasons")
 
 
 def _says_all(check: Check) -> bool:

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from netdesign.report.blocks import Block
-from netdesign.report.sections import annexes, basis, decision, schedule
+from netdesign.report.sections import annexes, basis, decision, schedule, worked
 from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.row import RowPage
 from netdesign.report.what_if import title_pages
@@ -22,7 +22,7 @@ def build_report(
     has_annexes: bool = False,
     is_verified: bool = False,
 ) -> tuple[Block, ...]:
-    """Blocks of a report: decision, schedule, a page for each row, what it rests on.
+    """Blocks of a report: decision, schedule, basis, rows, worked checks.
 
     Parameters
     ----------
@@ -41,19 +41,22 @@ def build_report(
         schedule.show_schedule(study, words),
         basis.show_basis(study, words),
         *_list_rows(study, words),
+        worked.show_governing(study, words),
         *further,
         *(part for one in list_additions(study) for part in one.show(study, words)),
     )
 
 
 def _list_rows(study: Study, words: Words) -> Iterator[Block]:
-    conditions = (words.show(condition.message) for condition in study.conditions)
-    told = frozenset((*basis.share_notes(study, words), *conditions))
+    shared = basis.share_notes(study, words)
     anchors = basis.anchor_rows(study)
     rows = {anchors[row.id]: row for row in reversed(study.rows)}
     for anchor in dict.fromkeys(anchors.values()):
+        row = rows[anchor]
         ids = [name for name, one in anchors.items() if one == anchor]
-        yield RowPage(rows[anchor], ids, anchor, words, told).build()
+        notes = dict.fromkeys(basis.list_row_notes(row, study, words))
+        own = tuple(note for note in notes if note not in shared)
+        yield RowPage(row, ids, anchor, words, own).build()
 
 
 def list_properties(study: Study, words: Words) -> dict[str, Any]:

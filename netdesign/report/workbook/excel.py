@@ -19,13 +19,14 @@ from netdesign.report.blocks import (
     Items,
     Pair,
     Pairs,
+    Paragraph,
     Table,
 )
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
-    is_of_row,
     list_limits,
+    list_row_notes,
     name_cases,
     share_notes,
     show_basis,
@@ -34,7 +35,6 @@ from netdesign.report.sections.basis import (
 from netdesign.report.sections.decision import (
     build_matrix,
     list_to_confirm,
-    name_verification,
 )
 from netdesign.report.sections.schedule import show_schedule
 from netdesign.report.sections.scopes import describe_study_scopes
@@ -126,13 +126,9 @@ def _link_rows(book: Book, sheet: Any, study: Study) -> None:
 
 
 def _list_signing(study: Study, words: Words) -> Iterator[Block]:
-    """How the report is verified, and room for signatures."""
+    """Room for signatures, and what ties them to the study."""
     project = study.project
-    pairs = (
-        (words("heading.verify_report"), name_verification(study)),
-        (words("heading.study_hash"), compute_digest(study)),
-    )
-    yield Pairs(pairs=tuple(Pair(name=name, text=text) for name, text in pairs))
+    yield Paragraph(text=words("show.signed_study", digest=compute_digest(study)))
     people = (
         ("heading.prepared", project.author),
         ("heading.checked", project.checker),
@@ -211,7 +207,7 @@ def _add_notes(book: Book, study: Study) -> None:
     notes += [
         words("show.label", label=show_text(row.id), text=text)
         for row in study.rows
-        for text in map(words.show, filter(is_of_row, row.notes))
+        for text in list_row_notes(row, study, words)
         if text not in shared
     ]
     sentences = tuple(dict.fromkeys((*notes, name_cases(study, words))))

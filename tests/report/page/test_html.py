@@ -90,14 +90,14 @@ def test_annexes_are_left_out_unless_they_are_asked_for(page):
 
 
 @each("language", LANGUAGES)
-def test_the_first_page_says_how_the_report_is_verified(language):
+def test_the_first_page_names_the_study_and_the_last_annex_how_it_is_verified(language):
     study, words = build_study(), Words(language)
     page = html.render_html(study, language, has_annexes=True)
     shown = " ".join(PageReader(take_first_page(page)).text)
-    assert "netdesign verify --study study.json --site combe.xlsx" in shown
     assert compute_digest(study) in shown
     whole = " ".join(PageReader(page).text)
     assert words("heading.verify_explained") in whole
+    assert "netdesign verify --study study.json --site combe.xlsx" in whole
 
 
 def test_the_digest_shown_is_that_of_the_document_written():

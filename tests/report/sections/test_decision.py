@@ -9,7 +9,8 @@ import pytest
 
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.page.html import render_html
-from netdesign.report.sections.decision import name_verification, show_decision
+from netdesign.report.sections.annexes import name_verification
+from netdesign.report.sections.decision import show_decision
 from netdesign.report.words import ENGLISH, VERDICTS, Words
 from netdesign.study.scopes import Scope
 from netdesign.words.catalogue import LANGUAGES
