@@ -9,6 +9,7 @@ lacks.
 import copy
 import math
 import random
+import re
 from dataclasses import replace
 
 import pytest
