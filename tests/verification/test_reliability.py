@@ -14,7 +14,6 @@ from scipy.stats import norm
 
 from netdesign.addons.reliability.reliability import (
     LARGEST_ERROR,
-    NotAvailable,
     estimate_betas,
     find_design_points,
     find_reliability,
@@ -26,6 +25,7 @@ from netdesign.addons.reliability.variables import (
 )
 from netdesign.checks import load_standard
 from netdesign.guideline.load_model import read_load_model
+from netdesign.outcome import ModelError
 from tests.each import each
 
 REPEATS = 200
@@ -311,19 +311,19 @@ def test_two_design_points_are_both_sampled():
 
 
 def test_no_number_where_the_origin_has_no_slope():
-    found = find([normal("x", 0.0, 1.0)], lambda x: 9.61 - x**2)
-    assert isinstance(found, NotAvailable)
+    with pytest.raises(ModelError):
+        find([normal("x", 0.0, 1.0)], lambda x: 9.61 - x**2)
 
 
 def test_starts_that_disagree_give_no_number():
-    found = find(
-        [normal("x", 0.0, 1.0), normal("y", 0.0, 1.0)],
-        lambda x, y: np.minimum(3.1 - x - 0.01 * y, 3.7 - y - 0.01 * x),
-    )
-    assert isinstance(found, NotAvailable)
-    assert found.reason.key == "reliability.disagree"
+    with pytest.raises(ModelError) as refusal:
+        find(
+            [normal("x", 0.0, 1.0), normal("y", 0.0, 1.0)],
+            lambda x, y: np.minimum(3.1 - x - 0.01 * y, 3.7 - y - 0.01 * x),
+        )
+    assert refusal.value.message.key == "reliability.disagree"
 
 
 def test_no_number_where_the_margin_is_none():
-    found = find([normal("x", 0.0, 1.0)], lambda x: np.where(x > 1.3, np.nan, 2.9 - x))
-    assert isinstance(found, NotAvailable)
+    with pytest.raises(ModelError):
+        find([normal("x", 0.0, 1.0)], lambda x: np.where(x > 1.3, np.nan, 2.9 - x))

@@ -14,6 +14,7 @@ from netdesign.addons.history.body import Settling, SnowBody, build_body
 from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.settings import Start
 from netdesign.cable.net import Net
+from netdesign.cable.sag import find_slack
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.net import guess_pressure, locate_nodes
 from netdesign.coupling.steady.solve import find_net_equilibrium
@@ -276,19 +277,11 @@ def _find_sag(problem: TransientProblem, pressure: float) -> float:
         if pressure > 0.0:
             tension = pressure * chord * np.hypot(1.0 / (8.0 * sag), 0.25)
             strain = tension / problem.stiffness
-        if _parabola_length(sag) < (1.0 + slack) * (1.0 + strain):
+        if 1.0 + find_slack(sag) < (1.0 + slack) * (1.0 + strain):
             low = sag
         else:
             high = sag
     return low
-
-
-def _parabola_length(sag: float) -> float:
-    """Length over the chord."""
-    slope = 4.0 * sag
-    if slope < 1e-4:
-        return 1.0 + slope**2 / 6.0
-    return float((np.hypot(1.0, slope) + np.arcsinh(slope) / slope) / 2.0)
 
 
 def _parabola(head: Floats, sag: float, fractions: Floats) -> Floats:

@@ -13,7 +13,8 @@ import numpy as np
 
 from netdesign.addons.reliability.variables import LimitState
 from netdesign.numerics.arrays import Floats
-from netdesign.words.message import Message, say
+from netdesign.outcome import ModelError
+from netdesign.words.message import say
 
 AGREEMENT = 0.05  # of the indices that several starts end with
 _START = 3.0  # distance of a start from the origin
@@ -23,13 +24,6 @@ _APART = 0.5  # distance from which two design points are two
 _HALVINGS = 8
 _MEMORY = 1  # steps back with whose merit a whole step is compared, too
 _ON_IT = 1e-3  # margin below which a place counts as on the limit state
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NotAvailable:
-    """Reliability that is not available, with the reason."""
-
-    reason: Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,24 +48,27 @@ class DesignPoint:
         return shares
 
 
-def find_design_points(state: LimitState) -> tuple[DesignPoint, ...] | NotAvailable:
+def find_design_points(state: LimitState) -> list[DesignPoint]:
     """Different design points, the nearest first; from several starts.
 
-    Not available where a start does not converge, or where two disagree.
+    Raises
+    ------
+    ModelError
+        If a start does not converge, or two disagree.
     """
     (at_origin,), (slope,) = state.differentiate(np.zeros((1, len(state.variables))))
     if not (np.isfinite(at_origin) and np.isfinite(slope).all() and slope.any()):
-        return NotAvailable(reason=say("reliability.no_margin"))
+        raise ModelError(say("reliability.no_margin"))
     sign = 1.0 if at_origin >= 0.0 else -1.0
     ends = _descend(state, np.array(list(_list_starts(slope, sign))), sign)
     points = [end for end in ends if end is not None]
     if len(points) < len(ends):
-        return NotAvailable(reason=say("reliability.not_converged"))
+        raise ModelError(say("reliability.not_converged"))
     points.sort(key=lambda end: abs(end.beta))
     low, high = points[0].beta, points[-1].beta
     if abs(high - low) > AGREEMENT:
-        return NotAvailable(reason=say("reliability.disagree", low=low, high=high))
-    return tuple(_take_different(points))
+        raise ModelError(say("reliability.disagree", low=low, high=high))
+    return _take_different(points)
 
 
 def _list_starts(slope: Floats, sign: float) -> Iterator[Floats]:
@@ -87,16 +84,19 @@ def _list_starts(slope: Floats, sign: float) -> Iterator[Floats]:
             yield start
 
 
-def follow_design_point(
-    state: LimitState, before: DesignPoint | None
-) -> DesignPoint | None:
+def follow_design_point(state: LimitState, before: DesignPoint | None) -> DesignPoint:
     """One design point, from that of a state that differs little, or from the origin.
 
-    None where it does not converge.
+    Raises
+    ------
+    ModelError
+        If it does not converge.
     """
     start = np.zeros(len(state.variables)) if before is None else before.place
     sign = 1.0 if state.evaluate(np.zeros((1, len(start))))[0] >= 0.0 else -1.0
     (following,) = _descend(state, start[None], sign)
+    if following is None:
+        raise ModelError(say("reliability.not_converged"))
     return following
 
 
@@ -336,10 +336,8 @@ class Reliability:
     samples: int
 
 
-def find_reliability(
-    state: LimitState, shift: float | None = None
-) -> Reliability | NotAvailable:
-    """Reliability of a limit state, or the reason why there is none.
+def find_reliability(state: LimitState, shift: float | None = None) -> Reliability:
+    """Reliability of a limit state.
 
     Parameters
     ----------
@@ -349,13 +347,16 @@ def find_reliability(
         By which the margins differ from those of another state, whose index is asked
         for too.
 
+    Raises
+    ------
+    ModelError
+        With the reason why there is none.
+
     Verified by
     -----------
     tests/verification/test_reliability.py
     """
     points = find_design_points(state)
-    if isinstance(points, NotAvailable):
-        return points
     nearest, shifts = points[0], [0.0]
     centres = np.array([point.place for point in points])
     if shift is not None:
@@ -364,7 +365,7 @@ def find_reliability(
             centres, shifts = np.vstack([centres, beside]), [0.0, shift]
     estimate, *others = estimate_betas(state, centres, shifts)
     if not estimate.is_sound:
-        return NotAvailable(reason=say("reliability.not_sampled"))
+        raise ModelError(say("reliability.not_sampled"))
     (values,) = state.place(nearest.place[None])
     return Reliability(
         beta=estimate.beta,

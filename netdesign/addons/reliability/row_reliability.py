@@ -16,7 +16,6 @@ import numpy as np
 from netdesign.addons.reliability.check_by_case import CheckByCase, find_check_by_case
 from netdesign.addons.reliability.reliability import (
     DesignPoint,
-    NotAvailable,
     Reliability,
     find_reliability,
     follow_design_point,
@@ -149,12 +148,16 @@ def _analyse(
         slope_cosine=math.cos(by_case.row.slope_angle),
         height=by_case.row.snow_thickness / math.cos(by_case.row.slope_angle),
     )
-    state, miss = _meet_design_point(state, rater)
-    reliability = find_reliability(state.build(), math.log(used))
-    if isinstance(reliability, NotAvailable):
-        raise ModelError(reliability.reason)
+    state, by_model, solved = _meet_design_point(state, rater)
+    log_used = math.log(used)
+    reliability = find_reliability(state.build(), log_used)
     state.require_within(reliability.design_point)
-    return _record(check, state, reliability, miss, by_case.governing)
+    record = _record(check, state, reliability, by_case.governing)
+    return replace(
+        record,
+        force_ratio=math.exp(solved - log_used),
+        force_ratio_by_model=math.exp(by_model - log_used),
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -231,53 +234,41 @@ class _State:
         return replace(self, variables=tuple(variables))
 
 
-def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, _Miss]:
-    """State that agrees with the full model at its design point; the last miss."""
+def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, float]:
+    """State that agrees with the full model at its design point.
+
+    And ln mu at the last one: by the model before it was solved, and solved.
+    """
     point: DesignPoint | None = None
-    miss = _Miss(by_model=0.0, solved=0.0)
-    error = 0.0
+    error = by_model = solved = miss = 0.0
     for _ in range(MOST_ROUNDS):
         limit = state.with_error(error).build()
         point = follow_design_point(limit, point)
-        if point is None:
-            raise ModelError(say("reliability.not_converged"))
         at = limit.place(point.place[None])[0].tolist()
         state.require_within(at)
         values = state.read_point(at)
-        miss = _solve(state, rater, values)
-        error = math.hypot(state.response.find_error(values), miss.size)
-        state = replace(state, response=meet(state.response, values, miss.solved))
-        if miss.size < _CLOSE:
+        by_model, solved = state.response.find_at(values), _solve(rater, values)
+        miss = abs(solved - by_model)
+        error = math.hypot(state.response.find_error(values), miss)
+        state = replace(state, response=meet(state.response, values, solved))
+        if miss < _CLOSE:
             break
-    if miss.size > LARGEST_MISS:
-        raise ModelError(say("reliability.missed", share=miss.size))
-    return state.with_error(error), miss
+    if miss > LARGEST_MISS:
+        raise ModelError(say("reliability.missed", share=miss))
+    return state.with_error(error), by_model, solved
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Miss:
-    """Values of ln mu at a design point: by the model before it was solved, solved."""
-
-    by_model: float
-    solved: float
-
-    @property
-    def size(self) -> float:
-        return abs(self.solved - self.by_model)
-
-
-def _solve(state: _State, rater: Rater, values: Mapping[str, float]) -> _Miss:
+def _solve(rater: Rater, values: Mapping[str, float]) -> float:
     (solved,) = rater.solve(rater.check.governing, [_order(values)])
     if solved is None:
         raise ModelError(say("reliability.no_solve"))
-    return _Miss(by_model=state.response.find_at(values), solved=solved)
+    return solved
 
 
 def _record(
     check: Check,
     state: _State,
     reliability: Reliability,
-    miss: _Miss,
     governing: Case,
 ) -> ReliabilityRecord:
     values = dict(zip(state.names, reliability.design_point, strict=True))
@@ -297,8 +288,6 @@ def _record(
         profile_action_factor=check.read("γ_E"),
         profile_resistance_factor=check.read("γ_R"),
         design_point=record_point(move(governing, _order(point))),
-        force_ratio=math.exp(miss.solved - used),
-        force_ratio_by_model=math.exp(miss.by_model - used),
         samples=reliability.samples,
     )
 

@@ -129,7 +129,7 @@ def find_gap(row: MeasuredRow, rows: Sequence[MeasuredRow]) -> float | None:
 
     Verified by
     -----------
-    tests/addons/terrain/test_coverage.py
+    tests/addons/terrain/test_measure.py
     """
     gaps = [_find_beside(row, rows, end) for end in (0, -1)]
     on_both_sides = [gap for gap in gaps if gap is not None]

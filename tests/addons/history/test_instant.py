@@ -10,23 +10,21 @@ import pytest
 from netdesign.addons.evidence.verification.closed_forms import slide_on
 from netdesign.addons.history import instant as instant_module
 from netdesign.addons.history.instant import advance, advance_under
-from netdesign.addons.history.net_pulls import compute_node_forces, hold_net
+from netdesign.addons.history.net_pulls import (
+    compute_node_forces,
+    hold_net,
+    join_points,
+)
 from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
-from netdesign.addons.history.state import build_problem, build_start
+from netdesign.addons.history.state import build_problem
 from netdesign.addons.history.transient import run_history
 from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.mesh import build_template
+from tests.addons.history.starts import begin
 from tests.each import each
 
 STEP = 1e-4
 CUT = 0.25  # of a step that does not converge, as in a history
 TIGHT = {"tolerance": 1e-8, "balance_tolerance": 1e-10, "max_iterations": 30}
-
-
-def begin(scene, start="sagged", level=0, **given):
-    problem = build_problem(scene, densifies=True, **given)
-    template = build_template(5.0, TRANSIENT_LEVELS[level], scene.layer_tops)
-    return problem, build_start(problem, template, start)
 
 
 def pass_on(state, instant, step):
@@ -186,8 +184,7 @@ def test_balance_that_rounding_spoils_is_no_step(a_scene, monkeypatch):
 
 def held(problem, state):
     """The net at the step's start, its forces as they are."""
-    nodes = state.body.vertices[:, state.carried]
-    points = np.column_stack([np.zeros(2), nodes, problem.head])
+    points = join_points(state.net_nodes, problem.head)
     return hold_net(points, state.lengths, stiffness=problem.stiffness)
 
 

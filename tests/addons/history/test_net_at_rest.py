@@ -1,10 +1,13 @@
 """The net of a steady state as the polygon of a history: length, tensions, shape."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from netdesign.addons.history import state
-from netdesign.addons.history.net_pulls import measure_arcs
+from netdesign.addons.history.instant import advance
+from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import (
     build_problem,
@@ -12,9 +15,13 @@ from netdesign.addons.history.state import (
     find_net_at_rest,
     find_start,
 )
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
+from netdesign.snow.ground import GroundLaw
 from netdesign.snow.mesh import build_template
+from tests.addons.history.starts import begin
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
 from tests.each import each
 
@@ -22,33 +29,17 @@ SEEDS = range(8)
 SIZE = TRANSIENT_LEVELS[1]
 
 
-def begin(scene, start="steady"):
-    problem = build_problem(scene, densifies=True)
-    pack = scene.snowpack
-    template = build_template(
-        pack.upslope_length / pack.thickness, SIZE, scene.layer_tops
-    )
-    state = build_start(problem, template, find_start(scene, SIZE, start))
-    return problem, state
-
-
 def find_middles(places):
     """Of the net's elements."""
     return (places[:-2:2] + places[2::2]) / 2.0
 
 
-def list_points(problem, state):
-    return np.column_stack(
-        [np.zeros(2), state.body.vertices[:, state.carried], problem.head]
-    )
-
-
 @each("seed", SEEDS)
 def test_polygon_has_the_nets_length_and_the_steady_tensions(seed):
     scene = draw_scene(500 + seed, ground=GROUNDS[seed % 3])
-    problem, state = begin(scene)
+    problem, state = begin(scene, "steady", SIZE)
     assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-13)
-    arcs = measure_arcs(list_points(problem, state))
+    arcs = measure_arcs(join_points(state.net_nodes, problem.head))
     tensions = problem.stiffness * (arcs / state.lengths - 1.0)
     rest = find_net_at_rest(scene, SIZE)
     fractions = state.body.topology.template.net_fractions
@@ -67,7 +58,7 @@ def test_polygon_has_the_nets_length_and_the_steady_tensions(seed):
 def test_polygon_lies_on_the_net_at_rest(seed):
     """But for what chords are shorter than arcs."""
     scene = draw_scene(500 + seed, ground=GROUNDS[seed % 3])
-    problem, state = begin(scene)
+    problem, state = begin(scene, "steady", SIZE)
     rest = find_net_at_rest(scene, SIZE)
     net = state.body.vertices[:, state.body.topology.net]
     fractions = state.body.topology.template.net_fractions
@@ -76,7 +67,9 @@ def test_polygon_lies_on_the_net_at_rest(seed):
     stands_out = scene.net.height_normal > 1.01 * scene.snowpack.thickness
     assert (state.top == "on-net") is stands_out
     assert net[1, -1] == pytest.approx(1.0, abs=1e-4)  # moves with the sag
-    np.testing.assert_allclose(list_points(problem, state)[:, -1], problem.head)
+    np.testing.assert_allclose(
+        join_points(state.net_nodes, problem.head)[:, -1], problem.head
+    )
 
 
 def test_mesh_of_another_size_gets_a_net_of_the_same_shape(a_scene):
@@ -101,3 +94,27 @@ def test_a_scene_without_a_steady_state_says_what_to_choose(a_scene, monkeypatch
         find_start(scene, SIZE, "steady")
     assert failure.value.outcome is Outcome.NO_EQUILIBRIUM
     assert find_start(scene, SIZE, "straight") == "straight"
+
+
+THIN_GROUNDS = (
+    GroundLaw(),
+    GroundLaw(kind="no-slip"),
+    GroundLaw(kind="sliding", slip_length=5.0),
+)
+
+
+@each("ground", THIN_GROUNDS)
+@each("thickness", [1.0, 1.7])
+def test_the_first_instant_has_the_steady_pulls(a_scene, ground, thickness):
+    """It was 2.5 to 10 times as much, or no number, where d < D_k / 2."""
+    scene = a_scene(thickness_m=3.0, length_m=12.0, inclination_deg=30.0, slack=0.03)
+    snow = replace(scene.snowpack, thickness=thickness)
+    scene = replace(scene, snowpack=snow, ground=ground)
+    problem, state = begin(scene, "steady", SIZE, densifies=False)
+    first = advance(
+        problem, state, 1e-6, tolerance=1e-4, balance_tolerance=1e-9, max_iterations=30
+    )
+    steady = solve_steady(scene, SolverSettings(accuracy=0.02), on_failure="raise")
+    pulls = [np.hypot(*first.foot_pull), np.hypot(*first.head_pull)]
+    expected = np.array([steady.foot.size, steady.head.size]) / scene.force_scale
+    assert pulls == pytest.approx(expected, rel=0.02)

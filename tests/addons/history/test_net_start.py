@@ -6,30 +6,20 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.verification.closed_forms import slide_on
-from netdesign.addons.history.net_pulls import measure_arcs
+from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem, build_start
 from netdesign.coupling.steady.net import guess_pressure
 from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.snow.mesh import MeshSize
+from tests.addons.history.starts import begin
 from tests.each import each
 
 SLACKS = [0.0, 0.02, 0.15]
+LEVEL = TRANSIENT_LEVELS[1]
 
 
 # Fine enough for sags and lengths that are read off the nodes.
 FINE = MeshSize(net_spacing=0.06, corner=2.5e-3, sectors=10, upslope_spacing=0.25)
-
-
-def begin(scene, start, size=TRANSIENT_LEVELS[1]):
-    problem = build_problem(scene, densifies=True)
-    template = build_template(5.0, size, scene.layer_tops)
-    return problem, build_start(problem, template, start)
-
-
-def points_of(problem, state):
-    nodes = state.body.vertices[:, state.carried]
-    return np.column_stack([np.zeros(2), nodes, problem.head])
 
 
 def largest_sag(problem, points):
@@ -50,8 +40,8 @@ def parabola_length(sag):
 
 @pytest.mark.parametrize("inclination", [0.0, 30.0])
 def test_straight_net_is_a_line_without_tension(a_scene, inclination):
-    problem, state = begin(a_scene(inclination_deg=inclination), "straight")
-    points = points_of(problem, state)
+    problem, state = begin(a_scene(inclination_deg=inclination), "straight", LEVEL)
+    points = join_points(state.net_nodes, problem.head)
     assert largest_sag(problem, points) < 1e-8
     chords = np.hypot(*np.diff(points))
     np.testing.assert_allclose(state.lengths, chords, rtol=1e-8)
@@ -67,7 +57,7 @@ def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
     problem, state = begin(
         a_scene(slack=slack, inclination_deg=inclination), "straight", size=FINE
     )
-    points = points_of(problem, state)
+    points = join_points(state.net_nodes, problem.head)
     assert parabola_length(largest_sag(problem, points)) == pytest.approx(
         1.0 + slack, rel=1e-4
     )
@@ -81,7 +71,7 @@ def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
 def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
     """Parabola of the guideline: H = p c / (8 f), V = p / 2, T = ES strain."""
     problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", size=FINE)
-    points = points_of(problem, state)
+    points = join_points(state.net_nodes, problem.head)
     sag = largest_sag(problem, points)
     pressure = guess_pressure(problem.snow, 5.0)
     tension = pressure * math.hypot(1.0 / (8.0 * sag), 1.0 / 2.0)
@@ -98,14 +88,14 @@ def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
 def test_snow_fills_the_bulge(a_scene, start):
     """L d and two thirds of chord times sag, on chords between vertices."""
     problem, state = begin(a_scene(slack=0.05), start, size=FINE)
-    sag = largest_sag(problem, points_of(problem, state))
+    sag = largest_sag(problem, join_points(state.net_nodes, problem.head))
     expected = 5.0 + 2.0 / 3.0 * sag
     assert state.body.mass.sum() == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize("start", ["straight", "sagged"])
 def test_head_above_the_snow_leaves_a_free_segment(a_scene, start):
-    problem, state = begin(a_scene(height_m=4.8, slack=0.03), start)
+    problem, state = begin(a_scene(height_m=4.8, slack=0.03), start, LEVEL)
     assert state.top == "on-net"
     net = state.body.topology.net
     assert state.carried.size == net.size - 1  # all but the foot
@@ -127,10 +117,10 @@ def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
     """
     scene = a_scene(inclination_deg=40.0, slack=0.15, stiffness_kN_per_m=stiffness)
     if clear:
-        problem, state = begin(scene, "sagged")
-        sag = largest_sag(problem, points_of(problem, state))
+        problem, state = begin(scene, "sagged", LEVEL)
+        sag = largest_sag(problem, join_points(state.net_nodes, problem.head))
         assert 0.23 < sag < math.tan(math.radians(50.0)) / 4.0
         return
     with pytest.raises(SolveError, match="the net touches the ground") as failure:
-        begin(scene, "sagged")
+        begin(scene, "sagged", LEVEL)
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY

@@ -8,21 +8,19 @@ import scipy.sparse as sparse
 
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.snow import PlainSnow, SnowIterate, take_linear
-from netdesign.addons.history.state import build_problem, build_start
 from netdesign.addons.history.step import assemble_step, condense_step
 from netdesign.core.sources import SWITCH, SWITCHED_OFF
 from netdesign.snow import forms
 from netdesign.snow.law import linearise_creep
-from netdesign.snow.mesh import build_template
+from tests.addons.history.starts import begin
 
 STEP = 1e-3
 GROUNDS = ["free", "no-slip"]
 
 
-def begin(scene, top="held", start="sagged", level=0):
-    problem = build_problem(scene, densifies=True)
-    template = build_template(5.0, TRANSIENT_LEVELS[level], scene.layer_tops)
-    return problem, replace(build_start(problem, template, start), top=top)
+def start_with(scene, top="held", level=0):
+    problem, state = begin(scene, size=TRANSIENT_LEVELS[level])
+    return problem, replace(state, top=top)
 
 
 def fold(template, size):
@@ -82,7 +80,7 @@ def test_snow_answers_forces_as_the_forms_do(
     a_scene, monkeypatch, core, ground, top, level
 ):
     scene = a_scene(ground=ground, inclination_deg=20.0)
-    problem, state = begin(scene, top, level=level)
+    problem, state = start_with(scene, top, level)
     forces = np.random.default_rng(level).normal(
         scale=0.1, size=(2, state.carried.size)
     )
@@ -102,7 +100,7 @@ def test_a_corner_that_slips_keeps_to_the_nets_line_and_to_friction(
 ):
     """Along its last segment, with a shear of tan(phi) times the pressure (N14)."""
     scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg)
-    problem, state = begin(scene, "slipping")
+    problem, state = start_with(scene, "slipping")
     equations, found = answer(problem, state, np.zeros((2, state.carried.size)))
     velocity = equations.split(found.unknowns)[:, equations.template.net[-1]]
     x, y = equations.top_axis

@@ -1,4 +1,4 @@
-"""Rows on surfaces whose slopes and lengths are known."""
+"""Rows on surfaces whose slopes and lengths are known; what of a zone they hold."""
 
 import math
 from dataclasses import replace
@@ -6,12 +6,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.terrain.coverage import find_coverage
 from netdesign.addons.terrain.grid import require_ground
-from netdesign.addons.terrain.measure import measure_rows
-from netdesign.addons.terrain.site_lines import derive_cells
+from netdesign.addons.terrain.measure import measure_plan, measure_rows
+from netdesign.addons.terrain.site_lines import derive_cells, find_gap
 from netdesign.addons.terrain.surface import choose_window
 from netdesign.outcome import TerrainError
-from tests.addons.terrain.surfaces import SPACING, build_grid, draw_line, plan_of, plane
+from tests.addons.terrain.surfaces import (
+    SPACING,
+    build_grid,
+    draw_line,
+    plan_of,
+    plane,
+    turn,
+)
 from tests.each import each
 
 PSI = math.radians(38.3)
@@ -313,3 +321,36 @@ def test_heights_that_stand_for_no_data_are_asked_about(value):
     heights[3, 4] = value
     with pytest.raises(TerrainError, match=f"to {value:g} m within a cell"):
         require_ground(heights, 5.0)
+
+
+def ring(*corners):
+    return np.array(corners, dtype=float)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.61])
+def test_a_row_holds_its_bays_up_to_its_reach(turned):
+    corners = ring((-30, -30), (30, -30), (30, 30), (-30, 30))
+    zone = np.column_stack(turn(*corners.T, turned))
+    grid = build_grid(plane(PSI), size=160.0, turned=turned)
+    row = draw_line([(-15.0, -20.0), (15.0, -20.0)], turned=turned)
+    plan = plan_of(row, zones=(zone,))
+    surface, rows = measure_plan(grid, plan, most=100.0)
+    found = find_coverage(surface, plan, rows, {"R1": 25.0})
+    held = 30.0 * 25.0 * math.cos(PSI)
+    assert found.area == pytest.approx(3600.0, rel=0.01)
+    assert found.area - found.uncovered == pytest.approx(held, rel=0.04)
+    assert found.share == pytest.approx(1.0 - held / 3600.0, abs=0.02)
+
+
+def test_gap_of_rows_beside_and_above():
+    grid = build_grid(plane(PSI), size=160.0)
+    lines = (
+        draw_line([(-30.0, -20.0), (-3.0, -20.0)], name="A"),
+        draw_line([(-1.5, -19.0), (25.5, -19.0)], name="B"),
+        draw_line([(-60.0, -21.0), (-33.0, -21.0)], name="C"),
+        draw_line([(-12.0, 5.0), (15.0, 5.0)], name="D"),
+    )
+    _, (a, b, c, d) = measure_plan(grid, plan_of(*lines), most=60.0)
+    assert find_gap(a, [a, b, c, d]) == pytest.approx(3.0)
+    assert find_gap(a, [a, b, d]) is None  # one end is free
+    assert find_gap(d, [a, b, c, d]) is None

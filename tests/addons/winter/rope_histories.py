@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from netdesign.addons.history.instant import advance
-from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import build_problem, build_start, find_start
 from netdesign.addons.history.transient import follow
-from netdesign.snow.mesh import build_template
+from tests.addons.history.starts import begin
 
 
 def follow_lengths(scene, times, shares):
@@ -16,13 +14,7 @@ def follow_lengths(scene, times, shares):
 
     ``times`` in creep time; it starts as it hangs at rest, and the snow keeps its law.
     """
-    size = TRANSIENT_LEVELS[0]
-    problem = build_problem(scene, densifies=False)
-    pack = scene.snowpack
-    template = build_template(
-        pack.upslope_length / pack.thickness, size, scene.layer_tops
-    )
-    state = build_start(problem, template, find_start(scene, size, "steady"))
+    problem, state = begin(scene, "steady", densifies=False)
     full, before, share_before, pulls = problem.length, 0.0, 1.0, []
     for time, share in zip(times, shares, strict=True):
         problem = replace(problem, length=full * share)

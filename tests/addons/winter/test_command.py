@@ -1,10 +1,12 @@
-"""The command ``winter``: document, page, refusals, exit codes."""
+"""The commands ``winter`` and ``snowpack``: documents, page, refusals, exit codes."""
 
 import json
 
 import openpyxl
 import pytest
 
+from netdesign.addons.winter.command import _is_proven
+from netdesign.addons.winter.settling import MODELS, follow_heights
 from tests.make import load_rows, write_rows, write_site
 
 HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
@@ -147,3 +149,36 @@ def test_measured_forces_stand_beside_the_chain(call, heights, tmp_path):
     assert page.count("<svg") == 2
     assert "Net anchor (foot): measured and computed force per support" in page
     assert told in page
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_document_has_the_days_of_the_model(call, tmp_path, model):
+    path = write_heights(tmp_path / "station.csv")
+    ended = call("snowpack", path, "--model", model, "--json", "--layers")
+    document = json.loads(ended.out)
+    packs = follow_heights([h / 100 for h in HEIGHTS], MODELS[model])
+    assert (ended.code, document["schema"]) == (0, "netdesign.snowpack/1")
+    masses = [day["swe_kg_m2"] for day in document["days"]]
+    assert masses == pytest.approx([pack.mass for pack in packs], rel=1e-12)
+    assert document["days"][8]["date"] == "2003-02-09"
+    assert document["days"][0]["layers"] == []
+    layers = document["days"][8]["layers"]
+    total = sum(layer["height_m"] for layer in layers)
+    assert total == pytest.approx(document["days"][8]["height_m"], rel=1e-12)
+
+
+def test_faults_are_told_and_nothing_is_printed(call, tmp_path):
+    path = write_heights(tmp_path / "station.csv", [0, -20])
+    ended = call("snowpack", path)
+    assert (ended.code, ended.out) == (3, "")
+    assert "B3" in ended.err
+
+
+def is_settled(largest, thin):
+    winters = [{"is_proven": True}, {"is_proven": thin, "is_below_largest": largest}]
+    return _is_proven({"rows": [{"winters": winters}]})
+
+
+def test_a_bound_below_the_largest_maximum_is_enough():
+    found = [is_settled(*one) for one in ((True, False), (False, False), (False, True))]
+    assert found == [True, False, True]

@@ -102,8 +102,7 @@ def attempt_scenes(
 
     Verified by
     -----------
-    tests/addons/evidence/benchmark/test_stress_report.py
-    tests/addons/evidence/benchmark/test_honesty.py
+    tests/addons/evidence/benchmark/test_random_scenes.py
     """
     work = partial(attempt_scene, seed=seed, accuracy=accuracy, is_compared=is_compared)
     numbers = islice(list_accepted(seed), count) if is_compared else range(count)

@@ -1,11 +1,16 @@
-"""Real runs on the coarsest meshes: what a track records is the run's."""
+"""Real runs of the paper on the coarsest meshes, and meshes drawn."""
 
+import re
 from dataclasses import replace
+from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
+from netdesign.addons.evidence.paper.page import draw_meshes
 from netdesign.addons.evidence.paper.study import (
     PaperSettings,
+    Shape,
     find_exchange,
     find_history,
     find_steady,
@@ -83,3 +88,31 @@ def test_study_runs_every_case_once(monkeypatch):
     study = run_study(THIN, on_done=done.append)
     assert list(study.runs) == list_cases()
     assert len(done) == len(study.runs) == len(set(study.runs))
+
+
+def texts(svg):
+    tag = "{http://www.w3.org/2000/svg}text"
+    return [element.text for element in ElementTree.fromstring(svg).iter(tag)]
+
+
+def picture(density):
+    nodes = np.array([[-4.0, 0.0, 0.0, -4.0], [0.0, 0.0, 2.0, 2.0]])
+    triangles = np.array([[0, 0], [1, 2], [2, 3]])
+    density = np.asarray(density)
+    curve = nodes[:, 1:3]
+    return "one", Shape(nodes=nodes, triangles=triangles, density=density, curve=curve)
+
+
+def test_density_scale_spans_the_densities():
+    shown = texts(draw_meshes([picture([300.0, 500.0])]))
+    assert {"300", "400", "500", "density [kg/m³]"} <= set(shown)
+
+
+def test_uniform_snow_needs_no_scale():
+    shown = texts(draw_meshes([picture([300.0, 300.0])]))
+    assert "density 300 kg/m³ throughout" in shown
+
+
+def test_drawings_hold_no_pictures_that_could_be_blocked():
+    svg = draw_meshes([picture([300.0, 500.0])])
+    assert not re.search(r"<image|base64|<script", svg)

@@ -1,4 +1,6 @@
-"""Which winters count in return values, and why there are none."""
+"""Which winters count in return values, why there are none, and the values."""
+
+import pytest
 
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.statistics import (
@@ -60,3 +62,17 @@ def test_without_return_values_there_is_a_reason(winters, key):
     assert found.lack.key == f"winter_sample.{key}"
     for one in found.lack.arguments.get("winters", ()):
         assert one in {"W50", "W60", "W61"}
+
+
+def test_fewer_than_fifteen_winters_tell_no_return_value():
+    assert fit_gumbel(list(range(14))) is None
+    assert fit_gumbel(list(range(15))).count == 15
+
+
+@pytest.mark.parametrize(
+    ("period", "factor"), [(2.0, -0.164), (10.0, 1.305), (100.0, 3.137)]
+)
+def test_frequency_factors_are_those_of_the_textbooks(period, factor):
+    fit = Gumbel(count=40, mean=17.3, deviation=5.9)
+    got = (fit.find_return_value(period)[0] - 17.3) / 5.9
+    assert got == pytest.approx(factor, abs=6e-4)

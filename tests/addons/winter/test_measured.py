@@ -1,0 +1,184 @@
+"""Measured forces: on the dates of a winter, beside its curve, in a figure."""
+
+from dataclasses import replace
+from datetime import date, datetime, timedelta
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign.addons.winter.day import RowDay
+from netdesign.addons.winter.figure import (
+    draw_measured,
+)
+from netdesign.addons.winter.maxima import AnnualMaximum
+from netdesign.addons.winter.measured import (
+    MeasuredPulls,
+    compare_season,
+    explain_unused,
+    find_swing,
+    list_measured_pulls,
+    name_measured_winters,
+)
+from netdesign.addons.winter.season import Season
+from netdesign.checks.result import Band
+from netdesign.report.words import Words
+from netdesign.site.further_sheets import MonitoringSeries
+from netdesign.snow.heights import HeightSeries
+from tests import small_site
+from tests.addons.winter.made_up_row import a_solver
+
+ROW = a_solver().row
+FIRST = date(2003, 2, 1)
+
+
+def a_day(index, force, thickness=1.9):
+    """Solved day whose foot anchor carries 3.5 m of net."""
+    foot = Band(low=0.98 * force, value=force, high=1.02 * force)
+    member = Band(low=3.43 * force, value=3.5 * force, high=3.57 * force)
+    return RowDay(
+        index=index,
+        thickness=thickness,
+        density=310.0,
+        ending="solved",
+        foot=foot,
+        head=foot,
+        member_forces={"foot_anchor": member},
+    )
+
+
+def a_season(*days):
+    return Season(
+        name="2002/2003",
+        maximum=AnnualMaximum(winter="2002/2003", ending="solved"),
+        curve=days,
+        highest=days[0],
+        days=slice(0, 28),
+        equivalent_density=None,
+    )
+
+
+def readings(*pairs, air=()):
+    begin = datetime(2003, 2, 1)
+    return MeasuredPulls(
+        member="foot_anchor",
+        moments=tuple(begin + timedelta(days=day) for day, _ in pairs),
+        forces=tuple(force for _, force in pairs),
+        air_temperatures=tuple((begin + timedelta(days=d), k) for d, k in air),
+    )
+
+
+def a_series(warmth=None):
+    air = tuple(warmth) if warmth else ()
+    return HeightSeries(first_day=FIRST, heights=(1.5,) * 28, air_temperatures=air)
+
+
+def compare(pulls, season, series=None):
+    return compare_season(pulls, season, ROW, series or a_series())
+
+
+def test_band_is_the_numerical_one_and_the_swing_of_the_ropes():
+    warmth = [270.0] * 28
+    warmth[5], warmth[6] = 262.0, 268.0
+    season = a_season(a_day(5, 20e3), a_day(20, 20e3))
+    compared = compare(readings((5.5, 70e3)), season, a_series(warmth))
+    cold, level = compared.computed
+    assert (cold.amplitude, level.amplitude) == (4.0, 0.0)
+    snow = replace(ROW.scene.snowpack, thickness=1.9, density=310.0, layers=())
+    swing = find_swing(replace(ROW.scene, snowpack=snow), 4.0)
+    assert cold.swing == pytest.approx(3.5 * swing, rel=1e-9)
+    assert level.swing == 0.0
+
+
+def test_days_without_a_force_are_left_out_and_bare_ones_have_none():
+    failed = replace(a_day(8, 1.0), ending="failed", foot=None, head=None)
+    failed = replace(failed, member_forces={})
+    bare = replace(failed, index=2, ending="bare", thickness=0.0, density=0.0)
+    compared = compare(readings((5.0, 30e3)), a_season(bare, a_day(5, 9e3), failed))
+    assert [day.index for day in compared.computed] == [2, 5]
+    assert compared.computed[0].force.value == 0.0
+
+
+HOUR = 3600.0
+
+
+def a_site(**changes):
+    values = {
+        "row_id": "R1",
+        "member": "foot_anchor",
+        "times": (0.0, 7 * HOUR, 19 * HOUR, 47 * HOUR),
+        "tensions": (11e3, None, 17e3, 23e3),
+        "air_temperatures": (None,) * 4,
+        "source": "Monitoring!A2",
+        "start": datetime(2003, 2, 18, 4),
+    }
+    series = MonitoringSeries(**{**values, **changes})
+    return small_site.build_site(*small_site.ROWS, monitoring=(series,))
+
+
+def test_readings_keep_their_moments():
+    (pulls,) = list_measured_pulls(a_site(), "R1")
+    assert pulls.forces == (11e3, 17e3, 23e3)
+    assert pulls.moments[1] == datetime(2003, 2, 18, 23)
+    assert list_measured_pulls(a_site(), "R2") == ()
+
+
+def test_times_without_a_date_stand_beside_no_winter():
+    site = a_site(start=None)
+    assert list_measured_pulls(site, "R1") == ()
+    (told,) = explain_unused(site, "R1", ())
+    assert "Monitoring!A2: measured times without a date" in str(told)
+    (told,) = explain_unused(a_site(), "R1", ())
+    assert "no reading lies on a day" in str(told)
+    assert explain_unused(a_site(tensions=(None,) * 4), "R1", ()) == ()
+
+
+def test_winters_with_readings_are_named():
+    pulls = list_measured_pulls(a_site(), "R1")
+    assert name_measured_winters(pulls) == {"2002/2003"}
+
+
+def test_air_temperatures_alone_are_no_forces():
+    assert list_measured_pulls(a_site(tensions=(None,) * 4), "R1") == ()
+
+
+SVG = "{http://www.w3.org/2000/svg}"
+BEGIN = datetime(2003, 1, 20, 6)
+
+
+def an_entry(count, hours, jump=None):
+    """Readings every so many hours; from the jump on twice the force."""
+    times = [BEGIN + timedelta(hours=hours * k) for k in range(count)]
+    forces = [20.0 + 0.01 * k for k in range(count)]
+    if jump is not None:
+        forces = [2.0 * f if k >= jump else f for k, f in enumerate(forces)]
+    return {
+        "winter": "2002/2003",
+        "member": "foot_anchor",
+        "readings": [
+            {"time": time.isoformat(), "force_kN": force}
+            for time, force in zip(times, forces, strict=True)
+        ],
+        "air_temperatures": [],
+        "computed": [
+            {
+                "date": (BEGIN + timedelta(days=4 * k)).date().isoformat(),
+                "force_kN": 21.0,
+                "low_kN": 19.0,
+                "high_kN": 23.0,
+            }
+            for k in range(12)
+        ],
+    }
+
+
+def test_figure_has_readings_chain_band_and_air():
+    words = Words("en")
+    air = {f"2003-01-{day}": -float(day) for day in range(20, 31)}
+    root = ElementTree.fromstring(draw_measured(an_entry(60, 12), air, words))
+    shown = [element.text for element in root.iter(f"{SVG}text")]
+    for key in ("measured", "computed", "band", "air"):
+        assert words(f"winter_measured.{key}") in shown
+    assert len(list(root.iter(f"{SVG}polygon"))) == 1
+    assert "23/01" in shown
+    bare = draw_measured(an_entry(60, 12), {}, words)
+    assert words("winter_measured.air") not in bare
