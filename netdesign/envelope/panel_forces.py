@@ -261,8 +261,14 @@ class PanelForces:
     @property
     def largest_feet(self) -> Floats:
         """Force on the more loaded foot anchor of each panel, shape (n,) [N]."""
-        feet, mids = self.solved.foot, self.solved.mid_foot
-        return np.asarray(np.maximum(np.hypot(*feet.T), np.hypot(*mids.T)))
+        mids = np.hypot(*self.solved.mid_foot.T)
+        return np.asarray(np.maximum(self.feet_beside_posts, mids))
+
+    @property
+    def feet_beside_posts(self) -> Floats:
+        """Force on the foot anchor beside a post, as its band has it (n,) [N]."""
+        pulls = self.brought.pulls.ends[:, :2] * self.brought.width
+        return np.asarray(np.hypot(*pulls.T))
 
     @property
     def solution(self) -> PanelSolution:

@@ -17,8 +17,8 @@ import numpy as np
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed_forces import (
-    Ends,
     choose_watched,
+    gather_pulls,
     name_sources,
     read_signed,
     read_signed_errors,
@@ -29,7 +29,7 @@ from netdesign.search import surrogate
 from netdesign.search.maxima import Maxima, SearchSettings, Values, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
 from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
-from netdesign.structure.head import Vector, resolve_loose
+from netdesign.structure.head import resolve_loose
 from netdesign.structure.layout import (
     SupportLayout,
 )
@@ -81,12 +81,12 @@ def bound_lifted(
     solved = [
         (point, result)
         for point, result in zip(points, results, strict=True)
-        if result.anchors is not None
+        if result.anchors and result.solution
     ]
     places = np.array([point for point, _ in solved])
     if not layouts or not solved or not supports_model(places):
         return {}
-    values = np.array([_measure(layouts, result) for _, result in solved])
+    values = _measure(layouts, [result for _, result in solved])
     tolerance = np.full(values.shape[1], settings.gap * np.abs(values[:, 1:]).max())
     tolerance[0] = settings.gap  # of a sine
     bound = partial(
@@ -113,32 +113,27 @@ def bound_lifted(
     }
 
 
-def _measure(layouts: Sequence[SupportLayout], result: CaseResult) -> Floats:
+def _measure(layouts: Sequence[SupportLayout], results: Sequence[CaseResult]) -> Floats:
     """Sine of the pull on the head out of the slope, and forces that follow it [N].
 
-    The largest of section and panels, on any layout: the lift, (S4a), and the guys
-    without the post, (S4b); where net and guy share an anchor, what both bring there.
+    Of each case the largest of section and panels, on any layout: the lift, (S4a), and
+    the guys without the post, (S4b); where net and guy share an anchor, what both bring
+    there. Shape: cases, forces.
     """
-    if result.anchors is None or result.solution is None:
-        raise ValueError("a case without a support")
-    pulls = np.array([result.anchors.head_pull])
-    feet = np.array([result.anchors.foot_anchor.size])
-    if isinstance(result.panel, PanelForces):
-        pulls = np.concatenate([pulls, result.panel.solved.head])
-        feet = np.append(feet, np.hypot(*result.panel.solved.foot.T))
-    x, y = pulls.T
-    rise = y / np.where((x == 0.0) & (y == 0.0), 1.0, np.hypot(x, y))
-    lifted = _lift((x, y), feet, spread_ends(layouts, result.solution.head_point))
-    largest: Floats = np.array([rise.max(), *(one.max() for one in lifted)])
-    return largest if layouts[0].is_foot_shared else largest[:-1]
-
-
-def _lift(pull: Vector[Floats], foot: Floats, ends: Ends) -> list[Floats]:
-    """Pull of the post, guys without it, uphill anchor of net and guy [N]."""
-    uphill, downhill = resolve_loose(pull, ends.head, ends.uphill, ends.downhill)
-    x, y = ends.base[0] - ends.head[0], ends.base[1] - ends.head[1]
-    lift = pull[1] * measure_length(x, y) / ends.head[1]
-    return [lift, downhill, uphill, foot + uphill]
+    pulls = gather_pulls(results, layouts[0].post_spacing)
+    ends = spread_ends(layouts, results)
+    x, y = pulls.head
+    uphill, downhill = resolve_loose(pulls.head, ends.head, ends.uphill, ends.downhill)
+    post = measure_length(ends.base[0] - ends.head[0], ends.base[1] - ends.head[1])
+    forces = [
+        y / np.where((x == 0.0) & (y == 0.0), 1.0, np.hypot(x, y)) + 0.0 * uphill,
+        y * post / ends.head[1],
+        downhill,
+        uphill,
+    ]
+    if layouts[0].is_foot_shared:
+        forces.append(pulls.beside_post + uphill)
+    return np.stack([each.max(axis=(0, 2)) for each in forces], axis=1)
 
 
 # A gap closer than this share of the numerical error is not worth a case.
@@ -152,7 +147,9 @@ _PANEL_GUYS = tuple(map(name_in_panel, GUYS))
 _ALONG = (RopeForce.LOWER_ALONG, RopeForce.UPPER_ALONG)
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
-ReadSigned = Callable[[CaseResult, Sequence[SupportLayout]], dict[str, float] | None]
+ReadSigned = Callable[
+    [Sequence[CaseResult], Sequence[SupportLayout]], list[dict[str, float] | None]
+]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -204,16 +201,16 @@ class ResultReader:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
         self.is_without_panel |= any(map(self._lacks_panel, results))
-        return [self._read_one(result) for result in results]
+        return self._read_values(results)
 
     def read_doubts(
         self, results: Sequence[CaseResult], rough: Collection[int]
     ) -> list[Values | None]:
         """Numerical errors of the rough cases, by their places; None of the others."""
-        return [
-            self._read_errors(result) if place in rough else None
-            for place, result in enumerate(results)
-        ]
+        places = sorted(rough)
+        errors = self._read_errors([results[place] for place in places])
+        of_place = dict(zip(places, errors, strict=True))
+        return [of_place.get(place) for place in range(len(results))]
 
     def find_near(self, results: Sequence[CaseResult]) -> set[int]:
         """Places of the cases that failed, or may come near the largest of a quantity.
@@ -222,10 +219,11 @@ class ResultReader:
         lower end.
         """
         self._name_quantities(results)
+        both = zip(self._read_values(results), self._read_errors(results), strict=True)
         by_place = {
-            place: (value, self._read_errors(result))
-            for place, result in enumerate(results)
-            if (value := self._read_one(result)) and not self._lacks_panel(result)
+            place: pair
+            for place, pair in enumerate(both)
+            if pair[0] and not self._lacks_panel(results[place])
         }
         if not by_place:
             return set(range(len(results)))
@@ -244,10 +242,11 @@ class ResultReader:
         converged = [result for result in results if result.is_converged]
         if self.members or not converged:
             return
-        first, behind = converged[0], list(map(self._find_signed, converged))
+        first = converged[0]
+        behind = read_signed(converged, self.layouts) if self.layouts else [None]
         self.members = self._list_members(first)
         self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-        if all(forces is not None for forces in behind):
+        if None not in behind:
             self.signed = self._list_signed(behind[0] or {})
 
     def _list_members(self, first: CaseResult) -> tuple[str, ...]:
@@ -303,31 +302,42 @@ class ResultReader:
                 upper[place] = float(np.max([maxima.maximum[place], 0.0, *allowed]))
         return replace(maxima, upper_bound=tuple(upper))
 
-    def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
-        return read_signed(result, self.layouts) if self.layouts else None
+    def _read_errors(self, results: Sequence[CaseResult]) -> list[Values | None]:
+        """Numerical errors of what ``_read_values`` gives [N]."""
+        errors = [
+            {name: band.high - band.value for name, band in one.member_forces.items()}
+            for one in results
+        ]
+        return self._line_up(errors, read_signed_errors, results)
 
-    def _read_errors(self, result: CaseResult) -> Values | None:
-        """Numerical errors of what ``_read_one`` gives [N]."""
-        errors = {
-            member: band.high - band.value
-            for member, band in result.member_forces.items()
-        }
-        return self._line_up(errors, read_signed_errors, result)
-
-    def _read_one(self, result: CaseResult) -> Values | None:
-        if not result.is_converged:
-            return None
-        values = {member: band.value for member, band in result.member_forces.items()}
-        return self._line_up(values, read_signed, result)
+    def _read_values(self, results: Sequence[CaseResult]) -> list[Values | None]:
+        values = [
+            {name: band.value for name, band in result.member_forces.items()}
+            for result in results
+        ]
+        return self._line_up(values, read_signed, results)
 
     def _line_up(
-        self, of_members: Mapping[str, float], read: ReadSigned, result: CaseResult
-    ) -> Values | None:
-        """Members, then signed forces; what is missing counts as 0."""
-        forces = tuple(of_members.get(member, 0.0) for member in self.members)
-        if not self.signed or not self.layouts:
-            return forces
-        signed = read(result, self.layouts)
-        if signed is None:
-            return None
-        return (*forces, *(signed.get(name, 0.0) for name in self.signed))
+        self,
+        of_members: Sequence[Mapping[str, float]],
+        read: ReadSigned,
+        results: Sequence[CaseResult],
+    ) -> list[Values | None]:
+        """Members, then signed forces of each case; what is missing counts as 0.
+
+        None of a case that failed.
+        """
+        of_signed: list[dict[str, float] | None] = [{}] * len(results)
+        if self.signed and self.layouts:
+            of_signed = read(results, self.layouts)
+        return [
+            (
+                *(forces.get(member, 0.0) for member in self.members),
+                *(signed.get(name, 0.0) for name in self.signed),
+            )
+            if signed is not None and result.is_converged
+            else None
+            for forces, signed, result in zip(
+                of_members, of_signed, results, strict=True
+            )
+        ]

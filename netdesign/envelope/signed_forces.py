@@ -9,8 +9,9 @@ signed forces bound the members. Theory: structure/THEORY.md, eq. (S2).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,17 +19,13 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.structure.head import Vector, resolve_signed
-from netdesign.structure.layout import (
-    Point,
-    SupportLayout,
-    place_support,
-)
+from netdesign.structure.layout import SupportLayout, locate_base
 from netdesign.structure.members import CARRYING_MEMBERS, Member, name_in_panel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ends:
-    """Points of some supports, x and y of shape (n, 1) each [m]."""
+    """Points of supports, x and y of shape (layouts, cases, 1) each [m]."""
 
     head: Vector[Floats]
     base: Vector[Floats]
@@ -36,20 +33,60 @@ class Ends:
     downhill: Vector[Floats]
 
 
-def spread_ends(layouts: Sequence[SupportLayout], head: Point) -> Ends:
-    """Points of some layouts under one head."""
-    places = [place_support(layout, head) for layout in layouts]
-
-    def gather(points: Iterable[Point]) -> Vector[Floats]:
-        x, y = np.array(list(points)).T[:, :, None]
-        return x, y
-
+def spread_ends(
+    layouts: Sequence[SupportLayout], results: Sequence[CaseResult]
+) -> Ends:
+    """Points of each layout under the heads of some solved cases."""
+    states = [result.solution for result in results if result.solution]
+    x, y = np.array([state.head_point for state in states]).T
+    bases = np.array([locate_base(layout, x, y) for layout in layouts])[..., None]
+    ground = np.zeros_like(bases)
+    uphill, downhill = np.array(
+        [(one.uphill_anchor_distance, one.downhill_anchor_distance) for one in layouts]
+    ).T[..., None, None]
     return Ends(
-        head=gather(place.head for place in places),
-        base=gather(place.post_base for place in places),
-        uphill=gather(place.uphill_anchor for place in places),
-        downhill=gather(place.downhill_anchor for place in places),
+        head=(x[:, None] + ground, y[:, None] + ground),
+        base=(bases, ground),
+        uphill=(ground - uphill, ground),
+        downhill=(bases + downhill, ground),
     )
+
+
+class CasePulls(NamedTuple):
+    """Pulls on head and foot by the section, then by each panel of a case.
+
+    Attributes
+    ----------
+    head : tuple of ndarray, shape (2,)
+        x and y, of shape (cases, 1 + panels) each [N]; where a case has no panels, all
+        are those of its section.
+    feet, beside_post : ndarray, shape (cases, 1 + panels)
+        Force on the more loaded foot anchor, and on that beside a post [N].
+    """
+
+    head: Vector[Floats]
+    feet: Floats
+    beside_post: Floats
+
+
+def gather_pulls(results: Sequence[CaseResult], width: float) -> CasePulls:
+    """Pulls on supports that carry so many metres of net in some solved cases."""
+    panels = [
+        one.panel if isinstance(one.panel, PanelForces) else None for one in results
+    ]
+    most = max(len(panel.solved.panels) if panel else 0 for panel in panels)
+    table = np.empty((4, len(results), 1 + most))
+    for k, (result, panel) in enumerate(zip(results, panels, strict=True)):
+        if result.solution is None:
+            raise ValueError("a case without a solution")
+        foot, head = result.solution.foot, result.solution.head
+        at_foot = np.hypot(width * foot.x, width * foot.y)  # as its band has it
+        own = np.array([width * head.x, width * head.y, at_foot, at_foot])
+        table[:, k] = own[:, None]
+        if panel:
+            table[:2, k, 1:] = panel.solved.head.T
+            table[2:, k, 1:] = panel.largest_feet, panel.feet_beside_posts
+    return CasePulls((table[0], table[1]), table[2], table[3])
 
 
 _NET = "signed foot"
@@ -61,65 +98,94 @@ _IN_PANEL = {name_in_panel(member): member for member in CARRYING_MEMBERS}
 
 
 def read_signed(
-    result: CaseResult, layouts: Sequence[SupportLayout]
-) -> dict[str, float] | None:
-    """Signed forces of a converged case by name [N]; None where a guy holds nothing.
+    results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
+) -> list[dict[str, float] | None]:
+    """Signed forces of cases by name [N]; None where a guy holds nothing.
 
     A guy along the post holds nothing sideways: there the members themselves have to
     be searched. Those by the panel between posts stand behind those of the section.
-    Each is the largest on any of the layouts.
+    Each is the largest on any of the layouts. None of a case that failed, too.
     """
-    solution, anchors = result.solution, result.anchors
-    if solution is None or anchors is None:
-        return None
-    width, head = layouts[0].post_spacing, solution.head_point
-    pulls = np.array([(solution.head.x * width, solution.head.y * width)])
-    feet = np.array([anchors.foot_anchor.size])
-    panels = result.panel if isinstance(result.panel, PanelForces) else None
-    if panels:
-        pulls = np.concatenate([pulls, panels.solved.head])
-        feet = np.append(feet, panels.largest_feet)
-    signed = _find_signed((pulls[:, 0], pulls[:, 1]), feet, spread_ends(layouts, head))
-    if signed is None:
-        return None
-    largest = {name: values.max(axis=0) for name, values in signed.items()}
-    of_section = {name: float(values[0]) for name, values in largest.items()}
-    if not panels:
-        return of_section
-    return of_section | {
-        name_in_panel(name): float(values[1:].max()) for name, values in largest.items()
-    }
+    width = layouts[0].post_spacing
+
+    def find(solved: Sequence[CaseResult]) -> dict[str, Floats] | None:
+        pulls = gather_pulls(solved, width)
+        signed = _find_signed(pulls.head, pulls.feet, spread_ends(layouts, solved))
+        if signed is None:
+            return None
+        largest = {name: values.max(axis=0) for name, values in signed.items()}
+        return {name: values[:, 0] for name, values in largest.items()} | {
+            name_in_panel(name): values[:, 1:].max(axis=1, initial=-np.inf)
+            for name, values in largest.items()
+        }
+
+    return _read_each(results, find)
 
 
 def read_signed_errors(
-    result: CaseResult, layouts: Sequence[SupportLayout]
-) -> dict[str, float] | None:
+    results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
+) -> list[dict[str, float] | None]:
     """Numerical errors of the forces that ``read_signed`` gives [N]."""
-    solution = result.solution
-    if solution is None or result.anchors is None:
-        return None
-    width, ends = layouts[0].post_spacing, spread_ends(layouts, solution.head_point)
-    foot, head = solution.foot.error, solution.head.error
-    errors = _find_errors(foot * width, head * width, ends)
-    if errors is None or not isinstance(result.panel, PanelForces):
-        return errors
-    largest = float(result.panel.brought.error.max()) * width
-    beside = _find_errors(largest, largest, ends) or {}
-    return errors | {name_in_panel(name): error for name, error in beside.items()}
+    width = layouts[0].post_spacing
+
+    def find(solved: Sequence[CaseResult]) -> dict[str, Floats] | None:
+        states = [result.solution for result in solved if result.solution]
+        own = np.array([(state.foot.error, state.head.error) for state in states])
+        panels = (result.panel for result in solved)
+        errors = (
+            x.brought.error if isinstance(x, PanelForces) else 0.0 for x in panels
+        )
+        by_panels = np.array([np.max(error) for error in errors])
+        ends = spread_ends(layouts, solved)
+        by_section = _find_errors(width * own[:, 0], width * own[:, 1], ends)
+        by_panel = _find_errors(width * by_panels, width * by_panels, ends)
+        if by_section is None or by_panel is None:
+            return None
+        return by_section | {name_in_panel(name): x for name, x in by_panel.items()}
+
+    return _read_each(results, find)
 
 
-def _find_errors(foot: float, head: float, ends: Ends) -> dict[str, float] | None:
+def _read_each(
+    results: Sequence[CaseResult],
+    find: Callable[[Sequence[CaseResult]], dict[str, Floats] | None],
+) -> list[dict[str, float] | None]:
+    """What is found of all solved cases, case by case; where not of all, of each alone.
+
+    What is found by the panel is left out where a case has none.
+    """
+    read: list[dict[str, float] | None] = [None] * len(results)
+    places = [k for k, x in enumerate(results) if x.anchors and x.solution]
+    groups = [places] if places else []
+    while groups:
+        group = groups.pop()
+        found = find([results[k] for k in group])
+        if found is None:
+            groups += [[k] for k in group] if len(group) > 1 else []
+            continue
+        lines = np.array(list(found.values())).T.tolist()
+        for k, line in zip(group, lines, strict=True):
+            has_panel = isinstance(results[k].panel, PanelForces)
+            names = found if has_panel else list(found)[: len(found) // 2]
+            read[k] = dict(zip(names, line, strict=False))
+    return read
+
+
+def _find_errors(foot: Floats, head: Floats, ends: Ends) -> dict[str, Floats] | None:
     """Errors of signed forces from those of foot and head on the worst support [N].
 
     They are linear in these: what an error of each component causes is added, as in
     the bands of the members.
     """
-    across, along, at_foot = np.diag((head, head, foot))[:, None]
+    none = 0.0 * foot
+    across, along, at_foot = np.array(
+        [(head, none, none), (none, head, none), (none, none, foot)]
+    ).swapaxes(1, 2)
     caused = _find_signed((across, along), at_foot, ends)
     if caused is None:
         return None
     return {
-        name: float(np.abs(each).sum(axis=1).max()) for name, each in caused.items()
+        name: np.abs(each).sum(axis=-1).max(axis=0) for name, each in caused.items()
     }
 
 

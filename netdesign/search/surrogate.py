@@ -69,7 +69,7 @@ class Surrogate:
     axis_weights: Floats
     doubts: Floats
     _inverse: Floats
-    _trend: Floats
+    _trend_of_cases: Floats
     _trend_covariance: Floats
     _trend_weights: Floats
     _weights: Floats
@@ -87,15 +87,16 @@ class Surrogate:
         trend = _build_trend(at)
         mean = trend @ self._trend_weights[:, chosen] + near @ self._weights[:, chosen]
         carried = near @ self._inverse
-        lack = trend - carried @ self._trend
+        lack = trend - near @ self._trend_of_cases.T
+        in_trend = lack @ self._trend_covariance
         variance = (
             1.0
-            - np.sum(carried * near, axis=1)
-            + np.sum((lack @ self._trend_covariance) * lack, axis=1)
+            - np.einsum("ij,ij->i", carried, near)
+            + np.einsum("ij,ij->i", in_trend, lack)
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
         scale = self._fade(distances, self.scores[:, chosen])
-        sway = self._find_sway(near, lack, self.doubts[:, chosen])
+        sway = self._find_sway(carried, in_trend, self.doubts[:, chosen])
         return Prediction(mean=mean, standard_error=scale * spread[:, None], sway=sway)
 
     def _measure(self, at: Floats) -> Floats:
@@ -103,33 +104,32 @@ class Surrogate:
         weights = self.axis_weights
         return measure_distances(at * weights, self.places * weights)
 
-    def _find_sway(self, near: Floats, lack: Floats, doubts: Floats) -> Floats:
+    def _find_sway(self, carried: Floats, in_trend: Floats, doubts: Floats) -> Floats:
         """Most by which errors of the values move the mean, eq. (M3a)."""
-        errs = doubts.any(axis=1)
-        if not errs.any():
-            return np.zeros((len(near), doubts.shape[1]))
-        by_trend = self._trend_covariance @ (self._trend.T @ self._inverse[:, errs])
-        shares = near @ self._inverse[:, errs] + lack @ by_trend
-        result: Floats = np.abs(shares) @ doubts[errs]
+        if not doubts.any():
+            return np.zeros((len(carried), doubts.shape[1]))
+        shares = carried + in_trend @ self._trend_of_cases
+        result: Floats = np.abs(shares, out=shares) @ doubts
         return result
 
     def _fade(self, distances: Floats, scores: Floats) -> Floats:
         """Largest held-out score around each place, eq. (M5)."""
         far = FAR_SHARE * np.minimum(1.0, self.spacings / REACH) ** _ROUGHNESS
         everywhere = np.max(scores * far[:, None], axis=0)
-        counts = scores > everywhere  # no other case says more anywhere
-        marked = counts.any(axis=1)
-        apart = np.ascontiguousarray(distances[:, marked].T)
+        over = (scores / np.maximum(everywhere, np.finfo(float).tiny)).max(axis=1)
+        # further away no score of a case says more than what counts everywhere
+        furthest = REACH * np.sqrt(np.log(np.maximum(over, 1.0)))
+        place, case = np.nonzero(distances < furthest)
+        apart = distances[place, case]
         with np.errstate(divide="ignore"):
-            rough = np.minimum(1.0, self.spacings[marked, None] / apart) ** _ROUGHNESS
+            rough = np.minimum(1.0, self.spacings[case] / apart) ** _ROUGHNESS
         near = rough * np.exp(-((apart / REACH) ** 2))
-        each = [
-            np.max(near[own] * score[own, None], axis=0, initial=least)
-            for own, score, least in zip(
-                counts[marked].T, scores[marked].T, everywhere, strict=True
-            )
-        ]
-        return np.stack(each, axis=1)
+        scale = np.tile(everywhere, (len(distances), 1))
+        firsts = np.flatnonzero(np.diff(place, prepend=-1))
+        if len(firsts):
+            largest = np.maximum.reduceat(near[:, None] * scores[case], firsts)
+            scale[place[firsts]] = np.maximum(scale[place[firsts]], largest)
+        return scale
 
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
@@ -195,7 +195,7 @@ def fit_surrogate(
         axis_weights=weights,
         doubts=np.zeros_like(values) if doubts is None else doubts,
         _inverse=inverse,
-        _trend=trend,
+        _trend_of_cases=carried.T,
         _trend_covariance=covariance,
         _trend_weights=trend_weights,
         _weights=case_weights,

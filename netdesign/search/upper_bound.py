@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.numerics.optimise import find_distinct
 from netdesign.search.surrogate import REACH, Point, Surrogate, measure_distances
 
@@ -114,12 +114,15 @@ def bound_quantities(
     """
     asked = list(watched)
     around = np.array([model.places[np.argmax(column)] for column in values.T])
-    looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
+    nearby = np.concatenate([*map(_surround, np.unique(around, axis=0))])
+    distinct, place = find_distinct(nearby)  # at the walls many are one
+    every = np.append(np.arange(len(lattice)), len(lattice) + place)
+    looked_at = np.concatenate([lattice, nearby])
 
     reach = _build_reach(model, asked, tolerance, certainty, inflations)
-    allowed = reach(looked_at)
+    allowed = reach(np.concatenate([lattice, distinct]))[every]
     upper = allowed.max(axis=0)
-    order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in asked}
+    order = {q: _list_highest(allowed[:, q]) for q in asked}
     starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
     climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
     wanted: list[tuple[float, Point, int]] = []
@@ -146,6 +149,14 @@ def bound_quantities(
     )
 
 
+def _list_highest(values: Floats) -> Ints:
+    """Places of the highest of some values, in their order."""
+    count = min(_WANTED, len(values))
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    places = np.flatnonzero(values >= least)
+    return places[np.argsort(-values[places], kind="stable")[:count]]
+
+
 def _build_reach(
     model: Surrogate,
     asked: list[int],
@@ -157,7 +168,7 @@ def _build_reach(
 
     def reach(at: Floats) -> Floats:
         mean, standard_error, sway = model.predict(at, asked)
-        factor = _inflate(at, inflations, len(tolerance))[:, asked]
+        factor = _inflate(at, inflations, asked)
         result: Floats = np.full((len(at), len(tolerance)), np.inf)
         likely = mean + certainty * factor * standard_error
         result[:, asked] = likely + sway + NOISE * tolerance[asked]
@@ -180,13 +191,14 @@ def _settle(places: Floats) -> list[Point]:
     return [tuple(place) for place in (np.round(places / GRAIN) * GRAIN).tolist()]
 
 
-def _inflate(at: Floats, inflations: Sequence[Inflation], quantities: int) -> Floats:
-    """Factor of the standard error at some places, shape (m, quantities) [-]."""
-    factor = np.ones((len(at), quantities))
+def _inflate(at: Floats, inflations: Sequence[Inflation], asked: list[int]) -> Floats:
+    """Factor of the standard error of some quantities at places, (m, asked) [-]."""
+    factor = np.ones((len(at), len(asked)))
     for inflation in inflations:
         distance = np.linalg.norm(at - inflation.place, axis=1)
         share = np.exp(-((distance / REACH) ** 2))[:, None]
-        factor = np.maximum(factor, 1.0 + share * (inflation.ratio - 1.0))
+        wider = 1.0 + share * (inflation.ratio[asked] - 1.0)
+        np.maximum(factor, wider, out=factor)
     return factor
 
 

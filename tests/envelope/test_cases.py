@@ -158,8 +158,8 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
 def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
     rng = np.random.default_rng(seed)
     result = solve_case(build_point_task(TASK, tuple(rng.uniform(size=2).tolist())))
-    errors = read_signed_errors(result, [LAYOUT])
-    before = read_signed(result, [LAYOUT])
+    (errors,) = read_signed_errors([result], [LAYOUT])
+    (before,) = read_signed([result], [LAYOUT])
     state, angle = result.solution, rng.uniform(0.0, 2.0 * math.pi)
     shift = np.array([math.cos(angle), math.sin(angle)]) * state.head.error
     moved = replace(
@@ -170,7 +170,7 @@ def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
             error=state.head.error,
         ),
     )
-    after = read_signed(replace(result, solution=moved), [LAYOUT])
+    (after,) = read_signed([replace(result, solution=moved)], [LAYOUT])
     changes = {name: abs(after[name] - before[name]) for name in before}
     assert any(change > 0.1 * errors[name] for name, change in changes.items())
     for name, change in changes.items():

@@ -91,8 +91,8 @@ def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
 @pytest.mark.parametrize("read", [read_signed, read_signed_errors])
 def test_signed_forces_are_the_largest_on_any_layout(read, panels):
     case = draw_case(11)
-    together = read(solve(case, LAYOUTS, panels), LAYOUTS)
-    alone = [read(solve(case, [one], panels), [one]) for one in LAYOUTS]
+    (together,) = read([solve(case, LAYOUTS, panels)], LAYOUTS)
+    alone = [read([solve(case, [one], panels)], [one])[0] for one in LAYOUTS]
     for name, value in together.items():
         assert value == pytest.approx(max(one[name] for one in alone), rel=1e-9)
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from netdesign.checks import Band
+from netdesign.coupling.solution import EndPull
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS, bound_lifted
 from netdesign.envelope.run import CaseResult
@@ -52,7 +53,11 @@ def give_pull(pull):
         outcome=Outcome.CONVERGED,
         member_forces={k: Band(low=v, value=v, high=v) for k, v in forces.items()},
         anchors=anchors,
-        solution=SimpleNamespace(head_point=HEAD),
+        solution=SimpleNamespace(
+            head_point=HEAD,
+            foot=EndPull(x=1e4, y=1e4, error=0.0),
+            head=EndPull(x=pull[0], y=pull[1], error=0.0),
+        ),
     )
 
 
