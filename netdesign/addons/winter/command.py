@@ -180,7 +180,6 @@ def _solve(
         ],
         is_smoothed=asked["median"],
         accuracy=asked["accuracy"],
-        step=asked["every"],
     )
 
 
@@ -193,7 +192,7 @@ def _show(document: dict[str, Any]) -> None:
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"])
         if row["snow_heights"]:
-            tell(row["snow_heights"]["text"])
+            tell(row["snow_heights"])
         for message in _list_statistics(row):
             tell(message)
 

@@ -85,8 +85,6 @@ def _write_computed(day: ComputedForce, series: HeightSeries) -> dict[str, Any]:
         "force_kN": kilonewton_from_newton(day.force.value),
         "low_kN": kilonewton_from_newton(max(0.0, day.force.low - day.swing)),
         "high_kN": kilonewton_from_newton(day.force.high + day.swing),
-        "rope_swing_kN": kilonewton_from_newton(day.swing),
-        "temperature_amplitude_K": day.amplitude,
     }
 
 
@@ -115,8 +113,6 @@ class WinterRun:
         Heights are medians of three days.
     accuracy : float
         Of each solve [-].
-    step : int
-        Days between those of a curve.
     """
 
     site: Site
@@ -127,7 +123,6 @@ class WinterRun:
     compared: Sequence[Sequence[Comparison]]
     is_smoothed: bool
     accuracy: float
-    step: int
 
 
 def write_winter_document(run: WinterRun) -> dict[str, Any]:
@@ -151,12 +146,10 @@ def write_winter_document(run: WinterRun) -> dict[str, Any]:
             "height_factor_given": station.height_factor is not None,
             "first_day": series.first_day.isoformat(),
             "last_day": series.days[-1].isoformat(),
-            "days_filled": len(series.filled),
             "is_smoothed": run.is_smoothed,
         },
         "model": run.results[0].model if run.results else "",
         "accuracy": run.accuracy,
-        "days_between": run.step,
         "check_density_kg_m3": [density.low, density.high],
         "ranges_sheet": run.site.ranges_sheet,
         "notes": [str(note) for note in station.notes],
@@ -192,8 +185,10 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
             "complete": maximum.winter in complete,
             "is_below_largest": (maximum.bound or math.inf) <= max(proven, default=0.0),
             "models": {
-                name: _write_maximum(group, maximum.winter, run)
+                name: _write_uniform(other)
                 for name, group in result.others.items()
+                for other in group
+                if other.winter == maximum.winter
             },
         }
         for maximum in result.maxima
@@ -213,7 +208,6 @@ def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, 
         "winters": winters,
         "statistics": _write_statistics(result.sample.fit),
         "statistics_notes": [str(note) for note in _note_sample(result.sample)],
-        "winters_left_out": result.sample.left_out,
         "equivalent_density": _write_range(result, run),
         "snow_heights": _write_heights(row, winters, run),
         "fit": None,  # of the schema: forces are no longer fitted
@@ -228,7 +222,6 @@ def _write_winter(
 ) -> dict[str, Any]:
     series = run.winter.series
     highest = max(packs, key=lambda k: packs[k].height)
-    heaviest = max(packs, key=lambda k: packs[k].mass)
     governing = season.governing if season else None
     index = governing.index if governing else maximum.index
     uniform = maximum.foot if maximum.has_pull else None
@@ -247,41 +240,27 @@ def _write_winter(
         "height_max_m": packs[highest].height,
         "height_max_date": series.day(highest).isoformat(),
         "height_max_density_kg_m3": packs[highest].density,
-        "swe_max_kg_m2": packs[heaviest].mass,
-        "swe_max_date": series.day(heaviest).isoformat(),
+        "swe_max_kg_m2": max(pack.mass for pack in packs.values()),
         "governing_date": series.day(index).isoformat() if index is not None else None,
         "governing_height_m": packs[index].height if index is not None else None,
         "governing_density_kg_m3": packs[index].density if index is not None else None,
         "foot_peak_kN_per_m": kilonewton_if_known(foot),
         "head_peak_kN_per_m": kilonewton_if_known(head),
         "members_peak_kN": _largest_members(curve),
-        "uniform_peak_kN_per_m": kilonewton_if_known(uniform),
-        "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
         "foot_at_height_max_kN_per_m": kilonewton_if_known(at_highest),
         "equivalent_density_kg_m3": (season or maximum).equivalent_density,
-        "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
         "days_above_90_percent": season.high_days if season else None,
         "days_without_force": len(season.failed) if season else None,
         "curve": [_write_day(day, packs, run) for day in curve],
-    }
+    } | _write_uniform(maximum)
 
 
-def _write_maximum(
-    group: Sequence[AnnualMaximum], winter: str, run: WinterRun
-) -> dict[str, Any] | None:
-    """Annual maximum of the same winter by another settling model."""
-    maximum = next((annual for annual in group if annual.winter == winter), None)
-    if maximum is None:
-        return None
-    day = run.winter.series.day(maximum.index) if maximum.index is not None else None
+def _write_uniform(maximum: AnnualMaximum) -> dict[str, Any]:
+    """Annual maximum of uniform snow, or its bound."""
+    pull = maximum.foot if maximum.has_pull else None
     return {
-        "outcome": maximum.ending.replace(" ", "_"),
-        "uniform_peak_kN_per_m": kilonewton_if_known(
-            maximum.foot if maximum.has_pull else None
-        ),
+        "uniform_peak_kN_per_m": kilonewton_if_known(pull),
         "uniform_at_most_kN_per_m": kilonewton_if_known(maximum.bound),
-        "date": day.isoformat() if day else None,
-        "density_kg_m3": maximum.density,
         "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
     }
 
@@ -293,7 +272,6 @@ def _write_day(
         "date": run.winter.series.day(day.index).isoformat(),
         "outcome": day.ending,
         "reason": str(day.reason or ""),
-        "station_height_m": packs[day.index].height,
         "swe_kg_m2": packs[day.index].mass,
         "thickness_m": day.thickness,
         "density_kg_m3": day.density,
@@ -330,7 +308,6 @@ def _write_statistics(fit: Gumbel | LimitedGumbel | None) -> dict[str, Any] | No
     return {
         "distribution": _LIMITED if limit else "Gumbel, by moments",
         "winters": fit.count,
-        "winters_below": fit.below if isinstance(fit, LimitedGumbel) else 0,
         "limit_kN_per_m": kilonewton_if_known(limit),
         "mean_kN_per_m": kilonewton_from_newton(fit.mean),
         "variation": fit.variation,
@@ -403,7 +380,7 @@ RELIABILITY_PERIOD = 1000.0  # [a], near the indices of a notional reliability
 
 def _write_heights(
     row: WinterRow, winters: Sequence[Mapping[str, Any]], run: WinterRun
-) -> dict[str, Any] | None:
+) -> str | None:
     """Annual maxima of the snow height at a row, as sheet Uncertainty takes them."""
     heights = [
         row.height_factor * winter["height_max_m"]
@@ -425,14 +402,7 @@ def _write_heights(
         ratio=ratio,
         sheet=say("sheet.Uncertainty"),
     )
-    return {
-        "winters": fit.count,
-        "mean_m": fit.mean,
-        "variation": fit.variation,
-        "predictive_variation": variation,
-        "mean_ratio": ratio,
-        "text": str(text),
-    }
+    return str(text)
 
 
 def _name_source(run: WinterRun) -> str:

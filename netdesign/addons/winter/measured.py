@@ -122,8 +122,6 @@ class ComputedForce:
         Of the steady state, with its numerical band [N].
     swing : float
         Amplitude by which the ropes' temperature moves it [N].
-    amplitude : float
-        Of the temperature [K].
     is_assumed : bool
         No temperature is known near that day.
     """
@@ -131,7 +129,6 @@ class ComputedForce:
     index: int
     force: Band
     swing: float
-    amplitude: float
     is_assumed: bool
 
 
@@ -221,7 +218,7 @@ def _compute(
     if day.ending in ("bare", "thin"):
         nothing = Band(low=0.0, value=0.0, high=0.0)
         return ComputedForce(
-            index=day.index, force=nothing, swing=0.0, amplitude=0.0, is_assumed=False
+            index=day.index, force=nothing, swing=0.0, is_assumed=False
         )
     force, pull = day.member_forces.get(member), day.head
     if member == "foot_anchor":
@@ -236,7 +233,6 @@ def _compute(
         index=day.index,
         force=force,
         swing=share * force.value,
-        amplitude=amplitude,
         is_assumed=half_range is None,
     )
 

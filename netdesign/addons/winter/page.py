@@ -251,14 +251,16 @@ def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
 
 def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
     """Annual maximum of uniform snow by each settling model."""
-    others = list(row["winters"][0]["models"]) if row["winters"] else []
+    others = list(
+        dict.fromkeys(m for winter in row["winters"] for m in winter["models"])
+    )
     names = [model, *others]
     headings = [words("winter_column.winter")]
     headings += [words("winter_page.pull_by", model=name) for name in names]
     headings += [words("winter_page.density_by", model=name) for name in names]
     rows = []
     for winter in row["winters"]:
-        every = [winter, *(winter["models"][name] or {} for name in others)]
+        every = [winter, *(winter["models"].get(name, {}) for name in others)]
         rows.append(
             (
                 _unbroken(winter["name"]),
@@ -285,7 +287,7 @@ def _show_statistics(row: Mapping[str, Any], words: Words) -> Iterator[Block]:
         yield notes(*remarks, look="notes open")
     yield from _compare_tails(statistics or {"return_values": ()}, words)
     if row["snow_heights"]:
-        yield Paragraph(text=show_text(row["snow_heights"]["text"]))
+        yield Paragraph(text=show_text(row["snow_heights"]))
 
 
 def _tabulate_statistics(statistics: Mapping[str, Any], words: Words) -> Table:

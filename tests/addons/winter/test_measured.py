@@ -82,7 +82,6 @@ def test_band_is_the_numerical_one_and_the_swing_of_the_ropes():
     season = a_season(a_day(5, 20e3), a_day(20, 20e3))
     compared = compare(readings((5.5, 70e3)), season, a_series(warmth))
     cold, level = compared.computed
-    assert (cold.amplitude, level.amplitude) == (4.0, 0.0)
     snow = replace(ROW.scene.snowpack, thickness=1.9, density=310.0, layers=())
     swing = find_swing(replace(ROW.scene, snowpack=snow), 4.0)
     assert cold.swing == pytest.approx(3.5 * swing, rel=1e-9)
