@@ -146,13 +146,6 @@ def _list_snow(packs: Mapping[int, DayPack]) -> dict[int, DayPack]:
     return {k: pack for k, pack in packs.items() if pack.heights.size}
 
 
-def find_maximum_alone(
-    winter: str, packs: Mapping[int, DayPack], solver: DaySolver
-) -> AnnualMaximum:
-    """Annual maximum by as few solves as do, as of `find_annual_maximum`."""
-    return find_annual_maximum(winter, packs, solver, is_alone=True)[0]
-
-
 def _solve_heaviest(
     days: Sequence[RowDay], solver: DaySolver, read: Sequence[RowDay] = ()
 ) -> tuple[RowDay, ...]:

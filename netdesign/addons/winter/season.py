@@ -19,7 +19,6 @@ from netdesign.addons.winter.maxima import (
     find_equivalent,
     find_largest,
     find_many_maxima,
-    find_maximum_alone,
 )
 from netdesign.addons.winter.settling import (
     DayPack,
@@ -405,7 +404,8 @@ def follow_winters(
         for model in rest:
             winters = station.packs[model].items()
             maxima[model] = tuple(
-                find_maximum_alone(*winter, solver) for winter in winters
+                find_annual_maximum(*winter, solver, is_alone=True)[0]
+                for winter in winters
             )
         maxima[chosen] = tuple(season.maximum for season in seasons)
     sample = choose_sample(maxima[chosen], list_complete(station.series))

@@ -10,7 +10,6 @@ from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.maxima import (
     find_annual_maximum,
     find_bound,
-    find_maximum_alone,
 )
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.snow.ground import GroundLaw
@@ -86,7 +85,7 @@ def test_a_maximum_alone_takes_fewer_solves_and_is_the_same(kind):
         packs = dict(enumerate(follow_heights(heights, DELTA_SNOW)))
         (every, all_days), (few, some_days) = (count_solves(solver) for _ in range(2))
         truth, _ = find_annual_maximum("2001/2002", packs, every)
-        found = find_maximum_alone("2001/2002", packs, few)
+        found, _ = find_annual_maximum("2001/2002", packs, few, is_alone=True)
         assert found.ending == truth.ending
         if truth.is_proven and truth.index is not None:
             accuracy = solver.settings.accuracy
@@ -134,7 +133,8 @@ def compare(base, solver, rng):
     truth, _ = find_annual_maximum("2001/2002", packs, solver)
     hiding = hide_thin(base, solver, rng.uniform(0.3, 1.6))
     found, _ = find_annual_maximum("2001/2002", packs, hiding)
-    for one in (found, find_maximum_alone("2001/2002", packs, hiding)):
+    alone, _ = find_annual_maximum("2001/2002", packs, hiding, is_alone=True)
+    for one in (found, alone):
         if one.is_proven:
             assert one.foot == pytest.approx(truth.foot)
         else:
