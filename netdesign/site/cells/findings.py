@@ -17,6 +17,7 @@ _LONGEST_QUOTE = 60
 _ALIKE = (
     "number.ambiguous",
     "type.governs",
+    "list_map.unanswered",
 )  # rules that repeat the text of their cell
 _MOST = 12  # alike, named after the first
 
@@ -126,7 +127,8 @@ def _describe_alike(findings: list[Finding]) -> Message:
     if not others:
         return first.message
     shown = [
-        f"{one.cell} {quote(one.text)}" if one.text else one.cell or one.sheet
+        " ".join(filter(None, (one.cell, quote(one.text) if one.text else "")))
+        or one.sheet
         for one in others
     ]
     return say("finding.likewise", line=first.message, others=shorten(shown, _MOST))

@@ -17,11 +17,16 @@ from netdesign.edge.input_files import (
 from netdesign.edge.input_files import explain as explain_cause
 from netdesign.outcome import ContentError, SiteDataError
 from netdesign.site.cells.cells import Answers, TextFormat, Workbook
-from netdesign.site.cells.findings import Finding, quote, refuse_file
+from netdesign.site.cells.findings import (
+    Finding,
+    fold_findings,
+    quote,
+    refuse_file,
+)
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import UNANSWERED
 from netdesign.site.columns.office import is_heading
-from netdesign.site.lists.targets import Answer, find_table, read_answer
+from netdesign.site.lists.targets import find_table, read_answer
 from netdesign.site.titles import MARKS, name_map
 from netdesign.words.message import Message, say
 
@@ -54,11 +59,6 @@ class ListTable:
     headings: Mapping[str, str] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
     always: Mapping[str, str] = field(default_factory=dict)
-
-    def read(self, heading: str) -> Answer | None:
-        """Answer to a heading; None where there is none."""
-        text = self.headings.get(heading)
-        return None if text is None else read_answer(text, self.becomes)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +117,7 @@ def require_answered(found: ListMap) -> None:
     """
     findings = [one for table in found.tables for one in _judge(found, table)]
     if findings:
-        raise SiteDataError(findings)
+        raise SiteDataError(findings, fold_findings(findings))
 
 
 def _judge(found: ListMap, table: ListTable) -> Iterator[Finding]:

@@ -134,6 +134,20 @@ def test_answers_are_kept_when_it_is_mapped_again(office, tmp_path):
     assert read_list_map(path).tables == before.tables
 
 
+@pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
+def test_answers_that_are_missing_are_named_in_a_line_a_sheet(office, tmp_path):
+    path = office.write(tmp_path)
+    text, missing = write_list_map(path, UNDECLARED, office.language)
+    name_map(path).write_text(text, encoding="utf-8")
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    names = [one.text for one in refused.value.findings]
+    assert len(names) == missing
+    told = str(refused.value)
+    assert len(told.splitlines()) <= len(office.sheets)
+    assert sum(f'"{name}"' in told for name in names[:12]) == len(names[:12])
+
+
 def spoil(path, old, new):
     place = name_map(path)
     text = place.read_text(encoding="utf-8")
