@@ -142,8 +142,11 @@ def is_open(line: str) -> bool:
 
 
 def is_own_list(path: Path, text_format: TextFormat) -> bool:
-    """A workbook is an office's own: few of its headings are those of a template."""
+    """A workbook is an office's own: it lacks sheets or most headings of a template."""
     workbook = read_list(path, text_format)
+    for plan in map(load_plan, ("rows", "net_types")):
+        if not any(plan.matches(sheet.name) for sheet in workbook.sheets):
+            return True
     counts = [_count_of_template(sheet) for sheet in workbook.sheets]
     known, every = (sum(one) for one in zip(*counts, strict=True)) if counts else (0, 0)
     return 2 * known < every

@@ -22,6 +22,7 @@ from netdesign.site.titles import find_heading_unit, is_unit, read_unit
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
+_SLOPE = ("rows", "slope_angle")
 _COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -201,7 +202,7 @@ def _make_sheets(mapped: MappedSheet) -> Iterator[Sheet]:
             mapped.sheet,
             name=load_plan(table).name_in("en"),
             rows=rows,
-            merged=(),
+            merged=tuple(x for x in mapped.sheet.merged if x.row > mapped.table.line),
             words=mapped.table.words,
             answered_in=mapped.file,
         )
@@ -255,7 +256,7 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
     """Name of the net of each line: as typed, or made of what is said of the net."""
     own = mapped.find("rows", "net_type")
     nets = [one for one in mapped.columns if one.target.table == "net_types"]
-    height = mapped.find("net_types", "net_height")
+    height, slope = mapped.find("net_types", "net_height"), mapped.find(*_SLOPE)
     named: dict[tuple[str, ...], str] = {}
     names: dict[int, Cell] = {}
     for line in mapped.lines:
@@ -265,7 +266,9 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
         elif height is not None:
             cell = mapped.sheet.cell(line, height.number)
             values = tuple(mapped.sheet.cell(line, x.number).text.strip() for x in nets)
-            if cell.is_blank:
+            # neither a line of sums nor an empty one has a net whose height is missing
+            if cell.is_blank and (not slope or _is_blank(mapped, line, slope)):
+                names[line] = cell
                 continue
             if values not in named:
                 stem = f"D_K {cell.text.strip()}"
@@ -273,6 +276,10 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
                 named[values] = f"{stem} {_LETTERS[count]}" if count else stem
             names[line] = replace(cell, value=named[values], formula="")
     return names
+
+
+def _is_blank(mapped: MappedSheet, line: int, column: MappedColumn) -> bool:
+    return mapped.sheet.cell(line, column.number).is_blank
 
 
 def _name_in_rows(
@@ -310,7 +317,7 @@ def _keep_nets(
     kept = {line: {**rows[line], number: _head(mapped, "net_types", "id", number)}}
     seen = set()
     for row, cells in rows.items():
-        if row == line or row not in names:
+        if row == line or row not in names or names[row].is_blank:
             continue
         said = (names[row].text.strip(), *(one.text.strip() for one in cells.values()))
         if said not in seen:

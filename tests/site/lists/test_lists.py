@@ -4,14 +4,16 @@ import math
 import random
 from dataclasses import replace
 
+import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.cells import UNDECLARED
-from netdesign.site.lists.ask import write_list_map
+from netdesign.site.cells.cells import UNDECLARED, name_column
+from netdesign.site.lists.ask import is_own_list, write_list_map
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import read_list, read_list_map
 from netdesign.site.reader import read_site
+from netdesign.site.template.example import write_site_workbook
 from netdesign.site.titles import name_map
 from tests.site.lists.answer import answer_list
 from tests.site.lists.offices import CONSULTANT, GRISONS, OFFICES, TYROL, VALAIS
@@ -146,6 +148,63 @@ def test_answers_that_are_missing_are_named_in_a_line_a_sheet(office, tmp_path):
     told = str(refused.value)
     assert len(told.splitlines()) <= len(office.sheets)
     assert sum(f'"{name}"' in told for name in names[:12]) == len(names[:12])
+
+
+BOOKS = [one for one in OFFICES if one.file.endswith(".xlsx")]
+
+
+def find_cell(office, path, meaning, line):
+    """Address of a cell in a line of the first sheet, from 0."""
+    (sheet, *_), table = office.sheets, read_list_map(path).tables[0]
+    column = 1 + list(sheet.headings.values()).index(meaning)
+    row = table.line + bool(sheet.units) + 1 + line
+    return f"{name_column(column)}{row}"
+
+
+@pytest.mark.parametrize("office", BOOKS, ids=lambda one: one.file)
+@pytest.mark.parametrize("meaning", ["rows.altitude", "rows.glide_factor"])
+def test_cells_merged_over_lines_are_refused_by_their_range(office, meaning, tmp_path):
+    path = office.write(tmp_path)
+    answer_list(office, path)
+    first, last = (find_cell(office, path, meaning, line) for line in (1, 2))
+    book = openpyxl.load_workbook(path)
+    book.worksheets[0].merge_cells(f"{first}:{last}")
+    book.save(path)
+    with pytest.raises(SiteDataError, match=f"{first}:{last}"):
+        read_site(path)
+
+
+@pytest.mark.parametrize("meaning", ["rows.slope_angle", "net_types.net_height"])
+def test_a_needed_cell_that_is_empty_is_named(meaning, tmp_path):
+    sheet = TYROL.sheets[0]
+    place = list(sheet.headings.values()).index(meaning)
+    named = list(sheet.headings.values()).index("rows.net_type")
+    lines = [list(one) for one in sheet.lines]
+    for line in lines:
+        line[named] = None
+    lines[2][place] = None
+    office = replace(TYROL, sheets=(replace(sheet, lines=lines), *TYROL.sheets[1:]))
+    path = office.write(tmp_path)
+    answer_list(office, path)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    faults = [one for one in refused.value.findings if one.severity == "error"]
+    places = {(one.sheet, one.cell) for one in faults}
+    assert places == {(sheet.name, find_cell(office, path, meaning, 2))}
+
+
+@pytest.mark.parametrize("language", ["en", "fr", "de"])
+def test_a_list_with_the_headings_of_the_template_and_other_sheets_is_mapped(
+    language, tmp_path
+):
+    """What tells to map it would otherwise be told that nothing is to be mapped."""
+    path = tmp_path / "site.xlsx"
+    write_site_workbook(path, example=True, language=language)
+    assert not is_own_list(path, UNDECLARED)
+    book = openpyxl.load_workbook(path)
+    book.worksheets[1].title = "Liste 2026"
+    book.save(path)
+    assert is_own_list(path, UNDECLARED)
 
 
 def spoil(path, old, new):
