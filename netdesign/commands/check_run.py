@@ -64,7 +64,7 @@ def carry_out(
     run : CheckRun
         Settings, command line and time.
     outputs : Outputs
-        Places, language, extent and template of the reports.
+        Places, language and extent of the reports.
     read_instead : callable or None
         Gives the site with some cells replaced; None without ``--size``.
     asked : mapping

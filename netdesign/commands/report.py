@@ -45,46 +45,28 @@ def mark_names(
 def list_wanted(asked: Mapping[str, Any]) -> list[str]:
     """Names of the reports that the options of a command ask for.
 
-    A template alone is a wish for a document, too.
-
     Raises
     ------
     NetDesignError
         If one of them cannot be written on this machine.
     """
     wanted = {one: asked[one] for one in _REPORTS}
-    wanted["docx"] = wanted["docx"] or asked["template"] is not None
     if wanted["pdf"]:
         from netdesign.report.files import require_pdf
 
         require_pdf()
     if wanted["docx"]:
-        from netdesign.report.document.template import require_docx
+        from netdesign.report.document.styles import require_docx
 
         require_docx()
     return [name for one, name in _REPORTS.items() if wanted[one]]
 
 
 def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
-    """Style of the reports; reads the template before anything is solved.
-
-    Raises
-    ------
-    NetDesignError
-        If it is no document.
-    """
+    """Style of the reports."""
     from netdesign.report.files import ReportStyle
 
-    content: bytes | None = None
-    if asked["template"]:
-        from netdesign.report.document.template import read_template
-
-        content = read_template(asked["template"])
-    return ReportStyle(
-        language=asked["language"],
-        has_annexes=asked["annexes"],
-        template=content,
-    )
+    return ReportStyle(language=asked["language"], has_annexes=asked["annexes"])
 
 
 @click.command(cls=ShortHelpCommand)

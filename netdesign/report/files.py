@@ -29,7 +29,6 @@ class ReportStyle:
 
     language: Language = "en"
     has_annexes: bool = False
-    template: bytes | None = None  # docx that report.docx is written into
     is_verified: bool = False  # a stored study was solved again in this run
 
 
@@ -131,12 +130,12 @@ def _print_page(page: bytes) -> bytes:
 
 
 def _render_docx(study: Study, style: ReportStyle) -> bytes:
-    from netdesign.report.document.template import require_docx
+    from netdesign.report.document.styles import require_docx
     from netdesign.report.document.word import render_document
 
     require_docx()
     return render_document(
-        *(study, style.language, style.template),
+        *(study, style.language),
         has_annexes=style.has_annexes,
         is_verified=style.is_verified,
     )

@@ -1,1 +1,1 @@
-"""Report as a document of a word processor, in a company's own template."""
+"""Report as a document of a word processor."""

@@ -30,7 +30,6 @@ _SIGN = 0.57  # width of a sign in sizes of the font
 _LONGEST = 80  # signs of a cell that count for the width of its column
 _LONGEST_WORD = 22
 _CAPITAL = 0.35  # more than the width of another sign
-_WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
 _PART = "xxxxx"  # of a word of a heading that may stand alone
 # Looks that are bold in a document.
 _BESIDE = "beside"
@@ -203,7 +202,7 @@ def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
     wanted, _ = _measure_columns(grid, is_tight=True)
     headings = tuple((Piece(_PART),) for _ in grid.headings)
     least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
-    return [_WIDE_FONT * one for one in least], wanted
+    return least, wanted
 
 
 def _loosen(grid: Grid) -> Grid:

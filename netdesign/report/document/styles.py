@@ -1,10 +1,16 @@
-"""Styles of a document: those that the template has, ours for what it lacks."""
+"""Empty document in our look: paper, styles, properties; its bytes."""
 
 from __future__ import annotations
 
+import io
+import zipfile
+from datetime import datetime
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from docx.document import Document
@@ -26,74 +32,62 @@ _LOOKS: dict[str, tuple[float, bool, float, float, bool]] = {
     VERDICT: (16.0, True, 4.0, 3.0, True),
 }
 NAMES = (*_LOOKS, TABLE)
-_OWN = "netdesign"  # beginning of the names that are ours
+_NEEDED = ("docx", "PIL", "matplotlib")  # the last two for drawings without SVG
+_A4_MM = (210.0, 297.0)
+_MARGIN_MM, _UPRIGHT_MM, _EDGE_MM = 15.0, 12.0, 6.0
+_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+_MOST_SIGNS = 255  # of a property of a document
 _INK = "1B1E22"
 _FONT = "Arial"
 _LOCALES = {"en": "en-GB", "fr": "fr-FR", "de": "de-DE"}
 
 
-def add_missing(document: Document) -> None:
-    """Give a document each style that it lacks."""
-    for name in _LOOKS:
-        if _find(document, name) is None:
-            _shape(_add(document, name), name)
-    if _find(document, TABLE) is None:
-        _add_table_style(document)
+def require_docx() -> None:
+    """Refuse a wish for a document before anything is solved.
+
+    Raises
+    ------
+    OutputError
+        If a library is not installed: they are an extra, ``netdesign[docx]``.
+    """
+    if not all(map(find_spec, _NEEDED)):
+        raise OutputError(say("program.no_python_docx"))
 
 
-def _find(document: Document, name: str) -> Any:
-    """Style of a name; programs write those of Word in capitals or without."""
+def open_document(language: Language) -> Document:
+    """Empty document on A4 with our styles; its text is of a language."""
+    import docx
     from docx.enum.style import WD_STYLE_TYPE
 
-    kind = WD_STYLE_TYPE.TABLE if name == TABLE else WD_STYLE_TYPE.PARAGRAPH
-    wanted = {name.lower(), _name_own(name).lower()}
-    for style in document.styles:
-        if style.type == kind and str(style.name).lower() in wanted:
-            return style
-    return None
-
-
-def _add(document: Document, name: str) -> Any:
-    """New style of a paragraph, its name and id unlike those of any other one."""
-    from docx.enum.style import WD_STYLE_TYPE
-
-    known = {str(style.name).lower() for style in document.styles}
-    ids = {style.style_id for style in document.styles}
-    if name.lower() in known:  # it is one of letters, say
-        name = _name_own(name)
-    is_built_in = not name.startswith(_OWN)
-    kind = WD_STYLE_TYPE.PARAGRAPH
-    style: Any = document.styles.add_style(name, kind, builtin=is_built_in)
-    if style.style_id in ids:
-        style.element.styleId = _name_own(name).replace(" ", "")
-    return style
-
-
-def _name_own(name: str) -> str:
-    return name if name.startswith(_OWN) else f"{_OWN} {name}"
-
-
-def shape_all(document: Document) -> None:
-    """Our look for every style, in a document without a template."""
+    document = docx.Document()
+    _set_paper(document)
     for name in _LOOKS:
-        style = _find(document, name)
+        if name not in document.styles:
+            document.styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH)
+        style = document.styles[name]
         _shape(style, name)
         _set_font(style)
+    _add_table_style(document)
+    _set_language(document, language)
+    return document
 
 
-def find_id(document: Document, name: str) -> str:
-    """Id by which paragraphs and tables name a style."""
-    return str(_find(document, name).style_id)
+def _set_paper(document: Document) -> None:
+    from docx.shared import Mm
+
+    section = document.sections[0]
+    section.page_width, section.page_height = (Mm(side) for side in _A4_MM)
+    section.left_margin = section.right_margin = Mm(_MARGIN_MM)
+    section.top_margin = section.bottom_margin = Mm(_UPRIGHT_MM)
+    section.header_distance = section.footer_distance = Mm(_EDGE_MM)
 
 
-def set_language(document: Document, language: Language) -> None:
+def _set_language(document: Document, language: Language) -> None:
     """Language of all text, for spelling and for readers aloud."""
     from docx.oxml import OxmlElement
     from docx.oxml.ns import qn
 
-    look = _find(document, TEXT).element.get_or_add_rPr()
-    for old in look.findall(qn("w:lang")):
-        look.remove(old)
+    look = document.styles[TEXT].element.get_or_add_rPr()
     element = OxmlElement("w:lang")
     element.set(qn("w:val"), _LOCALES[language])
     look.append(element)
@@ -157,3 +151,30 @@ def _add_table_style(document: Document) -> None:
             f"{line('bottom', 6, _INK)}</w:tcBorders></w:tcPr></w:tblStylePr></w:style>"
         )
     )
+
+
+def set_properties(
+    document: Document, *, title: str, subject: str, author: str, created: datetime
+) -> None:
+    """Properties of a document."""
+    known = document.core_properties
+    known.title, known.subject = title[:_MOST_SIGNS], subject[:_MOST_SIGNS]
+    known.author = known.last_modified_by = author[:_MOST_SIGNS]
+    known.comments = ""
+    known.created = known.modified = created
+    known.revision = 1
+
+
+def pack(document: Document) -> bytes:
+    """Bytes of a document, its parts without the time of writing."""
+    written, buffer = io.BytesIO(), io.BytesIO()
+    document.save(written)
+    with (
+        zipfile.ZipFile(written) as source,
+        zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as target,
+    ):
+        for name in source.namelist():
+            part = zipfile.ZipInfo(name, _ZIP_TIME)
+            part.compress_type = zipfile.ZIP_DEFLATED
+            target.writestr(part, source.read(name))
+    return buffer.getvalue()

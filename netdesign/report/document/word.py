@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -42,7 +42,6 @@ from netdesign.report.document.markup import (
     write_runs,
     write_table,
 )
-from netdesign.report.document.template import open_document, pack, set_properties
 from netdesign.report.drawing.raster import read_size, read_title, render_png
 from netdesign.report.sections.whole import build_report, list_properties
 from netdesign.report.words import VERDICTS, Words
@@ -133,7 +132,6 @@ class Writer:
 
     document: Document
     words: Words
-    headings: list[tuple[str, str]] = field(default_factory=list)  # mark and text
     pictures: int = 0
     begins_page: bool = False  # the next heading
     keeps: bool = False  # what is written now stays with what follows
@@ -152,7 +150,7 @@ class Writer:
 
     @cached_property
     def _ids(self) -> dict[str, str]:
-        return {name: styles.find_id(self.document, name) for name in styles.NAMES}
+        return {x: str(self.document.styles[x].style_id) for x in styles.NAMES}
 
     def write(self, blocks: Sequence[Block]) -> None:
         """All blocks."""
@@ -184,34 +182,25 @@ class Writer:
         self.keeps = False
 
     def _write_items(self, block: Items) -> None:
-        for number, item in enumerate(block.items, 1):
-            runs = list_runs(item)
-            if block.look == "numbered":
-                self._add_paragraph((Piece(f"{number}. "), *runs), styles.TEXT)
-            else:
-                self._add_paragraph(runs, styles.ITEM)
+        for item in block.items:
+            self._add_paragraph(list_runs(item), styles.ITEM)
 
     def _write_heading(self, block: Heading) -> None:
-        runs = list_runs(block.text)
-        if block.level != 2:
-            style = styles.TITLE if block.level == 1 else styles.SUBHEADING
-            self._add_paragraph(runs, style)
-            self.begins_page = False
-            return
-        number = len(self.headings) + 1
-        mark = f"_Toc{number:08d}"
-        self.headings.append((mark, "".join(one.text for one in runs)))
-        marked = (
-            f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{write_runs(runs)}'
-            f'<w:bookmarkEnd w:id="{number}"/>'
-        )
-        look = "<w:pageBreakBefore/>" if self.begins_page else ""
-        self._add(write_paragraph(marked, self._ids[styles.HEADING], look))
+        names = {1: styles.TITLE, 2: styles.HEADING}
+        style = names.get(block.level, styles.SUBHEADING)
+        look = ""
+        if block.level == 2 and self.begins_page:
+            look = "<w:pageBreakBefore/>"
+        runs = write_runs(list_runs(block.text))
+        self._add(write_paragraph(runs, self._ids[style], look))
         self.begins_page = False
 
     def _write_text(self, block: Paragraph) -> None:
         is_small = True if block.look in _SMALL_LOOKS else None
-        runs = write_runs(list_runs(block.text), is_small=is_small)
+        text = block.text
+        if block.look == "meta" and isinstance(text, str):  # beside a title there
+            text = " · ".join(text.split("\n"))
+        runs = write_runs(list_runs(text), is_small=is_small)
         style = _STYLES.get(block.look, styles.TEXT)
         look = KEEP if self.keeps and block.look == "meta" else ""
         self._add(write_paragraph(runs, self._ids[style], look))
@@ -335,12 +324,11 @@ def write_field(instruction: str, shown: str = "") -> str:
 def render_document(
     study: Study,
     language: Language = "en",
-    template: bytes | None = None,
     *,
     has_annexes: bool = False,
     is_verified: bool = False,
 ) -> bytes:
-    """Document of a study; the same study and template give the same bytes.
+    """Document of a study; the same study gives the same bytes.
 
     Parameters
     ----------
@@ -348,8 +336,6 @@ def render_document(
         What is shown.
     language : str
         ``en``, ``fr`` or ``de``.
-    template : bytes, optional
-        Docx whose styles, page, header and footer are kept.
     has_annexes : bool
         All checks step by step, other laws, cases and profile follow.
     is_verified : bool
@@ -357,24 +343,21 @@ def render_document(
     """
     words = Words(language)
     properties = list_properties(study, words)
-    document = open_document(template)
-    styles.set_language(document, language)
+    document = styles.open_document(language)
     to = Writer(document=document, words=words)
     _write_footer(to, properties["subject"])
     blocks = build_report(
         study, words, has_annexes=has_annexes, is_verified=is_verified
     )
     to.write(blocks)
-    set_properties(document, **properties)
-    return pack(document)
+    styles.set_properties(document, **properties)
+    return styles.pack(document)
 
 
 def _write_footer(to: Writer, running: str) -> None:
-    """Running title, section and page; a template's own footer stays."""
+    """Running title, section and page."""
     document = to.document
     section: Any = document.sections[-1]
-    if not section.footer.is_linked_to_previous:
-        return
     section.footer.is_linked_to_previous = False
     paragraph = section.footer.paragraphs[0]
     paragraph.style = document.styles[styles.SMALL]

@@ -111,46 +111,13 @@ def test_a_document_of_hostile_texts_opens_and_holds_them_as_text(place, expecte
     assert all(sign.isprintable() or sign == "\u00a0" for sign in shown)
 
 
-def make_template():
-    """Template of a company: its own heading, header, footer, text and a link."""
-    document = docx.Document()
-    document.styles["Heading 1"].font.size = docx.shared.Pt(31)
-    document.sections[0].header.paragraphs[0].text = "Bureau Dupré"
-    document.sections[0].footer.paragraphs[0].text = "confidential"
-    document.sections[0].page_width = docx.shared.Mm(200)
-    document.add_paragraph("old report: PASS")
-    document.styles["Caption"].delete()
-    buffer = io.BytesIO()
-    document.save(buffer)
-    return buffer.getvalue()
-
-
-def test_a_template_keeps_its_look_and_loses_its_text():
-    content = render_document(STUDY, "fr", template=make_template())
-    document = open_word(content)
-    assert document.styles["Heading 1"].font.size.pt == 31
-    assert document.sections[0].header.paragraphs[0].text == "Bureau Dupré"
-    assert document.sections[0].footer.paragraphs[0].text == "confidential"
-    assert document.sections[0].page_width.mm == pytest.approx(200, abs=0.1)
-    assert b"old report" not in b"".join(list_parts(content).values())
-    assert any(p.style.name.lower() == "caption" for p in document.paragraphs)
-    widths = [
-        sum(int(one.get(f"{W}w")) for one in table._tbl.iter(f"{W}gridCol"))
-        for table in document.tables
-    ]
-    section = document.sections[0]
-    margins = section.left_margin + section.right_margin
-    assert max(widths) <= (section.page_width - margins) / 635 + 20
-
-
 @pytest.mark.long
 def test_libreoffice_opens_it(tmp_path):
-    """In three languages and a template, all converted to PDF in one run."""
+    """In three languages, all converted to PDF in one run."""
     made = {
         name: render_document(STUDY, name, has_annexes=name == "en")
         for name in LANGUAGES
     }
-    made["template"] = render_document(STUDY, "de", template=make_template())
     for name, content in made.items():
         (tmp_path / f"{name}.docx").write_bytes(content)
     with suppress(subprocess.CalledProcessError):
