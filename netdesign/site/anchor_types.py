@@ -1,4 +1,4 @@
-"""From lines of sheet Anchors to what an anchor is: its kind, steel, lever, ground.
+"""From lines of anchor types to what an anchor is: its kind, steel, lever, ground.
 
 What nobody gives of the steel that bends is assumed: resistance/THEORY.md, (R9d).
 """
@@ -6,7 +6,7 @@ What nobody gives of the steel that bends is assumed: resistance/THEORY.md, (R9d
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
 from netdesign.outcome import ModelError
@@ -15,37 +15,46 @@ from netdesign.resistance.steel import HEAD_GRADE, RoundSection, find_ground_lev
 from netdesign.site.lines import Types
 from netdesign.site.readings import Row
 from netdesign.site.type_resistances import SOIL_COLUMNS, lacks_inner, read_inner
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import END_ANCHORS, NAMED_BY, EndMember, Member
+from netdesign.structure.row_position import find_axis_at_dip
 
-AXES = {
-    Member.FOOT_ANCHOR: "foot_axis",
-    Member.UPHILL_ANCHOR: "uphill_axis",
-    Member.DOWNHILL_ANCHOR: "downhill_axis",
-}
+ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 AnyMember = TypeVar("AnyMember", Member, EndMember)
 
 
-def read_axes(row: Row) -> tuple[tuple[Member, float], ...]:
-    """Inclinations of those anchors that have one given [rad]."""
-    given = ((member, row[key].given_si) for member, key in AXES.items())
-    return tuple((member, axis) for member, axis in given if axis is not None)
+def name_column(member: str) -> str:
+    """Column of a net row or of its net type that names the type of a member."""
+    return "end_anchor" if member in END_ANCHORS else NAMED_BY.get(member, member)
+
+
+def read_axes(
+    row: Row, members: Iterable[AnyMember], types: Types
+) -> tuple[tuple[AnyMember, float], ...]:
+    """Axes against the slope of those anchors whose bores dip by their type [rad]."""
+    lines, slope = types["anchor_types"], row["slope_angle"].si
+    named = ((member, lines.get(row[name_column(member)].word)) for member in members)
+    return tuple(
+        (member, find_axis_at_dip(line["dip"].si, slope, member))
+        for member, line in named
+        if line and line["dip"].state == "given"
+    )
 
 
 def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType], ...]:
     """Kind and steel of each anchor whose type is in its sheet."""
-    ground = row["ground"].word
-    return tuple(read_anchors(row, tuple(AXES), types, ground).items())
+    return tuple(read_anchors(row, ANCHORS, types).items())
 
 
 def read_anchors(
-    row: Row, members: Sequence[AnyMember], types: Types, ground: str
+    row: Row, members: Sequence[AnyMember], types: Types
 ) -> dict[AnyMember, AnchorType]:
-    """Kind and steel of those anchors of a line whose type is in its sheet."""
-    lines = types["Anchors"]
+    """Kind and steel of those anchors of a row whose type is in its sheet."""
+    lines, ground = types["anchor_types"], row["ground"].word
+    named = {member: row[name_column(member)].word for member in members}
     return {
-        member: _read_anchor(lines[row[member].word], ground)
-        for member in members
-        if row[member].word in lines
+        member: _read_anchor(lines[name], ground)
+        for member, name in named.items()
+        if name in lines
     }
 
 

@@ -10,7 +10,7 @@ from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import Link, Wear
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.splay import EndGuy
-from netdesign.words.message import Message, say
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,15 +33,6 @@ class Resistance(GivenResistance):
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
     is_basis_assumed: bool = False  # nobody says how it is known: as computed
     may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve
-
-
-def name_column(key: str) -> Message:
-    """Name of a column, with its sheet unless it is that of the net rows."""
-    sheet = key.partition(".")[0]
-    named = say(f"column.{key}")
-    if sheet == "Nets":
-        return named
-    return say("check.on_sheet", name=named, sheet=say(f"sheet.{sheet}"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -55,8 +55,8 @@ def fill_in_assumed(row: Row) -> tuple[Row, tuple[Assumed, ...]]:
     glide = (assume("glide_factor"),) if _lacks_glide(row) else ()
     for one in glide:
         how = say("assumed.any_class", low=one.low, high=one.high)
-        law = replace(row["ground_law"], state="given", value="sliding", derivation=how)
-        filled |= {"ground_law": law, one.key: _place(row[one.key], one)}
+        glide_factor = _place(row[one.key], one)
+        filled[one.key] = replace(glide_factor, derivation=how)
     return {**row, **filled}, (*found, *glide, *_list_of_support(row))
 
 
@@ -83,7 +83,7 @@ def _list_of_net(row: Row) -> Iterator[Assumed]:
 
 def _lacks_glide(row: Row) -> bool:
     """Neither a glide factor nor free gliding is given."""
-    return row["ground_law"].state == row["glide_factor"].state == "blank"
+    return row["glide_factor"].state == "blank"
 
 
 def _list_of_support(row: Row) -> Iterator[Assumed]:
@@ -109,7 +109,7 @@ def fill_in_snow(
     Parameters
     ----------
     row : mapping of str to Reading
-        Line of sheet Nets, without a fault.
+        Line of a net row, without a fault.
     snow : tuple of float, tuple of Layer, GroundLaw
         Thickness, layers, on what.
     ranges : SiteRanges
@@ -120,7 +120,7 @@ def fill_in_snow(
     thickness, layers, ground = snow
     altitude = row["altitude"].given_si
     found: list[Assumed] = [] if altitude else [assume("altitude")]
-    if not lines and row["snow_layers"].state == "blank":
+    if not lines:
         found.append(assume("snow_layers"))
     for one in ranges.assumed:
         if one.key == "density":
@@ -187,19 +187,17 @@ def assume_density(
 
 
 # Columns that may hold a range, which counts as one that is assumed.
-_OF_TYPE = ("slack", "net_stiffness", "post_tilt", *_DISTANCES, "guy_splay")
-# Those whose range is searched with the cases, by the name that cases have for it.
-_OF_CASES = {
-    "snow_thickness": "thickness",
-    "snow_height": "snow_height",
-    "glide_factor": "glide_factor",
-    "upslope_length": "upslope_length",
-}
+_OF_TYPE = (
+    *("slack", "net_stiffness", "post_tilt", *_DISTANCES, "guy_splay"),
+    "end_guy_angle",
+)
+# Those whose range is searched with the cases.
+_OF_CASES = ("snow", "glide_factor", "upslope_length")
 
 
-def list_typed(row: Row, end: Row | None) -> tuple[Assumed, ...]:
+def list_typed(row: Row, *, has_end: bool) -> tuple[Assumed, ...]:
     """Ranges of net and support that cells of a row hold."""
-    readings = [row[key] for key in _OF_TYPE] + ([end["end_guy_angle"]] if end else [])
+    keys = _OF_TYPE if has_end else _OF_TYPE[:-1]
     return tuple(
         replace(
             assume(one.field.key),
@@ -210,7 +208,7 @@ def list_typed(row: Row, end: Row | None) -> tuple[Assumed, ...]:
             source="typed",
             is_typed=True,
         )
-        for one in readings
+        for one in (row[key] for key in keys)
         if one.span is not None
     )
 
@@ -222,9 +220,10 @@ def find_own_ranges(assumed: Sequence[Assumed], row: Row) -> Ranges:
         for one in assumed
         if one.kind == "searched"
     }
-    for key, name in _OF_CASES.items():
-        span, unit = row[key].span, row[key].field.unit
-        if span is not None:
-            low, high = (to_si(end, unit) for end in span)
+    for reading in (row[key] for key in _OF_CASES):
+        if reading.span is not None:
+            low, high = (to_si(end, reading.field.unit) for end in reading.span)
+            key = reading.field.key
+            name = "thickness" if key == "snow_thickness" else key
             found[name] = Interval(low=low, high=high)
     return Ranges.of(**found)

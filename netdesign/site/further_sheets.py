@@ -93,7 +93,7 @@ def read_monitoring(
     table : Table or None
         Sheet Monitoring, if there is one.
     places : mapping of str to str
-        Cells of the ids of sheet Nets.
+        Cells of the ids of sheet Rows.
     findings : list of Finding
         Appended to: unknown rows, lines without a time or a measurement, times that
         do not ascend.
@@ -160,7 +160,7 @@ def read_uncertain(
     table : Table or None
         Sheet Uncertainty, if there is one.
     places : mapping of str to str
-        Cells of the ids of sheet Nets.
+        Cells of the ids of sheet Rows.
     findings : list of Finding
         Appended to: unknown rows, a quantity that comes twice.
     """

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
 from netdesign.site.headings import Table
+from netdesign.site.model import Project
 from netdesign.site.ranges import SiteRanges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import Message, say
 
-TYPE_SHEETS = ("Anchors", "Ropes", "Posts")
-Types = Mapping[str, Mapping[str, Row]]  # lines of the type sheets, by name and id
+TYPES = ("anchor_types", "ropes", "posts")
+Types = Mapping[str, Mapping[str, Row]]  # lines of the types, by table and id
 
 ALL_ROWS = ("all", "alle", "toutes")  # in place of an id, of every net row
 _MOST_PLACES = 5  # named in one finding
@@ -21,44 +23,61 @@ _ENDS = 2  # of a row
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lines:
-    """Lines of a site's sheets.
+    """What a workbook holds before net rows are built.
 
     Attributes
     ----------
-    nets : sequence of Row
-        Of sheet Nets.
+    workbook : Workbook
+        Its sheets that are read.
+    project, project_cells : Project, mapping of str to str
+        Of sheet Project, and the cells of its items.
+    table : Table or None
+        Sheet Rows.
+    rows : sequence of Row
+        Net rows, each with the columns of its net type and what the site says of all.
     ends : mapping of str to Row
-        Of sheet Ends, by net row.
+        Cells that name other types at the end of a row, by net row and column.
     snow : mapping of str to sequence of Row
         Of sheet Snow, by net row, from the ground up.
     types : mapping of str to mapping of str to Row
-        Of the type sheets, by name and id.
+        Anchors, ropes and posts with what follows from their lines, by table and id.
     absent, unreadable : collection of str
-        Type sheets that the workbook does not have, under whatever name; and those,
+        Tables of types that the workbook does not have, under whatever name; and those,
         too, whose ids cannot be read.
     ranges : SiteRanges
         That its rows share.
-    links, tests : sequence of Row
-        Of sheets Links and Tests.
+    links, tests, declared : sequence of Row
+        Of those sheets.
+    further : mapping of str to Table or None
+        Sheets of add-ons, by name.
     typed : mapping of str to sequence of Row
         Lines as they are typed, by table, of all on which net rows rest.
+    library : tuple of str
+        File of further net types, and its hash; empty without one.
     """
 
-    nets: Sequence[Row]
+    workbook: Workbook
+    project: Project
+    project_cells: Mapping[str, str]
+    table: Table | None
+    rows: Sequence[Row]
     ends: Mapping[str, Row]
     snow: Mapping[str, Sequence[Row]]
     types: Types
     absent: Sequence[str]
     unreadable: Sequence[str]
     ranges: SiteRanges
-    links: Sequence[Row] = ()
-    tests: Sequence[Row] = ()
-    typed: Mapping[str, Sequence[Row]] = field(default_factory=dict)
+    links: Sequence[Row]
+    tests: Sequence[Row]
+    declared: Sequence[Row]
+    further: Mapping[str, Table | None]
+    typed: Mapping[str, Sequence[Row]]
+    library: tuple[str, str] = ("", "")
 
     @property
     def places(self) -> dict[str, str]:
         """Cell of each net row's id."""
-        return {line["id"].word: line["id"].place for line in self.nets}
+        return {line["id"].word: line["id"].place for line in self.rows}
 
 
 def index_lines(
@@ -107,7 +126,7 @@ def refuse_unknown_ids(
 
 
 def refuse_unknown_types(line: Row, lines: Lines, findings: list[Finding]) -> None:
-    """Refuse types of a line of sheet Nets or Ends that their sheet does not have."""
+    """Refuse types of a net row, or of its end, that their sheet does not have."""
     for sheet, types in lines.types.items():
         if sheet in lines.unreadable:
             continue
@@ -126,10 +145,10 @@ def list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
     ]
 
 
-def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -> None:
+def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
     """One finding for a type sheet that is not there, not one for each of its ids."""
     for name in lines.absent:
-        named = list_references([*lines.nets, *lines.ends.values()], name)
+        named = list_references([*lines.rows, *lines.ends.values()], name)
         if not named:
             continue
         sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
@@ -139,45 +158,64 @@ def refuse_missing_sheets(table: Table, lines: Lines, findings: list[Finding]) -
             sheet=sheet,
             count=len(ids),
             ids=shorten(ids, _MOST_PLACES),
-            nets=table.sheet.name,
+            nets=lines.table.sheet.name if lines.table else "",
         )
         places = shorten([one.place for one in named], _MOST_PLACES)
         accepted = say("nets.sheet_or_empty", sheet=sheet, places=places)
-        found = Finding(file=table.sheet.file, rule=rule, accepted=accepted)
-        findings.append(found)
+        findings.append(Finding(file=lines.workbook.file, rule=rule, accepted=accepted))
 
 
-Neighbours = Mapping[str, Collection[str]]  # ids of rows that share an end, by row
+Neighbours = Mapping[str, tuple[str, ...]]  # rows into which each row's nets go on
 
 
-def check_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
-    """Rows into which each row goes on, whichever of the two says so.
+def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
+    """Rows that go on at both ends, with those into which they do.
 
-    Refused are neighbours that are no other net rows, more or fewer than the two of a
-    row that goes on at both ends, and rows that close a ring.
+    Whichever of two rows says so. Refused are neighbours that are no other net rows,
+    more or fewer than two of a row that goes on, and rows that close a ring.
     """
-    ids = {row["id"].word for row in rows}
-    going_on = {x["id"].word: x for x in rows if x["row_end"].word == "continuous"}
-    beside: dict[str, set[str]] = {name: set() for name in ids}
+    joined = _join_rows(rows)
+    going_on = {name: of for name, of in joined.items() if len(of) >= _ENDS}
+    lines = {row["id"].word: row for row in rows}
+    beside = {name: {*of} & lines.keys() - {name} for name, of in joined.items()}
+    for name in (one for one in going_on if one in lines):
+        at = find_named(lines[name])
+        for other in joined[name]:
+            if other not in beside[name]:
+                rule = say("nets.no_neighbour", id=other)
+                refuse(at, rule, say("nets.other_ids"), findings)
+        if beside[name]:
+            _check_ends(name, at, beside, going_on, findings)
+    return {name: of for name, of in going_on.items() if name in lines}
+
+
+def find_named(row: Row) -> Reading:
+    """Cell of the neighbours; the id of a row on a sheet without one."""
+    return row["gap"] if row["gap"].cell else row["id"]
+
+
+def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
+    """Rows into which each row's nets go on, whichever of the two says so."""
+    ids = {fold_id(row["id"].word): row["id"].word for row in rows}
+    found: dict[str, dict[str, None]] = {row["id"].word: {} for row in rows}
     for row in rows:
         own = row["id"].word
-        for name in _list_neighbours(row):
-            if name not in ids or name == own:
-                rule = say("nets.no_neighbour", id=name)
-                refuse(row["neighbour"], rule, say("nets.other_ids"), findings)
-            elif own in going_on:
-                beside[own].add(name)
-                beside[name].add(own)
-    for name, row in going_on.items():
-        if beside[name]:
-            _check_ends(name, row, beside, going_on, findings)
-    return beside
+        for typed in filter(None, map(str.strip, row["gap"].word.split(","))):
+            other = ids.get(fold_id(typed), typed)
+            found[own][other] = None
+            found.setdefault(other, {})[own] = None
+    return {own: tuple(others) for own, others in found.items()}
+
+
+def fold_id(text: str) -> str:
+    """Id without case and double spaces."""
+    return " ".join(text.casefold().split())
 
 
 def _check_ends(
     name: str,
-    row: Row,
-    beside: Neighbours,
+    at: Reading,
+    beside: Mapping[str, Collection[str]],
     going_on: Collection[str],
     findings: list[Finding],
 ) -> None:
@@ -189,19 +227,13 @@ def _check_ends(
     if crowded:
         into = tuple(sorted(beside[crowded[0]]))
         rule = say("nets.two_ends", id=crowded[0], ids=into)
-        refuse(row["neighbour"], rule, say("nets.free_or_both"), findings)
     elif links >= len(reached):
         rule = say("nets.ring", ids=tuple(sorted(reached)))
-        refuse(row["neighbour"], rule, say("nets.free_or_both"), findings)
     elif len(ids) < _ENDS or reached <= set(going_on):
         rule = say("nets.one_end", ids=ids)
-        refuse(row["row_end"], rule, say("nets.free_or_both"), findings)
-
-
-def _list_neighbours(row: Row) -> list[str]:
-    """Ids that the cell of the neighbours names."""
-    named = row["neighbour"].word.replace(";", ",").split(",")
-    return list(filter(None, map(str.strip, named)))
+    else:
+        return
+    refuse(at, rule, say("nets.free_or_both"), findings)
 
 
 def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:

@@ -17,7 +17,6 @@ from netdesign.resistance.steel import Link
 from netdesign.site.assumed import Assumed
 from netdesign.site.bearing import Resistance as Resistance
 from netdesign.site.bearing import RowEnd as RowEnd
-from netdesign.site.bearing import name_column
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -32,7 +31,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.words.message import Message, Text
+from netdesign.words.message import Message, Text, say
 
 if TYPE_CHECKING:
     from netdesign.site.further_sheets import MonitoringSeries, UncertainQuantity
@@ -151,7 +150,9 @@ class NetRow:
         """Name of an anchor's drilled length, where nobody gives it."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None
-        return () if is_said else (name_column("Anchors.drilled_length"),)
+        name = say("column.anchor_types.drilled_length")
+        where = say("check.on_sheet", name=name, sheet=say("sheet.anchor_types"))
+        return () if is_said else (where,)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""

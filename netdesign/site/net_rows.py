@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
-from netdesign.site.anchor_types import read_anchor_types, read_axes
+from netdesign.site.anchor_types import ANCHORS, read_anchor_types, read_axes
 from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
@@ -20,12 +20,12 @@ from netdesign.site.empty_cells import (
     find_own_ranges,
     list_typed,
 )
-from netdesign.site.headings import Table
 from netdesign.site.lines import (
     Lines,
     Neighbours,
     Types,
-    check_neighbours,
+    find_named,
+    find_neighbours,
     index_lines,
     list_references,
     refuse_missing_sheets,
@@ -35,6 +35,7 @@ from netdesign.site.model import (
     InputEcho,
     NetRow,
 )
+from netdesign.site.office.rows import read_approval
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_sheets import (
     build_layers,
@@ -44,11 +45,9 @@ from netdesign.site.snow_sheets import (
 )
 from netdesign.site.statements import (
     build_panels,
-    echo_ends,
     has_same_types,
     list_assumed,
     list_fixed,
-    replace_types,
 )
 from netdesign.site.support_types import (
     build_row_end,
@@ -75,21 +74,18 @@ _OF_NET = (
     *(NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE),
 )
 _COMPARED = (
-    *("slope_angle", "snow_thickness", "net_height", "post_spacing", "ground_law"),
-    *("glide_factor", "net_stiffness", "slack", "post_tilt", "guy_count", *_OF_NET),
+    *("rows.slope_angle", "rows.snow", "net_types.net_height", "rows.post_spacing"),
+    *("rows.glide_factor", "rows.glide_factor", "net_types.net_stiffness"),
+    *("net_types.slack", "net_types.post_tilt", "net_types.guy_count"),
+    *(f"net_types.{member}" for member in _OF_NET),
 )
-_SHARED = ("neighbour", "gap")  # of a row that goes on
 
 
-def build_net_rows(
-    table: Table, lines: Lines, findings: list[Finding]
-) -> tuple[NetRow, ...]:
+def build_net_rows(lines: Lines, findings: list[Finding]) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
     Parameters
     ----------
-    table : Table
-        Sheet Rows.
     lines : Lines
         Of all sheets.
     findings : list of Finding
@@ -100,14 +96,29 @@ def build_net_rows(
     tuple of NetRow
         In the order of the sheet.
     """
-    if refusal := _judge_count(len(lines.nets)):
-        findings.append(table.sheet.finding(*refusal))
-    index_lines(lines.nets, "id", say("nets.ids_once"), findings)
-    beside = check_neighbours(lines.nets, findings)
-    built = [_build_net_row(row, lines, findings) for row in lines.nets]
+    if lines.table is None:
+        return ()
+    if refusal := _judge_count(len(lines.rows)):
+        findings.append(lines.table.sheet.finding(*refusal))
+    index_lines(lines.rows, "id", say("nets.ids_once"), findings)
+    beside = find_neighbours(lines.rows, findings)
+    built = [
+        _build_net_row(_say_joined(row, beside), lines, findings) for row in lines.rows
+    ]
     built = _separate_unlike(built, beside, lines, findings)
-    refuse_missing_sheets(table, lines, findings)
+    refuse_missing_sheets(lines, findings)
     return tuple(net_row for net_row in built if net_row is not None)
+
+
+def _say_joined(row: Row, beside: Neighbours) -> Row:
+    """Line whose gap is one of both ends: 0 where its nets go on at both."""
+    gap, others = row["gap"], beside.get(row["id"].word)
+    if others:
+        how = say("office.goes_on", ids=others)
+        gap = replace(gap, state="given", value=0.0, derivation=how)
+    elif gap.word:
+        gap = replace(gap, state="blank", value=None)
+    return {**row, "gap": gap}
 
 
 def _separate_unlike(
@@ -119,15 +130,16 @@ def _separate_unlike(
     """Rows of which those that go on into an unlike one have an end of their own."""
     by_id = {row.id: row for row in built if row}
     kept: list[NetRow | None] = []
-    for line, row in zip(lines.nets, built, strict=True):
-        if row and not row.has_end and line["row_end"].word == "continuous":
+    for line, row in zip(lines.rows, built, strict=True):
+        if row and row.id in beside:
             others = [by_id[one] for one in sorted(beside[row.id]) if one in by_id]
             unlike = ((one.id, key) for one in others for key in list_unlike(row, one))
             if found := next(unlike, None):
-                name = say(f"column.Nets.{found[1]}")
+                name = say(f"column.{found[1]}")
                 how = say("nets.unlike", id=found[0], name=name)
-                refuse(line["row_end"], how, "", findings, severity="note")
-                row = _build_net_row(_free(line, how), lines, [])
+                refuse(find_named(line), how, "", findings, severity="note")
+                gap = replace(line["gap"], state="blank", value=None, derivation=how)
+                row = _build_net_row({**line, "gap": gap}, lines, [])
         kept.append(row)
     return kept
 
@@ -160,13 +172,6 @@ def _list_compared(row: NetRow) -> tuple[float | int | str, ...]:
     )
 
 
-def _free(line: Row, how: Message) -> Row:
-    """Line of a row whose ends are free, whatever it says."""
-    said = {key: replace(line[key], state="blank", value=None) for key in _SHARED}
-    end = replace(line["row_end"], value="free", derivation=how)
-    return {**line, **said, "row_end": end}
-
-
 def _judge_count(count: int) -> Refusal | None:
     """Reason against so many net rows; None if they are a site."""
     if not count:
@@ -179,18 +184,18 @@ def _judge_count(count: int) -> Refusal | None:
 
 def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow | None:
     count_before = len(findings)
-    snow, end = lines.snow.get(line["id"].word, ()), lines.ends.get(line["id"].word)
-    line = {**line, "ground_law": _read_ground_law(line)}
+    has_end = line["gap"].given_si != 0.0
+    snow = lines.snow.get(line["id"].word, ())
+    end = lines.ends[line["id"].word] if has_end else {}
     row, assumed = fill_in_assumed(line)
     layers = build_layers(snow, row["slope_angle"], findings)
     thickness = _understand_thickness(row, snow, layers, findings)
     ground = _understand_ground(row, thickness, findings)
     _ask_for_length(row, findings)
-    named: list[Row] = [row, end] if end else [row]
-    for one in named:
+    for one in (row, end):
         refuse_unknown_types(one, lines, findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
-    if is_refused or _is_faulty(named, lines.unreadable):
+    if is_refused or _is_faulty((row, end), lines.unreadable):
         return None
     if thickness is None or ground is None:
         return None
@@ -200,12 +205,12 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
     echoes = _echo_inputs(line, thickness, ground)
-    inputs = (*echoes, *echo_layers(snow), *echo_ends(end))
+    inputs = (*echoes, *echo_layers(snow), *_echo_end(end))
     held = (thickness, layers, ground)
     row, further = fill_in_snow(row, held, lines.ranges, snow)
     built = _compose_net_row(row, end, lines.types, held, inputs)
-    found = (*assumed, *further, *assume_stiffness(row, lines.types["Ropes"]))
-    found = (*found, *built.assumed, *list_typed(row, end))
+    found = (*assumed, *further, *assume_stiffness(row, lines.types["ropes"]))
+    found = (*found, *built.assumed, *list_typed(row, has_end=has_end))
     own = find_own_ranges(found, row)
     return replace(built, assumed=found, ranges=own)
 
@@ -220,7 +225,7 @@ def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Ro
     return {**row, "net_height": replace(height, value=thickness, derivation=how)}
 
 
-def _is_faulty(named: list[Row], unreadable: Iterable[str]) -> bool:
+def _is_faulty(named: Sequence[Row], unreadable: Iterable[str]) -> bool:
     """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
     readings = (reading for one in named for reading in one.values())
     return any(reading.state == "faulty" for reading in readings) or any(
@@ -229,14 +234,12 @@ def _is_faulty(named: list[Row], unreadable: Iterable[str]) -> bool:
 
 
 def _compose_net_row(
-    row: Row, end: Row | None, types: Types, snow: Snow, inputs: tuple[InputEcho, ...]
+    row: Row, end: Row, types: Types, snow: Snow, inputs: tuple[InputEcho, ...]
 ) -> NetRow:
-    """Net row of a line without a fault."""
+    """Net row of a line without a fault, whose end may have other types."""
     thickness, layers, ground = snow
-    gap = 0.0 if row["row_end"].word == "continuous" else row["gap"].given_si
-    has_end = gap is None or gap > 0.0
-    at_end = replace_types(row, end) if has_end else row
-    is_other = has_end and not has_same_types(at_end, row)
+    gap, at_end = row["gap"].given_si, {**row, **end}
+    is_other = not has_same_types(at_end, row)
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -257,15 +260,16 @@ def _compose_net_row(
         altitude=row["altitude"].given_si,
         ground_type=row["ground"].word,
         design_life=row["design_life"].given_count or int(assume("design_life").high),
-        glide_factor=row["glide_factor"].known_si,
+        glide_factor=None if ground.kind == "free" else row["glide_factor"].known_si,
         guys=read_guys(row),
-        axes=read_axes(row),
+        axes=read_axes(row, ANCHORS, types),
         anchors=read_anchor_types(row, types),
-        panels=build_panels(row, types["Ropes"]),
-        panel_assumed=list_assumed(row, types["Ropes"]),
-        assumed=list_fixed(row, end, types),
-        row_end=build_row_end(at_end, end, types) if has_end else None,
+        panels=build_panels(row, types["ropes"]),
+        panel_assumed=list_assumed(row, types["ropes"]),
+        assumed=list_fixed(row, end, gap, types),
+        row_end=None if gap == 0.0 else build_row_end(at_end, types),
         net_parts=find_net_parts(row, types),
+        approval=read_approval(row),
     )
 
 
@@ -276,22 +280,12 @@ def _understand_thickness(
     findings: list[Finding],
 ) -> float | None:
     """Snow thickness normal to the slope [m], which its layers add up to."""
-    vertical = row["snow_height"]
-    given = row["snow_thickness"] if vertical.state == "blank" else vertical
-    if given.state != "given" or (lines and not layers):  # a finding already
+    snow, slope = row["snow"], row["slope_angle"]
+    if snow.state != "given" or (lines and not layers):  # a finding already
         return None
     if lines:
-        return resolve_thickness(layers, given, row["slope_angle"], findings)
-    return measure_normal(given, row["slope_angle"])
-
-
-def _read_ground_law(row: Row) -> Reading:
-    """Ground law: free, or of a glide factor, on which the ground slides."""
-    law, glide = row["ground_law"], row["glide_factor"]
-    if glide.state != "given":
-        return law
-    how = say("column.ground_of_glide", name=glide.field.name, place=glide.place)
-    return replace(law, state="given", value="sliding", cell=glide.cell, derivation=how)
+        return resolve_thickness(layers, snow, slope, findings)
+    return measure_normal(snow, slope)
 
 
 def _understand_ground(
@@ -300,17 +294,17 @@ def _understand_ground(
     glide = row["glide_factor"]
     if glide.state == "faulty":
         return None
-    if row["ground_law"].word == "free":
+    if glide.word:
         return GroundLaw(kind="free")
     return _build_sliding_ground(glide, thickness, findings)
 
 
 def _ask_for_length(row: Row, findings: list[Finding]) -> None:
     """Refuse a line without an upslope length on ground that holds none of its snow."""
-    law, length = row["ground_law"], row["upslope_length"]
-    if law.word == "free" and length.state == "blank":
+    glide, length = row["glide_factor"], row["upslope_length"]
+    if glide.word and length.state == "blank":
         rule = say("nets.free_without_length", name=length.field.name)
-        at = law if length.cell is None else length
+        at = glide if length.cell is None else length
         refuse(at, rule, say("nets.other_law_or_length"), findings)
 
 
@@ -341,19 +335,26 @@ def _echo_inputs(
     """Every input of the row; what was derived from one stands behind it."""
     echoes: list[InputEcho] = []
     for key, reading in row.items():
-        echoes.append(reading.echo())
-        is_alone = row["snow_thickness"].state != "given"
-        if key == "snow_height" and reading.state == "given" and is_alone:
+        measured = say(f"column.Nets.{reading.field.key}")
+        echoes.append(reading.echo(measured if key == "snow" else None))
+        if reading.field.key == "snow_height":
             slope = row["slope_angle"].number
             how = say("column.thickness_of_height", height=reading.si, slope=slope)
-            name = row["snow_thickness"].field.name
+            name = say("column.Nets.snow_thickness")
             echoes.append(_echo_derived(name, thickness, reading, how))
-        if key == "glide_factor" and reading.state == "given":
+        if key == "glide_factor" and reading.state == "given" and not reading.word:
             table = _derive_slip(reading.number, thickness)
             slip = ground.slip_length
             name = say("column.Nets.slip_length")
             echoes.append(_echo_derived(name, slip, reading, table))
     return tuple(echoes)
+
+
+def _echo_end(end: Row) -> Iterator[InputEcho]:
+    """Types at the row's end, where they are others."""
+    for key, reading in end.items():
+        if key != "ground":
+            yield reading.echo(say(f"column.Ends.{key}"))
 
 
 def _derive_slip(glide_factor: float, thickness: float) -> Message | None:

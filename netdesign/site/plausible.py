@@ -17,7 +17,7 @@ from netdesign.resistance.products import find_product
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
-from netdesign.site.lines import TYPE_SHEETS, Lines, list_references
+from netdesign.site.lines import TYPES, Lines, list_references
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_lines import find_depth, name_bare
 from netdesign.site.type_resistances import (
@@ -53,7 +53,7 @@ def ask(
             asked[reading.place] = say(
                 "plausible.asked",
                 place=reading.place,
-                field=reading.column.name,
+                field=reading.field.name,
                 text=quote(reading.text),
                 rule=rule,
             )
@@ -68,8 +68,8 @@ _Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest 
 def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
     """Doubts, each with the net rows that rest on its number."""
     of_types: dict[str, dict[str, None]] = {}
-    for sheet in TYPE_SHEETS:
-        for name, rows in _list_users(lines, sheet).items():
+    for table in TYPES:
+        for name, rows in _list_users(lines, table).items():
             for alike in (name, name_bare(name)):
                 of_types.setdefault(alike, {}).update(rows)
     for users, line in _list_typed(lines, of_types):
@@ -87,7 +87,7 @@ def _list_typed(
 ) -> Iterator[tuple[list[str], Row]]:
     """Lines as they are typed, each with the net rows that rest on it."""
     nets: dict[str, list[str]] = {}
-    for line in lines.nets:
+    for line in lines.rows:
         nets.setdefault(line["net_type"].word, []).append(line["id"].word)
     for table, found in lines.typed.items():
         for line in found:
@@ -104,29 +104,26 @@ def _list_typed(
 def _list_groups(
     lines: Lines, of_types: Mapping[str, Iterable[str]]
 ) -> Iterator[tuple[str, _Group]]:
-    """Lines by their sheet; without its name where columns are not looked along."""
-    every = [line["id"].word for line in lines.nets]
-    yield "Nets", [([line["id"].word], line) for line in lines.nets]
-    yield "", [([row], end) for row, end in lines.ends.items()]
+    """Lines by their table; without its name where columns are not looked along."""
+    yield "rows", [([line["id"].word], line) for line in lines.rows]
     yield "", [([row], one) for row, layers in lines.snow.items() for one in layers]
-    yield "", [(every, line) for line in lines.ranges.lines]
-    for sheet in TYPE_SHEETS:
-        users = _list_users(lines, sheet)
-        yield (
-            sheet,
-            [(list(users[name]), one) for name, one in lines.types[sheet].items()],
-        )
-    for sheet, found in (("Links", lines.links), ("Tests", lines.tests)):
-        yield sheet, [(list(of_types.get(one["type"].word, ())), one) for one in found]
+    yield "", [(list(lines.places), line) for line in lines.ranges.lines]
+    for table in TYPES:
+        users = _list_users(lines, table)
+        of_table = lines.types[table].items()
+        yield table, [(list(users[name]), line) for name, line in of_table]
+    strengths = [one for one in lines.links if one["force"].field.key == "force"]
+    limits = [one for one in lines.links if one not in strengths]
+    for table, of in (("links", strengths), ("links", limits), ("tests", lines.tests)):
+        yield table, [(list(of_types.get(one["type"].word, ())), one) for one in of]
 
 
-def _list_users(lines: Lines, sheet: str) -> dict[str, dict[str, None]]:
-    """Net rows that name each type of a sheet."""
-    users: dict[str, dict[str, None]] = {name: {} for name in lines.types[sheet]}
-    for line in lines.nets:
+def _list_users(lines: Lines, table: str) -> dict[str, dict[str, None]]:
+    """Net rows that name each type of a table."""
+    users: dict[str, dict[str, None]] = {name: {} for name in lines.types[table]}
+    for line in lines.rows:
         row = line["id"].word
-        beside = [lines.ends[row]] if row in lines.ends else []
-        for one in list_references([line, *beside], sheet):
+        for one in list_references([line, lines.ends[row]], table):
             users.setdefault(one.word, {})[row] = None
     return users
 
@@ -235,7 +232,7 @@ def _doubt_beside(
 
 def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
-    if key not in _TESTED or (key == "pull_out" and line["basis"].word != "tested"):
+    if key != "test_mean":
         return None
     limit = find_proof_limit(line, has_loop=False)
     if limit is None or reading.si <= limit * (1.0 + 1e-9):
@@ -244,44 +241,39 @@ def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
     return say("plausible.tested", tendon=tendon, limit=limit / 1e3)
 
 
-_ECCENTRICITIES = ("head_eccentricity", "foot_eccentricity")
-
-
 def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
-    """Eccentricities of a post beyond what an empty cell takes, which would help."""
+    """Eccentricity of a post beyond what an empty cell takes, which would help."""
+    reading = typed.get("head_eccentricity")
     needed = ("post_width", "section_modulus", "area")
-    for key in _ECCENTRICITIES:
-        if key not in typed or any(line[one].state != "given" for one in needed):
-            continue
-        reading, most = typed[key], 0.5 * find_depth(line)
-        if reading.si > most * (1.0 + 1e-9):
-            unit = reading.field.unit
-            number = from_si(most, unit)
-            yield reading, say("plausible.eccentric", number=number, unit=unit)
+    if reading is None or any(line[one].state != "given" for one in needed):
+        return
+    most = 0.5 * find_depth(line)
+    if reading.si > most * (1.0 + 1e-9):
+        unit = reading.field.unit
+        number = from_si(most, unit)
+        yield reading, say("plausible.eccentric", number=number, unit=unit)
 
 
 def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
     """Doubt about a pull-out force, also about the mean of the lines of sheet Tests."""
     is_counted = key == "test_mean" and reading.derivation is not None
     told = _doubt_tested(reading, key, line) if is_counted else None
-    return told or _doubt_bond(reading, line)
+    return told or _doubt_bond(reading, key, line)
 
 
-def _doubt_bond(reading: Reading, line: Row) -> Message | None:
+def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
     """A pull-out force is more than the ground holds on the bond, or hardly any of it.
 
     One from a test may lie further beyond the catalogue than one that is worked out.
     """
-    is_worked_out = reading.derivation is not None and reading.field.key == "pull_out"
-    if reading.state != "given" or is_worked_out:
+    if reading.state != "given":
         return None
     bond = find_bond(line, reading.si)
     if bond is None:
         return None
     ground = line["ground"]
     low, high = find_bond_span(ground.word)
-    is_computed = reading.field.key == "pull_out" and line["basis"].word == "computed"
-    room = 1.0 if is_computed else _TESTED_BEYOND
+    room = 1.0 if key == "pull_out" else _TESTED_BEYOND
     if low / room <= bond <= high * room:
         return None
     return say(
@@ -298,7 +290,7 @@ def _doubt_bond(reading: Reading, line: Row) -> Message | None:
 def _name_with_value(reading: Reading) -> Message:
     return say(
         "plausible.named",
-        name=reading.column.name,
+        name=reading.field.name,
         number=reading.number,
         unit=reading.field.unit,
         place=reading.place,
@@ -350,7 +342,7 @@ def _name_span(low: float, high: float) -> Message:
     return say("plausible.span", low=low, high=high)
 
 
-_LEAST_LINES = {"Nets": 3}  # rows are alike; types are not
+_LEAST_LINES = {"rows": 3}  # rows are alike; types are not
 _LEAST_OF_TYPES = 5
 _BEYOND = 4.0  # times the scatter of a column about its median
 _NAME = re.compile(r"^(\D*)(\d+(?:[.,]\d+)?)(.*)$")
@@ -358,7 +350,7 @@ _NAME = re.compile(r"^(\D*)(\d+(?:[.,]\d+)?)(.*)$")
 _FITS = (0.25, 1.3)
 _OTHERS = 2  # types, at least, whose names give a diameter
 _DIAMETERS = (10.0, 80.0)  # [mm]
-_BY_DIAMETER = {"Anchors": "tendon", "Ropes": "rope"}
+_BY_DIAMETER = {"anchor_types": "tendon", "ropes": "rope"}
 
 
 def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
@@ -378,7 +370,7 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
             yield from _list_outliers([one[key] for one in lines], least)
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])
-    if sheet == "Tests":
+    if sheet == "tests":
         yield from _list_alike(lines)
 
 

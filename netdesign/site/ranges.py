@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.assumed import Assumed, assume
-from netdesign.site.columns.all_tables import USUAL_QUANTITIES
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row
 from netdesign.words.message import say
+
+QUANTITIES = ("density", "friction_angle", "inclination")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +44,7 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
     lines : mapping of str to Reading
         Of sheet Project, by key.
     """
-    given = [lines[one.key] for one in USUAL_QUANTITIES]
+    given = [lines[key] for key in QUANTITIES]
     if any(one.state == "faulty" for one in given):
         return SiteRanges()
     ends = [_split(one) for one in given if one.state == "given"]
@@ -61,7 +62,7 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
 
 def _split(reading: Reading) -> tuple[Reading, Reading]:
     """Low and high end of what one cell holds; twice the same of a single value."""
-    field = next(one for one in USUAL_QUANTITIES if one.key == reading.field.key)
+    field = replace(reading.field, may_range=False)
     low, high = reading.span or (reading.number, reading.number)
     names = (say(f"column.{one}_end", name=field.name) for one in ("low", "high"))
     first, second = (

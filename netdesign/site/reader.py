@@ -22,17 +22,17 @@ from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     MONITORING,
-    NETS,
     QUIET_SHEETS,
     UNCERTAINTY,
     WINTER,
+    load_old_plans,
 )
 from netdesign.site.columns.office import is_heading, load_plan
-from netdesign.site.content import Content
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
 from netdesign.site.further_sheets import read_monitoring, read_uncertain
 from netdesign.site.headings import count_known
+from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
     ListMap,
@@ -111,8 +111,8 @@ def read_site(
         findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
     replaced += changed
     library = read_library(net_types, text_format, findings) if net_types else None
-    content = read_office(workbook, findings, library)
-    return replace(_build_site(content, replaced, findings), text_format=text_format)
+    lines = read_office(workbook, findings, library)
+    return replace(_build_site(lines, replaced, findings), text_format=text_format)
 
 
 def read_frames(frames: Frames, change: Change = MappingProxyType({})) -> Site:
@@ -137,26 +137,27 @@ def _read_list(path: Path, found: ListMap, text_format: TextFormat) -> Workbook:
 
 
 def _build_site(
-    content: Content, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
+    lines: Lines, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
 ) -> Site:
-    workbook, lines, further = content.workbook, content.lines, content.further
-    ranges = lines.ranges
-    net_rows = _build_rows(content, findings)
+    workbook, further, ranges = lines.workbook, lines.further, lines.ranges
+    net_rows = build_net_rows(lines, findings)
+    if ranges.ranges:
+        check_layers(net_rows, lines.snow, ranges.ranges, findings)
     monitoring = read_monitoring(further[MONITORING.name], lines.places, findings)
     winter = read_winter(further[WINTER.name], lines.places, findings)
     uncertain = read_uncertain(further[UNCERTAINTY.name], lines.places, findings)
     links = read_links(lines.links, lines.types, findings)
     declared, confirmed = read_declared(
-        content.declared, workbook, lines.places, findings
+        lines.declared, workbook, lines.places, findings
     )
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
-        raise _refuse(content, findings)
+        raise _refuse(lines, findings)
     notes = fold_findings(list(map(_shorten, findings)))
     asked = ask(lines, confirmed, findings)
     rows = (replace(row, questions=asked[row.id]) for row in net_rows)
     return Site(
-        project=content.project,
+        project=lines.project,
         ranges=_span(ranges.ranges, net_rows),
         rows=tuple(mark_replaced(row, replaced) for row in rows),
         file_name=workbook.file,
@@ -164,15 +165,15 @@ def _build_site(
         notes=(*notes, *confirmed.values()),
         findings=tuple(findings),
         range_inputs=ranges.inputs,
-        project_cells=content.project_cells,
+        project_cells=lines.project_cells,
         monitoring=monitoring,
         winter=winter,
         declared=declared,
         confirmed=tuple(sorted(confirmed)),
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
-        library_file=content.library[0],
-        library_sha256=content.library[1],
+        library_file=lines.library[0],
+        library_sha256=lines.library[1],
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,
@@ -190,9 +191,9 @@ def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
     return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
 
 
-def _refuse(content: Content, findings: list[Finding]) -> SiteDataError:
-    workbook, cells = content.workbook, content.project_cells
-    findings.extend(_list_unknown_profiles(workbook, content.project, cells))
+def _refuse(lines: Lines, findings: list[Finding]) -> SiteDataError:
+    workbook, cells = lines.workbook, lines.project_cells
+    findings.extend(_list_unknown_profiles(workbook, lines.project, cells))
     return SiteDataError(findings, fold_findings(findings, workbook.file))
 
 
@@ -238,16 +239,6 @@ def _list_unknown_profiles(
     )
 
 
-def _build_rows(content: Content, findings: list[Finding]) -> tuple[NetRow, ...]:
-    """Net rows without a fault, held against what ranges over the whole site."""
-    lines = content.lines
-    rows = build_net_rows(content.nets, lines, findings) if content.nets else ()
-    if lines.ranges.ranges:
-        check_layers(rows, lines.snow, lines.ranges.ranges, findings)
-    approvals = content.approvals
-    return tuple(replace(row, approval=approvals.get(row.id)) for row in rows)
-
-
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     """Cells of the sheets that an input workbook has; nothing is understood yet.
 
@@ -258,7 +249,7 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     """
 
     def is_wanted(name: str) -> bool:
-        return is_read(name) or NETS.matches(name)
+        return is_read(name) or load_old_plans()["Nets"].matches(name)
 
     workbook = read_workbook(path, is_wanted, is_heading, text_format)
     if is_old(workbook):

@@ -62,8 +62,6 @@ class Reading:
     span : tuple of float, or None
         Low and high end of a range that the cell holds, in the field's first unit;
         then the value is the more severe of them.
-    typed_as : Field or None
-        Column of the workbook in which it stands, where that is another.
     """
 
     field: Field
@@ -74,12 +72,6 @@ class Reading:
     derivation: Message | None = None
     singles: tuple[SingleTest, ...] = ()
     span: tuple[float, float] | None = None
-    typed_as: Field | None = None
-
-    @property
-    def column(self) -> Field:
-        """Column in which an engineer finds it."""
-        return self.typed_as or self.field
 
     @property
     def place(self) -> str:
@@ -234,6 +226,21 @@ def read_nothing(field: Field, cell: Cell | None) -> Reading:
     return Reading(field=field, state="blank", cell=cell)
 
 
+def rename(reading: Reading, field: Field) -> Reading:
+    """Reading as another quantity, under the name of the column that it stands in."""
+    column = reading.field
+    named = column.name if field.units else column.title
+    return replace(reading, field=replace(field, named=named))
+
+
+def work_out(
+    reading: Reading, field: Field, value: float | str, how: Message
+) -> Reading:
+    """Quantity that follows from a cell, in its first unit."""
+    named = rename(reading, field)
+    return replace(named, state="given", value=value, derivation=how, span=None)
+
+
 def refuse(
     reading: Reading,
     rule: Message,
@@ -247,14 +254,14 @@ def refuse(
     A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
-        title = reading.column.title
+        title = reading.field.title
         finding = reading.cell.finding(rule, accepted, title, severity=severity)
         findings.append(finding)
 
 
 def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> None:
     """Refuse a reading beside another one that says the same, or the contrary."""
-    rule = say("cell.beside", name=other.column.name, place=other.place)
+    rule = say("cell.beside", name=other.field.name, place=other.place)
     refuse(reading, rule, say("accepted.one_of_two"), findings)
 
 
@@ -283,8 +290,8 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
                 refuse_with(reading, row[key], words, findings)
         for lacking in (row[key] for key in field.needs):
             if lacking.state == "blank":
-                rule = say("type.needs_more", names=(lacking.column.name,))
-                refuse(reading, rule, lacking.column.accepted, findings)
+                rule = say("type.needs_more", names=(lacking.field.name,))
+                refuse(reading, rule, lacking.field.accepted, findings)
 
 
 def choose_given(

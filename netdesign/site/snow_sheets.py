@@ -12,7 +12,7 @@ from netdesign.site.cells.numbers import read_moment
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import InputEcho, NetRow, StationWinter
-from netdesign.site.readings import Reading, Row, choose_given, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.heights import (
@@ -61,10 +61,11 @@ def build_layers(
     """
     layers = []
     for line in lines:
-        given = choose_given(line, ("thickness", "height"), findings)
-        thickness = measure_normal(given, slope_angle) if given else None
+        if any(one.state == "faulty" for one in line.values()):
+            continue
         density, temperature = line["density"], line["temperature"]
-        if thickness is None or "faulty" in (density.state, temperature.state):
+        thickness = measure_normal(line["thickness"], slope_angle)
+        if thickness is None:
             continue
         layer = Layer(
             thickness=thickness,
@@ -78,7 +79,7 @@ def build_layers(
     for line, layer in zip(lines, layers, strict=True):
         if layer.thickness < THINNEST_LAYER * total:
             rule = say("layer.too_thin", least=THINNEST_LAYER, total=total)
-            refuse(_size_of(line), rule, say("layer.put_together"), findings)
+            refuse(line["thickness"], rule, say("layer.put_together"), findings)
     return tuple(layers)
 
 
@@ -88,22 +89,20 @@ def resolve_thickness(
     slope_angle: Reading,
     findings: list[Finding],
 ) -> float | None:
-    """Snow thickness of layered snow [m]: the sum, which has to agree with sheet Nets.
+    """Snow thickness of layered snow [m]: the sum, which has to agree with sheet Rows.
 
     Parameters
     ----------
     layers : tuple of Layer
         Of the net row.
     given : Reading
-        Thickness or vertical height in sheet Nets; may be blank.
+        Thickness or vertical height in sheet Rows.
     slope_angle : Reading
         Of the net row.
     findings : list of Finding
         Appended to.
     """
     total = sum(layer.thickness for layer in layers)
-    if given.state != "given":
-        return total
     is_vertical = given.field.key == "snow_height"
     factor = math.cos(slope_angle.si) if is_vertical else 1.0
     if abs(total - given.si * factor) > _SUM_TOLERANCE:
@@ -154,17 +153,13 @@ def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
     echoes = []
     for line in lines:
         number = f"{line['layer'].number:g}"
-        for key in ("thickness", "height", "density", "temperature"):
+        for key in ("thickness", "density", "temperature"):
             reading = line[key]
-            if reading.state != "given":
-                continue
-            name = say("column.of_layer", layer=number, name=reading.field.name)
-            echoes.append(reading.echo(name))
+            if reading.state == "given":
+                named = say(f"column.Snow.{reading.field.key}")
+                name = say("column.of_layer", layer=number, name=named)
+                echoes.append(reading.echo(name))
     return tuple(echoes)
-
-
-def _size_of(line: Row) -> Reading:
-    return line["thickness" if line["thickness"].state == "given" else "height"]
 
 
 def measure_normal(given: Reading, slope_angle: Reading) -> float | None:
@@ -209,7 +204,7 @@ def read_winter(
     table : Table or None
         Sheet Winter, if there is one.
     places : mapping of str to str
-        Cells of the ids of sheet Nets; with none, any row may be named.
+        Cells of the ids of sheet Rows; with none, any row may be named.
     findings : list of Finding
         Appended to: days that are none or come twice, gaps inside snow, and remarks on
         what was filled and on steep rises.

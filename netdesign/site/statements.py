@@ -21,16 +21,12 @@ from netdesign.panel.inputs import (
 from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
+from netdesign.site.anchor_types import ANCHORS, name_column, read_axes
 from netdesign.site.assumed import Assumed, assume
-from netdesign.site.columns.all_tables import ANCHORS, ENDS, NETS, POSTS, ROPES
-from netdesign.site.columns.fields import SheetPlan
-from netdesign.site.columns.office import load_plan
 from netdesign.site.lines import Types
-from netdesign.site.model import InputEcho, NetRow, Resistance
-from netdesign.site.readings import (
-    Row,
-)
-from netdesign.site.type_resistances import TEST_COLUMNS, find_breaking
+from netdesign.site.model import NetRow, Resistance
+from netdesign.site.readings import Reading, Row
+from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import (
     CONNECTED,
     END_ANCHORS,
@@ -46,8 +42,8 @@ _ROPES = ("ridge_rope", "lower_rope")
 _OF_PANEL = ("ridge_rope", "ridge_sag", "lower_rope", "lower_sag", "mid_anchors")
 # Of a panel, without a column: the worst of what is built counts.
 _NEVER = (say("column.Nets.panel_system"), say("column.Nets.net_cut"))
-# Columns of sheets Nets and Ends that name a type of the support.
-_TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
+# Columns that name a type of a support.
+TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
 def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
@@ -56,9 +52,9 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
     Parameters
     ----------
     row : mapping of str to Reading
-        Line of sheet Nets.
+        Line of a net row.
     ropes : mapping of str to mapping of str to Reading
-        Lines of sheet Ropes by id.
+        Lines of ropes by id.
     """
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     return list_panels(
@@ -84,21 +80,18 @@ def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
     return tuple(lacking)
 
 
-def list_stiffnesses(
-    at_end: Row, end: Row | None, types: Mapping[str, Mapping[str, Row]]
-) -> tuple[tuple[float, ...], ...]:
+def list_stiffnesses(at_end: Row, types: Types) -> tuple[tuple[float, ...], ...]:
     """Stiffnesses EA that uphill guy, downhill guy, end guy and post may have [N].
 
     Ropes of which nobody gives it are of one construction: their EA is the same
     multiple of their breaking force, or equal where none has a type. One without a
     type beside others is either end of all that is built.
     """
-    words = [at_end[Member.UPHILL_GUY].word, at_end[Member.DOWNHILL_GUY].word]
-    words += [end[EndMember.END_GUY].word if end else ""]
-    lines = [types["Ropes"].get(one) for one in words]
+    guys = (Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY)
+    lines = [types["ropes"].get(at_end[one].word) for one in guys]
     alike = [_list_alike(lines, of) for of in _list_multiples(lines)]
     ropes = dict.fromkeys(chain.from_iterable(product(*one) for one in alike))
-    post = _find_post_stiffness(types["Posts"].get(at_end[Member.POST].word))
+    post = _find_post_stiffness(types["posts"].get(at_end[Member.POST].word))
     return tuple((*ways, one) for ways in ropes for one in dict.fromkeys(post))
 
 
@@ -144,89 +137,72 @@ def _find_stiffness(line: Row | None) -> Ends:
     return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))
 
 
-def replace_types(row: Row, end: Row | None) -> Row:
-    """Line of sheet Nets with the types of its end; others are those inside."""
-    given = [key for key in _TYPES if end and end[key].state == "given"]
-    return {**row, **{key: end[key] for key in given if end}}
-
-
 def has_same_types(at_end: Row, row: Row) -> bool:
     """Sameness of every type at the row's end and inside."""
-    return all(at_end[key].word == row[key].word for key in _TYPES)
+    return all(at_end[key].word == row[key].word for key in TYPES)
 
 
-def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
-    """Types of the ends as typed; those left empty are those of the row."""
-    readings = end.values() if end else ()
-    return tuple(
-        one.echo()
-        for one in readings
-        if one.state == "given" and one.field.key != "row"
-    )
-
-
-def list_fixed(row: Row, end: Row | None, types: Types) -> tuple[Assumed, ...]:
+def list_fixed(
+    row: Row, end: Row, gap: float | None, types: Types
+) -> tuple[Assumed, ...]:
     """Words and single values that stand for empty cells of a row and its types.
 
     Parameters
     ----------
-    row, end : Row, Row or None
-        Lines of sheets Nets and Ends.
+    row, end : Row
+        Line of a net row, and its cells that name other types at its end.
+    gap : float or None
+        Beside the row, 0 where its nets go on; None where nobody gives it.
     types : mapping of str to mapping of str to Row
-        Lines of the type sheets.
+        Lines of types by table.
     """
-    keys = ["design_life"] if _is_empty(row, "design_life") else []
-    keys += [
-        "panel_system",
-        *(["mid_anchors"] if _is_empty(row, "mid_anchors") else []),
-    ]
-    keys += ["net_cut"]
-    if row["guy_count"].given_count != 1 and _is_empty(row, "guy_anchors"):
-        keys.append("guy_anchors")
-    has_end = row["row_end"].word != "continuous" and row["gap"].given_si != 0.0
-    if has_end:
-        keys += ["row_end"] if _is_empty(row, "gap") else []
-        said = (*_TYPES, "support_types")
-        is_typed = end is not None and any(not _is_empty(end, one) for one in said)
-        keys += [] if is_typed else ["support_types"]
-        if end is None or _is_empty(end, "end_guy_angle"):
-            keys.append("end_guy_angle")
-    found = [*keys, *_list_fixed_of_types(row, end or {}, types)]
+    has_end = gap != 0.0
+    is_open = {
+        "design_life": _is_empty(row, "design_life"),
+        "panel_system": True,
+        "mid_anchors": _is_empty(row, "mid_anchors"),
+        "net_cut": True,
+        "guy_anchors": row["guy_count"].given_count != 1
+        and _is_empty(row, "guy_anchors"),
+        "row_end": gap is None,
+        "end_guy_angle": has_end and _is_empty(row, "end_guy_angle"),
+        "anchor_axes": len(read_axes(row, ANCHORS, types)) < len(ANCHORS),
+    }
+    keys = [key for key, is_empty in is_open.items() if is_empty]
+    named = [*row.values(), *end.values()]
+    found = [*keys, *_list_fixed_of_types(named, types)]
     return tuple(assume(key) for key in dict.fromkeys(found))
 
 
 def _is_empty(line: Row, key: str) -> bool:
-    return key not in line or line[key].state in ("blank", "default")
+    return line[key].state in ("blank", "default")
 
 
-_BORES = ("foot_axis", "uphill_axis", "downhill_axis")
-
-
-def _list_fixed_of_types(row: Row, end: Row, types: Types) -> Iterator[str]:
-    """What is assumed of anchors and posts, by key."""
-    if any(_is_empty(row, one) for one in _BORES):
-        yield "anchor_axes"
-    named = (one.word for line in (row, end) for one in line.values()
-             if one.field.refers_to == ANCHORS.name)  # fmt: skip
-    for line in (types["Anchors"][one] for one in named if one in types["Anchors"]):
+def _list_fixed_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
+    """What is assumed of anchors and posts that cells name, by key."""
+    anchors, posts = (
+        [lines[x.word] for x in named if x.field.refers_to == table and x.word in lines]
+        for table, lines in types.items()
+        if table != "ropes"
+    )
+    for line in anchors:
         kind = line["kind"].word
         if not kind:
             yield "anchor_kind"
         if kind != "rope anchor" and _is_empty(line, "lever_arm"):
             yield "lever_arm"
-        if not _is_empty(line, "pull_out") and _is_empty(line, "basis"):
-            yield from () if line["pull_out"].derivation else ("basis",)
-        if not _is_empty(line, "test_least"):
-            empty = (one for one in TEST_COLUMNS if _is_empty(line, one))
-            yield from empty
-    posts = {row[Member.POST].word, end[Member.POST].word if end else ""} - {""}
-    lines = [types["Posts"][one] for one in posts if one in types["Posts"]]
-    if not lines or any(_is_empty(one, "base_friction") for one in lines):
+    if not posts or any(_is_empty(one, "base_friction") for one in posts):
         yield "base_friction"
 
 
-_SHEET_BY_MODE = {"rope": ROPES, "compression": POSTS, "bearing": POSTS}
-_COLUMN_BY_MODE = {"bending": "bar_diameter", "direction": "kind"}
+# Columns that verdicts lack, by mode, where they are not those of anchor types.
+_COLUMN_BY_MODE = {
+    "rope": "ropes.rope",
+    "compression": "posts.area",
+    "bearing": "posts.bearing",
+    "bending": "anchor_types.bar_diameter",
+    "direction": "anchor_types.kind",
+}
 
 
 def list_missing(
@@ -242,7 +218,7 @@ def list_missing(
     row : NetRow
         As read.
     links : mapping of str to tuple of Link
-        Chains of sheet Links, by type.
+        Chains of links, by type.
     """
     found = [name for one in find_lacking(row) for name in _name_lacking(one)]
     if _is_structure_asked(row):
@@ -262,10 +238,8 @@ def find_lacking(row: NetRow) -> tuple[Resistance, ...]:
     )
 
 
-_ANCHORS = (
-    *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
-    *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR),
-)
+_ANCHORS = (*ANCHORS, *END_ANCHORS)
+_OF_ROWS = (*ANCHORS, "end_anchor")  # types that sheet Rows names; others are the net's
 
 
 def _list_resistances(row: NetRow) -> tuple[Resistance, ...]:
@@ -298,14 +272,12 @@ def _is_lacking(one: Resistance) -> bool:
 def _name_lacking(one: Resistance) -> Iterator[Message]:
     """Column of a type that nobody names; else what its type does not say."""
     if one.mode == "mesh":
-        yield _name(NETS, "mesh_strength")
+        yield _name("net_types.mesh_strength")
     elif one.type_id:
         yield from _list_lacking(one)
-    elif isinstance(one.member, EndMember):
-        yield _name(ENDS, one.member)
     else:
-        is_own = one.member not in NAMED_BY
-        yield _name(NETS, one.member if is_own else NAMED_BY[Member(one.member)])
+        key = name_column(one.member)
+        yield _name(f"{'rows' if key in _OF_ROWS else 'net_types'}.{key}")
 
 
 def _list_chains(
@@ -323,8 +295,7 @@ def _list_lacking(one: Resistance) -> Iterator[Message]:
     if isinstance(names, tuple) and names:
         yield from (one for one in names if isinstance(one, Message))
     else:
-        column = _COLUMN_BY_MODE.get(one.mode, one.mode)
-        yield _name(_SHEET_BY_MODE.get(one.mode, ANCHORS), column)
+        yield _name(_COLUMN_BY_MODE.get(one.mode, f"anchor_types.{one.mode}"))
 
 
 def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
@@ -333,25 +304,7 @@ def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
     return (*(row.end_resistances or ()), *along)
 
 
-_TABLES = {
-    **dict.fromkeys((NETS.name, ENDS.name), ("rows", "net_types")),
-    **{ANCHORS.name: ("anchor_types",), ROPES.name: ("ropes",), POSTS.name: ("posts",)},
-}
-
-_PARTS = dict.fromkeys(("ropes", "posts"), "parts")  # sheet of these tables
-
-
-def _name(plan: SheetPlan, key: str) -> Message:
-    """Column of the input workbook, with its sheet, in which an engineer finds it."""
-    column = "end_anchor" if key in END_ANCHORS else key
-    plans = map(load_plan, _TABLES[plan.name])
-    return next(
-        say(
-            "check.on_sheet",
-            name=field.name,
-            sheet=say(f"sheet.{_PARTS.get(of.name, of.name)}"),
-        )
-        for of in plans
-        for field in of.fields
-        if field.key == column
-    )
+def _name(key: str) -> Message:
+    """Column of the input workbook with its sheet."""
+    sheet = say(f"sheet.{key.partition('.')[0]}")
+    return say("check.on_sheet", name=say(f"column.{key}"), sheet=sheet)

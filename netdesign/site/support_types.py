@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import product
 
 from netdesign.resistance.ground import BENDING, AnchorType
 from netdesign.resistance.post import PostSection
@@ -17,10 +16,12 @@ from netdesign.resistance.steel import (
     Wear,
 )
 from netdesign.site.anchor_types import (
-    AXES,
+    ANCHORS,
     AnyMember,
+    name_column,
     read_anchor_types,
     read_anchors,
+    read_axes,
 )
 from netdesign.site.assumed import assume
 from netdesign.site.lines import Types
@@ -44,7 +45,6 @@ from netdesign.structure.members import (
     END_MODES,
     LIFTED_MODE,
     MEMBER_MODES,
-    NAMED_BY,
     NET_MODES,
     EndMember,
     Member,
@@ -53,13 +53,13 @@ from netdesign.structure.members import (
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
 
-_ENDS = ("head_eccentricity", "foot_eccentricity")
+_ENDS = ("head_eccentricity", "foot_eccentricity")  # one column says both
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
-# By type sheet: a member that takes its types, and what these may fail by.
+# By table of types: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
-    "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
-    "Ropes": (Member.UPHILL_GUY, ("rope",)),
-    "Posts": (Member.POST, ("compression",)),
+    "anchor_types": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
+    "ropes": (Member.UPHILL_GUY, ("rope",)),
+    "posts": (Member.POST, ("compression",)),
 }
 
 
@@ -79,18 +79,15 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     Parameters
     ----------
     row : mapping of str to Reading
-        Line of sheet Nets, or one with the types of the row's end.
+        Line of a net row, or one with the types of its end.
     types : mapping of str to mapping of str to Row
-        Lines of the type sheets.
+        Lines of types by table.
     """
     anchors, post = dict(read_anchor_types(row, types)), row[Member.POST]
-    line = types["Posts"].get(post.word)
+    line = types["posts"].get(post.word)
     return (
-        *(
-            _find_resistance(row[NAMED_BY.get(member, member)], mode, member, types)
-            for member, mode in MEMBER_MODES
-        ),
-        *_list_beside_axis(row, tuple(AXES), anchors, types),
+        *(_find_resistance(row, mode, member, types) for member, mode in MEMBER_MODES),
+        *_list_beside_axis(row, ANCHORS, anchors, types),
         _bend_post(post, line),
         _slide(post, line),
         _hold_foot(post, line),
@@ -104,44 +101,34 @@ def _list_beside_axis(
     types: Types,
 ) -> Iterator[Resistance]:
     """Resistances of anchors that follow how they are pulled, and of their ground."""
-    bent = (_bend_anchor(row[one], one, anchors.get(one), types) for one in members)
+    named = {member: row[name_column(member)] for member in members}
+    bent = (_bend_anchor(named[x], x, anchors.get(x), types) for x in members)
     yield from (one for one in bent if one is not None)
-    for one, kind in anchors.items():
+    for member, kind in anchors.items():
         if kind.soil:
-            yield _hold_by_ground(row[one], one, kind, types)
-    for one in members:
-        of_one = anchors.get(one)
-        if of_one is None or of_one.kind not in BENDING or of_one.across is not None:
-            yield _open(row[one], one, "direction", of_one)
+            yield _hold_by_ground(named[member], member, kind, types)
+    for member in members:
+        own = anchors.get(member)
+        if own is None or own.kind not in BENDING or own.across is not None:
+            yield _open(named[member], member, "direction", own)
 
 
-def build_row_end(at_end: Row, end: Row | None, types: Types) -> RowEnd:
+def build_row_end(at_end: Row, types: Types) -> RowEnd:
     """Members that hold a row along itself, all of them, given or not.
 
     ``at_end`` is its line with the types of its first and last support.
     """
-    steepest = assume("end_guy_angle").high
-    if end is None:
-        lack = say("row_end.no_members")
-        beside = product(END_ANCHORS, ("bending", "direction"))
-        return RowEnd(
-            guy_angle=steepest,
-            stiffnesses=list_stiffnesses(at_end, end, types),
-            resistances=tuple(
-                Resistance(member=member, mode=mode, source="Ends", lack=lack)
-                for member, mode in (*END_MODES, *beside)
-            ),
-        )
-    anchors = read_anchors(end, END_ANCHORS, types, at_end["ground"].word)
-    angle = end["end_guy_angle"].given_si
+    anchors = read_anchors(at_end, END_ANCHORS, types)
+    axes = dict(read_axes(at_end, END_ANCHORS, types))
+    angle = at_end["end_guy_angle"].given_si
     return RowEnd(
-        guy_angle=steepest if angle is None else angle,
-        stiffnesses=list_stiffnesses(at_end, end, types),
-        ropes_slide=_read_sliding(end["ropes_at_supports"].word),
-        lateral_axis=end["lateral_axis"].given_si,
+        guy_angle=assume("end_guy_angle").high if angle is None else angle,
+        stiffnesses=list_stiffnesses(at_end, types),
+        ropes_slide=_read_sliding(at_end["ropes_at_supports"].word),
+        lateral_axis=axes.get(EndMember.LATERAL_ANCHOR),
         resistances=(
-            *(_find_resistance(end[one], mode, one, types) for one, mode in END_MODES),
-            *_list_beside_axis(end, END_ANCHORS, anchors, types),
+            *(_find_resistance(at_end, mode, one, types) for one, mode in END_MODES),
+            *_list_beside_axis(at_end, END_ANCHORS, anchors, types),
         ),
         anchors=tuple(anchors.items()),
     )
@@ -162,7 +149,7 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
         basis="declared" if strength.state == "given" else "",
     )
     return mesh, *(
-        _find_resistance(row[part], mode, part, types)
+        _find_resistance(row, mode, part, types)
         for part, mode in NET_MODES
         if part is not NetPart.MESH
     )
@@ -182,9 +169,10 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
 
 
 def _find_resistance(
-    reading: Reading, mode: str, member: Member | EndMember | NetPart, types: Types
+    row: Row, mode: str, member: Member | EndMember | NetPart, types: Types
 ) -> Resistance:
     """Resistance of a member in one mode; no type or no value gives None."""
+    reading = row[name_column(member)]
     if not reading.word:
         return Resistance(member=member, mode=mode, source=reading.place or "Rows")
     sheet = reading.field.refers_to
@@ -200,9 +188,8 @@ def _describe_type(
     tests = find_tests(kind) if is_pulled else None
     is_given = resistance.state == "given"
     is_derived = is_given and resistance.derivation is not None
-    # A pull-out resistance says how it is known; the others are makers' values.
-    basis = kind["basis"].word if is_pulled else "declared"
-    basis = "computed" if is_derived else basis
+    # A report counts once sheet Declared names it; other numbers are makers' values.
+    basis = "computed" if is_derived or is_pulled else "declared"
     is_strut = is_derived and mode == "compression"
     value, derivation = _find_strength(kind, mode)
     if tests:
@@ -228,15 +215,8 @@ def _describe_type(
         factored_as=("tendon", "rope") if is_rope else (),
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
         may_be_sleeved=is_pulled and not tests,
-        is_basis_assumed=is_pulled
-        and _is_basis_assumed(kind, is_tested=tests is not None),
+        is_basis_assumed=is_pulled and is_given and kind["proven"].word != "calculated",
     )
-
-
-def _is_basis_assumed(kind: Row, *, is_tested: bool) -> bool:
-    """A pull-out resistance is typed, and counts as computed for want of a word."""
-    is_typed = kind["pull_out"].state == "given" and not kind["pull_out"].derivation
-    return is_typed and not is_tested and kind["basis"].derivation is not None
 
 
 def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
@@ -248,9 +228,7 @@ def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
         return reduce_breaking(kind)
     if mode == "tendon" and may_be_rope(kind):
         return reduce_loop(kind)
-    if given.derivation or mode != "pull_out" or kind["basis"].word != "tested":
-        return given.si, given.derivation
-    return given.si, say("derivation.one_test", force=given.number)
+    return given.si, given.derivation
 
 
 def _read_wear(kind: Row, mode: str) -> Wear | None:
@@ -277,7 +255,7 @@ def _bend_anchor(
         return _open(named, member, "bending")
     if anchor.kind == "rope anchor":
         return None
-    wear = _read_wear(types["Anchors"][named.word], "bending")
+    wear = _read_wear(types["anchor_types"][named.word], "bending")
     if wear is not None and anchor.has_tube and anchor.section is not None:
         outer, inner = anchor.section.outer, anchor.section.inner
         wear = replace(wear, outer=outer, inner=inner)
@@ -288,7 +266,7 @@ def _hold_by_ground(
     named: Reading, member: Member | EndMember, anchor: AnchorType, types: Types
 ) -> Resistance:
     """Resistance of the ground that an anchor may pull out with itself."""
-    place = types["Anchors"][named.word]["soil_cohesion"].place
+    place = types["anchor_types"][named.word]["soil_cohesion"].place
     return _open(named, member, "wedge", anchor, source=place)
 
 
@@ -322,7 +300,8 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         names = tuple(line[key].field.name for key in blank)
         lack = say("check.bent_post_needs", names=names)
         return _open(named, Member.POST, mode, lack=lack)
-    buckling = compute_buckling(line)
+    buckling, typed = compute_buckling(line), line["head_eccentricity"].given_si
+    eccentricity = 0.5 * find_depth(line) if typed is None else typed
     section = PostSection(
         width=line["post_width"].si,
         length=line["buckling_length"].si,
@@ -330,19 +309,13 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         strength=line["yield_strength"].si,
         critical=buckling.critical,
         buckling=buckling.value,
-        at_head=_find_eccentricity(line, "head_eccentricity"),
-        at_foot=_find_eccentricity(line, "foot_eccentricity"),
-        assumed=("efficiency", *(x for x in _ENDS if line[x].given_si is None)),
+        at_head=eccentricity,
+        at_foot=eccentricity,
+        assumed=("efficiency", *(_ENDS if typed is None else ())),
     )
     place = line["post_width"].place
     found = _open(named, Member.POST, mode, section, source=place)
     return replace(found, buckling_length=section.length)
-
-
-def _find_eccentricity(line: Row, key: str) -> float:
-    """Eccentricity of a post's compression at one end [m]: half the depth, if empty."""
-    typed = line[key].given_si
-    return 0.5 * find_depth(line) if typed is None else typed
 
 
 def _slide(named: Reading, line: Row | None) -> Resistance:

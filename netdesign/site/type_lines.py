@@ -20,11 +20,10 @@ from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.lines import Types, refuse_unknown_ids
-from netdesign.site.readings import Reading, Row, choose_given, refuse
+from netdesign.site.readings import Reading, Row, refuse, work_out
 from netdesign.site.type_resistances import TEST_COLUMNS
 from netdesign.words.message import Message, say
 
-_ANCHORS = "Anchors"
 _WITH_GROUND = re.compile(r"(.+) \(([^()]*)\)")
 _ByGround = dict[str, Row]  # lines of one type, by word of their ground; "" for none
 
@@ -52,21 +51,16 @@ def _rename(line: Row, ground: Reading) -> Row:
 
 
 def place_in_ground(
-    rows: Sequence[Row],
-    lines: Sequence[Row],
-    grounds: Mapping[str, Reading],
-    findings: list[Finding],
+    rows: Sequence[Row], lines: Sequence[Row], findings: list[Finding]
 ) -> list[Row]:
     """Rows whose anchors are those of their ground.
 
     Parameters
     ----------
     rows : sequence of Row
-        Lines of sheet Nets or Ends.
+        Net rows, or the cells that name types at their ends.
     lines : sequence of Row
         Of sheet Anchors, as read.
-    grounds : mapping of str to Reading
-        Ground by net row.
     findings : list of Finding
         Appended to: a type that the row's ground does not have.
 
@@ -80,11 +74,10 @@ def place_in_ground(
         by_id.setdefault(line["id"].word, {})[line["ground"].word] = line
     placed: list[Row] = []
     for row in rows:
-        ground = grounds.get(row.get("row", row.get("id")).word)  # type: ignore[union-attr]
         named = {
-            key: _resolve(one, by_id, ground, findings)
+            key: _resolve(one, by_id, row["ground"], findings)
             for key, one in row.items()
-            if one.field.refers_to == _ANCHORS
+            if one.field.refers_to == "anchor_types"
         }
         placed.append({**row, **named})
     return placed
@@ -93,7 +86,7 @@ def place_in_ground(
 def _resolve(
     named: Reading,
     by_id: Mapping[str, _ByGround],
-    ground: Reading | None,
+    ground: Reading,
     findings: list[Finding],
 ) -> Reading:
     """Cell that names a type, alone or with its ground: "A32 (scree)"."""
@@ -113,11 +106,11 @@ def _resolve(
 def _choose(
     named: Reading,
     of_type: _ByGround,
-    ground: Reading | None,
+    ground: Reading,
     findings: list[Finding],
 ) -> Reading:
     """Cell that names the line of a type in a ground."""
-    word = ground.word if ground else ""
+    word = ground.word
     if len(of_type) > 1 and word in of_type and word:
         line = _rename(of_type[word], of_type[word]["ground"])
         return replace(named, value=line["id"].word)
@@ -126,7 +119,7 @@ def _choose(
         return named
     known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
     rule = say("nets.no_ground")
-    if ground and word:
+    if word:
         rule = say("nets.other_ground", ground=ground.text)
     refuse(named, rule, say("nets.grounds", grounds=known), findings)
     return replace(named, state="faulty")
@@ -224,20 +217,12 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     first = tests[0]["force"]
     how = say("tests.counted", count=len(tests), place=first.place)
     counted = {
-        key: replace(
-            line[key],
-            state="given",
-            value=value,
-            derivation=how,
-            cell=first.cell,
-            typed_as=first.column,
-        )
+        key: replace(work_out(first, line[key].field, value, how), text="")
         for key, value in zip(TEST_COLUMNS, _sum_up(tests), strict=True)
     }
     singles = tuple(map(_read_single, tests))
     counted["test_count"] = replace(counted["test_count"], singles=singles)
-    field = line["ground"].field
-    return {**line, **counted, "ground": replace(ground, field=field)}
+    return {**line, **counted, "ground": ground}
 
 
 def _read_single(test: Row) -> SingleTest:
@@ -304,7 +289,7 @@ def find_depth(row: Row) -> float:
     return max(row["post_width"].si, 4.0 * row["section_modulus"].si / row["area"].si)
 
 
-_SHEETS = ("Ropes", "Anchors")
+_LINKED = ("ropes", "anchor_types")
 
 
 def read_links(
@@ -319,9 +304,9 @@ def read_links(
     types : mapping of str to mapping of str to Row
         Lines of the type sheets.
     findings : list of Finding
-        Appended to: an unknown type, a link with two strengths, or none.
+        Appended to: an unknown type, a link without a force.
     """
-    ids = [name for sheet in _SHEETS for name in types[sheet]]
+    ids = [name for table in _LINKED for name in types[table]]
     chains: dict[str, tuple[Link, ...]] = {}
     for line in lines:
         kinds = [one for one in ids if line["type"].word in (one, name_bare(one))]
@@ -336,21 +321,25 @@ def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
     if any(reading.state == "faulty" for reading in line.values()):
         return False
     if not kinds:
-        sheets = tuple(say(f"sheet.{sheet}") for sheet in _SHEETS)
+        sheets = tuple(say(f"sheet.{table}") for table in _LINKED)
         rule = say("nets.no_id", sheet=say("links.sheets", sheets=sheets))
         accepted = say("links.id_of_either", sheets=sheets)
         refuse(line["type"], rule, accepted, findings)
         return False
-    return choose_given(line, ("strength", "working_limit"), findings) is not None
+    force = line["force"]
+    if force.state == "blank":
+        refuse(force, say("cell.empty"), force.field.accepted, findings)
+    return force.state == "given"
 
 
 def _read_link(line: Row) -> Link:
-    breaking, limit = line["strength"], line["working_limit"]
+    """Link of a line; a force of which nobody says what it is is a strength."""
+    force, is_limit = line["force"], line["meaning"].word == "limit"
     return Link(
         kind=line["link"].word,
-        breaking=breaking.given_si,
-        limit=limit.given_si,
+        breaking=None if is_limit else force.given_si,
+        limit=force.given_si if is_limit else None,
         count=line["count"].given_count or 1,
         angle=line["angle"].given_si,
-        source=(breaking if breaking.state == "given" else limit).place,
+        source=force.place,
     )

@@ -99,13 +99,9 @@ def _compute(
 def find_tests(row: Row) -> PullOutTests | None:
     """Pull-out tests of an anchor type; None where none, or refused ones, are given.
 
-    Without a number it is one test, without a mean that is the least. A tested
-    resistance is that of one test.
+    Without a number it is one test, without a mean that is the least.
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
-    one = row["pull_out"]
-    if one.state == "given" and row["basis"].word == "tested":
-        return PullOutTests(count=1, least=one.si, mean=one.si)
     if least.state != "given" or "faulty" in (count.state, mean.state):
         return None
     average = least.si if mean.given_si is None else mean.si
@@ -138,7 +134,7 @@ def _refuse_incomplete(
     given = [row[key] for key in keys if row[key].state == "given"]
     lacking = [row[key] for key in keys if row[key].state == "blank"]
     if given and lacking and len(given) + len(lacking) == len(keys):
-        rule = say("type.needs_more", names=tuple(one.column.name for one in lacking))
+        rule = say("type.needs_more", names=tuple(one.field.name for one in lacking))
         refuse(given[0], rule, say("type.all_or_none"), findings)
 
 

@@ -95,7 +95,7 @@ MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.POST_BASE, "bearing"),
 )
 # Columns that name the type of a member without a type of its own.
-NAMED_BY: Mapping[Member, Member] = {
+NAMED_BY: Mapping[str, Member] = {
     Member.POST_BASE: Member.POST,
     Member.POST_FOOT: Member.POST,
 }

@@ -76,10 +76,10 @@ PARTS: Mapping[str, str] = {
 }
 
 
-def find_cell(row: NetRow, column: str, sheet: str = "Nets") -> str:
-    """Cell of a row's input; "" where it has none."""
-    label = say(f"column.{sheet}.{column}")
-    return next((echo.cell for echo in row.inputs if echo.label == label), "")
+def find_cell(row: NetRow, column: str) -> str:
+    """Cell of a column of a row or of its net type; "" where it has none."""
+    labels = [say(f"column.{table}.{column}") for table in ("rows", "net_types")]
+    return next((echo.cell for echo in row.inputs if echo.label in labels), "")
 
 
 def solve_for(record: LargestForce, symbol: str) -> Quantity:
@@ -408,7 +408,7 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
     angle = row.row_end.guy_angle if row.row_end else None
     if angle is None:
         return []
-    cell = find_cell(row, "end_guy_angle", "Ends")
+    cell = find_cell(row, "end_guy_angle")
     return [leaf("γ", degree_from_radian(angle), "deg", cell)]
 
 

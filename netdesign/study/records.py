@@ -421,12 +421,12 @@ class Study:
         return join_items([row.written for row in self.rows])
 
 
-_SHEETS = ("Nets", "rows", "net_types", "project")  # with columns of a net row
+_TABLES = ("rows", "net_types", "project")  # with columns of a net row
 
 
 def find_input(row: RowStudy, column: str) -> float | None:
     """Number of a column of a net row, as understood; None where it is empty."""
-    labels = [say(f"column.{sheet}.{column}") for sheet in _SHEETS]
+    labels = [say(f"column.{table}.{column}") for table in _TABLES]
     texts = (echo.value for echo in row.inputs if echo.label in labels)
     value = next((text for text in texts if text != ""), None)
     return None if isinstance(value, str) else value

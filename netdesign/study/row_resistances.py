@@ -228,7 +228,7 @@ def corrode(resistance: Resistance, basis: Basis) -> tuple[Resistance, Message |
     if wear is None or "corrosion" in basis.standard.not_checked:
         return resistance, None
     if wear.is_bare and None in (wear.outer, wear.inner):
-        lack = say("corrosion.lacks", names=(say("column.Anchors.bar_diameter"),))
+        lack = say("corrosion.lacks", names=(say("column.anchor_types.bar_diameter"),))
         return replace(resistance, value=None, dimensions=None, lack=lack), None
     if not wear.is_bare:
         unprotected = say("corrosion.of_rope") if wear.protection in BARE else None

@@ -16,6 +16,7 @@ from netdesign.checks.check import Check
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import (
+    END_ANCHORS,
     END_MODES,
     MEMBER_MODES,
     NAMED_BY,
@@ -202,10 +203,12 @@ def _find_column(member: str) -> Column | None:
 def _find_cell(row: NetRow, column: Column, position: str) -> tuple[str, str]:
     """Cell that names a type, and the type; of an end its own, where it has one."""
     echoes = {echo.label: echo for echo in row.inputs}
-    at_end = echoes.get(say(f"column.Ends.{column}"))
-    inside = echoes.get(say(f"column.Nets.{column}"))
-    is_at_end = position == "edge" or isinstance(column, EndMember)
-    echo = at_end if is_at_end and at_end is not None else inside
+    name = "end_anchor" if column in END_ANCHORS else column
+    labels = [f"{table}.{name}" for table in ("rows", "net_types")]
+    if position == "edge":  # of a type that stands there alone
+        labels.insert(0, f"Ends.{name}")
+    keys = (say(f"column.{label}") for label in labels)
+    echo = next((echoes[key] for key in keys if key in echoes), None)
     if echo is None or "!" not in echo.cell:
         return "", ""
     return echo.cell, str(echo.value)

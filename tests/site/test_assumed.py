@@ -9,12 +9,14 @@ from netdesign.checks import list_standards
 from netdesign.site.assumed import assume, assume_ends, load_assumed
 from netdesign.site.columns.all_tables import load_old_plans
 from netdesign.words.catalogue import LANGUAGES, render
+from tests.site.columns.fields import FIELDS as TABLES
 from tests.sources import parse_package
 
+OLD = [(*one.fields, *one.items) for one in load_old_plans().values()]
 FIELDS = {
     f"{one.table}.{one.key}": one
-    for plan in load_old_plans().values()
-    for one in (*plan.fields, *plan.items)
+    for fields in (*TABLES.values(), *OLD)
+    for one in fields
 }
 
 

@@ -17,7 +17,7 @@ from netdesign.words.message import Message, say
 
 DEFAULT = "default"  # cell of an input that takes its default value
 # Left empty, its factor is taken by the guideline's load.
-ALTITUDE = say("column.Nets.altitude")
+ALTITUDE = say("column.rows.altitude")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

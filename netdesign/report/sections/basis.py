@@ -168,7 +168,7 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
 
 
 _SCOPE = ("avalanche", "structure", "ground", "product")
-_NAME, _ENDS = say("column.Nets.id"), "column.Ends."
+_NAME, _ENDS = say("column.rows.id"), "column.Ends."
 # Net rows of which each is named; of more, those that are left out may be fewer.
 _FEW_ROWS, _TWO = 8, 2
 

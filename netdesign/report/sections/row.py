@@ -158,7 +158,7 @@ class RowPage:
 
     def _name_law(self) -> str:
         """Law of the ground, in the reader's language; "" where none is given."""
-        label = say("column.Nets.ground_law")
+        label = say("column.rows.glide_factor")
         laws = [echo for echo in self.row.inputs if echo.label == label and echo.value]
         return str(understand(laws[0], self.words)) if laws else ""
 

@@ -145,16 +145,16 @@ def _load_headings(language: str) -> Data:
     return load_file(f"headings/{language}")
 
 
-_PLANS = {name: _read_plan(name) for name in load_file("columns")["sheets"]}
-NETS, SNOW, DECLARED = _PLANS["Nets"], _PLANS["Snow"], _PLANS["Declared"]
-# The keys of the resistances are the modes of `model.MEMBER_MODES`.
-ANCHORS, ROPES, POSTS = _PLANS["Anchors"], _PLANS["Ropes"], _PLANS["Posts"]
-TESTS, LINKS, ENDS = _PLANS["Tests"], _PLANS["Links"], _PLANS["Ends"]
+SHEETS = tuple(_read_plan(name) for name in load_file("columns")["sheets"])
+_PLANS = {plan.name: plan for plan in SHEETS}
 MONITORING, WINTER = _PLANS["Monitoring"], _PLANS["Winter"]
 UNCERTAINTY = _PLANS["Uncertainty"]
 FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons
-SHEETS: tuple[SheetPlan, ...] = tuple(_PLANS.values())
-USUAL_QUANTITIES = _PLANS["Ranges"].items[:3]
+
+
+def find_quantity(sheet: str, key: str) -> Field:
+    """What a number is that stands in no cell, or has another column."""
+    return next(one for one in _PLANS[sheet].fields if one.key == key)
 
 
 @lru_cache(maxsize=1)

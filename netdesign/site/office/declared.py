@@ -6,10 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 
-from netdesign.site.columns.all_tables import DECLARED
 from netdesign.site.columns.fields import normalise
 from netdesign.site.declared_sheet import DECLARABLE, OF_ROWS
-from netdesign.site.office.types import take
 from netdesign.site.readings import Reading, Row
 from netdesign.structure.members import END_ANCHORS, Member
 from netdesign.words.catalogue import LANGUAGES, render
@@ -58,7 +56,7 @@ def _list_groups() -> Mapping[str, str]:
 
 def list_declared(lines: Sequence[Row]) -> list[Row]:
     """Lines of sheet Declared: one for each row and check that a line names."""
-    return [one for line in lines for one in _spread(take(DECLARED, line))]
+    return [one for line in lines for one in _spread(line)]
 
 
 def _spread(line: Row) -> Iterator[Row]:

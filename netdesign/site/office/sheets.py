@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import FURTHER, NETS, load_old_plans
+from netdesign.site.columns.all_tables import FURTHER, load_old_plans
 from netdesign.site.columns.fields import SheetPlan, normalise, split_heading
 from netdesign.site.columns.office import (
     PARTS,
@@ -59,7 +59,7 @@ def is_old(workbook: Workbook) -> bool:
 
     An office's own list has others: those that the columns are read by besides.
     """
-    rows, nets = load_plan("rows"), load_old_plans()[NETS.name]
+    rows, nets = load_plan("rows"), load_old_plans()["Nets"]
     own = next(one.names for one in rows.fields if one.key == "net_type")
     named = (names[:1] for one in nets.fields for names in one.headings.values())
     template = {split_heading(name)[0] for names in named for name in names}

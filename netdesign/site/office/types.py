@@ -1,4 +1,4 @@
-"""From lines of the sheets Anchors, Tests and Parts to those of the type sheets."""
+"""Lines of the sheets Anchors, Tests and Parts, with what follows from each."""
 
 from __future__ import annotations
 
@@ -8,53 +8,36 @@ from dataclasses import replace
 
 from netdesign.resistance.products import find_bar
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import ANCHORS, LINKS, POSTS
-from netdesign.site.columns.fields import Field, SheetPlan, from_si, to_si
-from netdesign.site.readings import Reading, Row, read_nothing
-from netdesign.site.type_lines import fill_in_section, name_values
-from netdesign.site.type_resistances import compute_compression, compute_tendon
+from netdesign.site.columns.all_tables import find_quantity
+from netdesign.site.columns.fields import from_si, to_si
+from netdesign.site.columns.office import list_derived
+from netdesign.site.lines import fold_id
+from netdesign.site.readings import (
+    Reading,
+    Row,
+    read_nothing,
+    refuse_misfits,
+    rename,
+    work_out,
+)
+from netdesign.site.type_lines import count_in_tests, fill_in_section, name_values
+from netdesign.site.type_resistances import (
+    check_tests,
+    compute_compression,
+    compute_tendon,
+)
 from netdesign.words.message import Message, say
 
 _GRADE = 235.0  # least grade of rolled sections [MPa]
 _ABOVE_NET = 0.3  # of a post beyond the net's head, our judgement [m]
+_STEEPEST = 20.0  # tilt of a post that nobody gives, at most [deg]
 _STEEL = ("bar_diameter", "bar_strength", "inner_diameter")
 
 
-def take(plan: SheetPlan, *lines: Row, **others: Reading) -> dict[str, Reading]:
-    """Line of a plan: what others give under its keys, the rest not given.
-
-    Its readings are those of the plan's columns: all that follows knows these.
-    """
-    given = {key: reading for line in lines for key, reading in line.items()} | others
-    return {
-        one.key: rename(given[one.key], one)
-        if one.key in given
-        else read_nothing(one, None)
-        for one in plan.fields
-    }
-
-
-def find_field(plan: SheetPlan, key: str) -> Field:
-    """Column of a plan."""
-    return next(one for one in plan.fields if one.key == key)
-
-
-def rename(reading: Reading, field: Field) -> Reading:
-    """Reading as that of another column."""
-    return replace(reading, field=field, typed_as=reading.column)
-
-
-def work_out(
-    reading: Reading, field: Field, value: float | str, how: Message
-) -> Reading:
-    """Reading of a column that follows from another one, in its first unit."""
-    named = rename(reading, field)
-    return replace(named, state="given", value=value, derivation=how, span=None)
-
-
-def fold_id(text: str) -> str:
-    """Id without case and double spaces."""
-    return " ".join(text.casefold().split())
+def _add_derived(line: Row, table: str) -> dict[str, Reading]:
+    """Line with the quantities that may follow from it, none of them known yet."""
+    unknown = {one.key: read_nothing(one, None) for one in list_derived(table)}
+    return {**unknown, **line}
 
 
 def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
@@ -63,8 +46,8 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
     Ids that differ by nothing else are told apart by their case.
     """
     by_fold: dict[str, list[str]] = {}
-    for one in dict.fromkeys(ids):
-        by_fold.setdefault(fold_id(one), []).append(one)
+    for name in dict.fromkeys(ids):
+        by_fold.setdefault(fold_id(name), []).append(name)
     settled: list[Row] = []
     for line in lines:
         reading = line[key]
@@ -75,76 +58,82 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
     return settled
 
 
+def list_ids(lines: Iterable[Row]) -> Iterator[str]:
+    """Ids of a sheet."""
+    return (line["id"].word for line in lines if line["id"].word)
+
+
 def join_anchors(
     lines: Sequence[Row],
     tests: Sequence[Row],
     soils: Sequence[Row],
     project: Row,
+    findings: list[Finding],
 ) -> list[Row]:
-    """Lines of sheet Anchors with what sheets Project and Parts say of their ground."""
+    """Anchor types with their tests, and what is said of their ground.
+
+    Parameters
+    ----------
+    lines, tests, soils : sequence of Row
+        Of sheets Anchors, Tests and Parts.
+    project : Row
+        Lines of sheet Project by key.
+    findings : list of Finding
+        Appended to.
+    """
     by_ground = {one["ground"].word: one for one in soils if one["ground"].word}
     tested = {(one["type"].word, one["ground"].word) for one in tests}
-    return [
-        _join_anchor(line, by_ground.get(line["ground"].word), project, tested)
-        for line in lines
-    ]
+    anchors: list[Row] = []
+    for line in lines:
+        name, ground = line["id"].word, line["ground"].word
+        soil = by_ground.get(ground, {})
+        row = _add_derived(line, "anchor_types") | {
+            key: one for key, one in soil.items() if key != "ground"
+        }
+        row["soil"] = project["soil"]
+        is_tested = not tested.isdisjoint({(name, ground), (name, "")})
+        anchors.append(row if is_tested else row | _read_proof(row))
+    return count_in_tests(anchors, tests, findings) if tests else anchors
 
 
-def _join_anchor(
-    line: Row, soil: Row | None, project: Row, tested: set[tuple[str, str]]
-) -> Row:
-    name = line["id"].word
-    has_tests = not tested.isdisjoint({(name, line["ground"].word), (name, "")})
-    proven = {} if has_tests else _prove(line)
-    return take(
-        ANCHORS,
-        line,
-        {key: one for key, one in (soil or {}).items() if key != "ground"},
-        soil=rename(project["soil"], find_field(ANCHORS, "soil")),
-        **proven,
-    )
-
-
-def _prove(line: Row) -> dict[str, Reading]:
+def _read_proof(line: Row) -> dict[str, Reading]:
     """Pull-out resistance by how it is proven: by tests, or as one number."""
-    force, how = line["pull_out"], line["proven"]
+    force, count, mean = (line[key] for key in ("pull_out", "test_count", "test_mean"))
+    least = rename(force, line["test_least"].field)
     if force.state == "blank":
-        return {"test_least": rename(force, find_field(ANCHORS, "test_least"))}
+        return {"test_least": least}
     if force.state != "given":
         return {}
-    if how.word == "tests":
-        count, mean = line["test_count"], line["test_mean"]
-        alone = say("office.one_test")
+    if line["proven"].word != "tests":
         return {
-            "pull_out": read_nothing(find_field(ANCHORS, "pull_out"), None),
-            "test_count": count
-            if count.state != "blank"
-            else work_out(force, find_field(ANCHORS, "test_count"), 1.0, alone),
-            "test_least": rename(force, find_field(ANCHORS, "test_least")),
-            "test_mean": mean
-            if mean.state != "blank"
-            else work_out(
-                force,
-                find_field(ANCHORS, "test_mean"),
-                force.number,
-                say("office.mean_is_least"),
-            ),
+            "test_count": read_nothing(count.field, None),
+            "test_mean": read_nothing(mean.field, None),
         }
-    basis = find_field(ANCHORS, "basis")
-    said = rename(how, basis) if how.cell else read_nothing(basis, None)
-    counted = {"": say("office.worst_basis"), "report": say("office.unnamed_report")}
-    given = replace(
-        said, state="given", value="computed", derivation=counted.get(how.word)
-    )
-    nothing = {
-        key: read_nothing(find_field(ANCHORS, key), None)
-        for key in ("test_count", "test_mean")
+    if count.state == "blank":
+        count = work_out(force, count.field, 1.0, say("office.one_test"))
+    if mean.state == "blank":
+        mean = work_out(force, mean.field, force.number, say("office.mean_is_least"))
+    nothing = read_nothing(force.field, None)
+    return {
+        "pull_out": nothing,
+        "test_least": least,
+        "test_count": count,
+        "test_mean": mean,
     }
-    return {"basis": given, **nothing}
 
 
-def fill_in_anchor(row: Row, findings: list[Finding]) -> Row:
-    """Line of sheet Anchors with the steel of a bar, and the tendon that it makes.
+def complete_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:
+    """Anchor types with their steel; what contradicts itself is refused."""
+    anchors: list[Row] = []
+    for line in lines:
+        refuse_misfits(line, findings)
+        anchors.append(_fill_in_steel(line, findings))
+        check_tests(anchors[-1], findings)
+    return anchors
+
+
+def _fill_in_steel(row: Row, findings: list[Finding]) -> Row:
+    """Line of an anchor with the steel of a bar, and the tendon that it makes.
 
     The steel is that of its name, or has the strength that force and diameter say.
     """
@@ -160,8 +149,7 @@ def fill_in_anchor(row: Row, findings: list[Finding]) -> Row:
         return compute_tendon({**row, **steel}, findings)
     if diameter.state == force.state == "given":
         area = 0.25 * math.pi * diameter.si**2
-        strength = from_si(force.si / area, "MPa")
-        field = find_field(ANCHORS, "bar_strength")
+        strength, field = from_si(force.si / area, "MPa"), row["bar_strength"].field
         how = say("office.strength_of_force", place=force.place)
         if field.bounds[0] <= strength <= field.bounds[1]:
             return {**row, "bar_strength": work_out(force, field, strength, how)}
@@ -174,14 +162,11 @@ def join_posts(
     nets: Sequence[Row],
     findings: list[Finding],
 ) -> list[Row]:
-    """Lines of sheet Posts: as long as the net types that name them ask for."""
-    friction = rename(project["base_friction"], find_field(POSTS, "base_friction"))
+    """Posts, as long as the net types that name them ask for."""
     joined: list[Row] = []
     for line in lines:
-        row = take(POSTS, line, base_friction=friction)
-        row["foot_eccentricity"] = rename(
-            row["head_eccentricity"], find_field(POSTS, "foot_eccentricity")
-        )
+        row = _add_derived(line, "posts")
+        row["base_friction"] = project["base_friction"]
         if row["yield_strength"].state == "blank":
             how = say("office.least_grade")
             row["yield_strength"] = _assume(row, "yield_strength", _GRADE, how)
@@ -195,9 +180,6 @@ def join_posts(
 
 def _assume(row: Row, key: str, value: float, how: Message) -> Reading:
     return replace(row[key], state="given", value=value, derivation=how)
-
-
-_STEEPEST = 20.0  # tilt of a post that nobody gives, at most [deg]
 
 
 def _find_length(post: str, nets: Sequence[Row]) -> float | None:
@@ -214,15 +196,15 @@ def _find_length(post: str, nets: Sequence[Row]) -> float | None:
     return max(lengths, default=None)
 
 
-def join_links(lines: Sequence[Row]) -> list[Row]:
-    """Lines of sheet Links; a force of which nobody says what it is is a strength."""
-    joined: list[Row] = []
-    for line in lines:
-        is_limit = line["meaning"].word == "limit"
-        key = "working_limit" if is_limit else "strength"
-        force = rename(line["force"], find_field(LINKS, key))
-        joined.append(take(LINKS, line, **{key: force}))
-    return joined
+def join_links(lines: Iterable[Row]) -> list[Row]:
+    """Links; what is usual of a force hangs on what it is."""
+    limit = find_quantity("Links", "working_limit")
+    return [
+        {**line, "force": rename(line["force"], limit)}
+        if line["meaning"].word == "limit"
+        else line
+        for line in lines
+    ]
 
 
 def list_end_types(lines: Iterable[Row]) -> Mapping[str, Reading]:
@@ -232,17 +214,3 @@ def list_end_types(lines: Iterable[Row]) -> Mapping[str, Reading]:
         if line["at_end"].word:
             found.setdefault(line["id"].word, line["at_end"])
     return found
-
-
-def list_dips(lines: Iterable[Row]) -> Mapping[tuple[str, str], Reading]:
-    """Dips of bores below the horizontal by type and ground."""
-    return {
-        (line["id"].word, line["ground"].word): line["dip"]
-        for line in lines
-        if line["dip"].state == "given"
-    }
-
-
-def list_ids(lines: Iterable[Row]) -> Iterator[str]:
-    """Ids of a sheet of types."""
-    return (line["id"].word for line in lines if line["id"].word)

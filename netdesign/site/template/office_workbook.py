@@ -311,9 +311,6 @@ def _say_rule(form: Form, column: Column) -> dict[str, Any] | None:
     return rule if names or lines else None
 
 
-_TABLES_OF_IDS = {"Nets": "rows", "Anchors": "anchor_types", "net_types": "net_types"}
-
-
 def _list_choices(form: Form, column: Column) -> list[str] | str:
     """Words of a cell, or the cells of the ids that it may name."""
     own = column.field
@@ -323,7 +320,7 @@ def _list_choices(form: Form, column: Column) -> list[str] | str:
         return list(list_standards())
     if (own.table, own.key) == ("declared", "check"):
         return [name_group(one, form.language) for one in GROUPS]
-    table = _TABLES_OF_IDS.get(own.refers_to, "")
+    table = own.refers_to
     if table not in form.sheets:
         return []
     name = load_plan(table).name_in(form.language)

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.anchor_types import name_column
 from netdesign.site.columns.fields import (
     convert_unit,
     find_item,
@@ -11,11 +11,10 @@ from netdesign.site.columns.fields import (
     split_heading,
     to_si,
 )
-from netdesign.structure.members import MEMBER_MODES, NAMED_BY
+from netdesign.site.columns.office import list_derived
+from netdesign.structure.members import END_MODES, MEMBER_MODES
 from tests.each import each
 from tests.site.columns.fields import FIELDS, PLANS
-
-BY_SHEET = {plan.name: {field.key: field for field in plan.fields} for plan in SHEETS}
 
 
 @each("table", FIELDS)
@@ -33,9 +32,11 @@ def test_labels_are_headings_that_are_read_back(table):
 
 
 def test_every_member_and_mode_has_its_column():
-    for member, mode in MEMBER_MODES:
-        sheet = BY_SHEET["Nets"][NAMED_BY.get(member, member)].refers_to
-        assert BY_SHEET[sheet][mode].unit == "kN"
+    named = {field.key: field for x in ("rows", "net_types") for field in FIELDS[x]}
+    for member, mode in (*MEMBER_MODES, *END_MODES):
+        table = named[name_column(member)].refers_to
+        fields = (*FIELDS[table], *list_derived(table))
+        assert [one.unit for one in fields if one.key == mode] == ["kN"]
 
 
 @each(

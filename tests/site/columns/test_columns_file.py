@@ -8,6 +8,7 @@ import pytest
 from netdesign.panel.inputs import LARGEST_GUY_ANGLE, LARGEST_SAG
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import Kind
+from netdesign.site.columns.office import TABLES
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
 from tests.each import each
@@ -49,5 +50,5 @@ def test_what_a_column_names_is_there():
             named = {*beside, *one.not_beside, *one.not_with, *one.needs}
             assert named <= keys
             assert one.kind in get_args(Kind)
-            assert one.refers_to in ("", *PLANS)
+            assert one.refers_to in ("", *TABLES)
             assert one.bounds[0] <= one.bounds[1]
