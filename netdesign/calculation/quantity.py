@@ -12,34 +12,31 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 from netdesign.outcome import ModelError
 from netdesign.words.message import Message, say
 
-
-@dataclass(frozen=True, slots=True)
-class Dimension:
-    """Powers of the base units: ``(("kN", 1), ("m", -2))``, in their order."""
-
-    powers: tuple[tuple[str, int], ...] = ()
-
-    def times(self, other: Dimension, power: int) -> Dimension:
-        """Dimension of the product with a power of another one."""
-        sums = dict(self.powers)
-        for base, count in other.powers:
-            sums[base] = sums.get(base, 0) + power * count
-        return Dimension(tuple(sorted((b, n) for b, n in sums.items() if n)))
-
-    def root(self) -> Dimension | None:
-        """Dimension of the square root; None where it has none."""
-        if any(count % 2 for _, count in self.powers):
-            return None
-        return Dimension(tuple((base, count // 2) for base, count in self.powers))
-
-
-PURE = Dimension()
+# Powers of the base units: ``(("kN", 1), ("m", -2))``, in their order.
+Dimension = tuple[tuple[str, int], ...]
+PURE: Dimension = ()
 _POWERS = tuple("123456789")
+
+
+@lru_cache
+def multiply_dimension(first: Dimension, other: Dimension, power: int = 1) -> Dimension:
+    """Dimension of the product with a power of another one."""
+    sums = dict(first)
+    for base, count in other:
+        sums[base] = sums.get(base, 0) + power * count
+    return tuple(sorted((base, count) for base, count in sums.items() if count))
+
+
+def halve_dimension(square: Dimension) -> Dimension | None:
+    """Dimension of the square root; None where it has none."""
+    if any(count % 2 for _, count in square):
+        return None
+    return tuple((base, count // 2) for base, count in square)
 
 
 @lru_cache
@@ -51,13 +48,13 @@ def find_dimension(unit: str) -> Dimension:
         base = part[:-1] if part[-1:] in _POWERS else part
         if base not in ("", "-"):
             power = int(part[len(base) :] or 1)
-            dimension = dimension.times(Dimension(((base, 1),)), sign * power)
+            dimension = multiply_dimension(dimension, ((base, 1),), sign * power)
     return dimension
 
 
 def name_dimension(dimension: Dimension) -> str:
     """Unit in words: ``kN m2``."""
-    return " ".join(f"{b}{'' if n == 1 else n}" for b, n in dimension.powers) or "-"
+    return " ".join(f"{b}{'' if n == 1 else n}" for b, n in dimension) or "-"
 
 
 class Kind(StrEnum):
@@ -90,12 +87,8 @@ class Operation(NamedTuple):
         return self.ways[min(place, len(self.ways) - 1)]
 
 
-def _multiply(first: Dimension, second: Dimension) -> Dimension:
-    return first.times(second, 1)
-
-
 def _divide(above: Dimension, below: Dimension) -> Dimension:
-    return above.times(below, -1)
+    return multiply_dimension(above, below, -1)
 
 
 def _keep(*all_: Dimension) -> Dimension | None:
@@ -118,11 +111,11 @@ OPERATIONS: dict[str, Operation] = {
     "=": Operation(float, (1,), _keep, 1),
     "+": Operation(lambda a, b: a + b, (1, 1), _keep, 2),
     "-": Operation(lambda a, b: a - b, (1, -1), _keep, 2),
-    "*": Operation(lambda a, b: a * b, (1, 1), _multiply, 2, *_POSITIVE),
+    "*": Operation(lambda a, b: a * b, (1, 1), multiply_dimension, 2, *_POSITIVE),
     "/": Operation(lambda a, b: a / b, (1, -1), _divide, 2, *_POSITIVE),
     "max": Operation(lambda *all_: max(all_), (1,), _keep, 0),
     "min": Operation(lambda *all_: min(all_), (1,), _keep, 0),
-    "sqrt": Operation(math.sqrt, (1,), Dimension.root, 1, *_POSITIVE),
+    "sqrt": Operation(math.sqrt, (1,), halve_dimension, 1, *_POSITIVE),
     "sin": Operation(_of_degrees(math.sin), (1,), _turn, 1, *_QUARTER_TURN),
     "cos": Operation(_of_degrees(math.cos), (-1,), _turn, 1, *_QUARTER_TURN),
     "tan": Operation(_of_degrees(math.tan), (1,), _turn, 1, *_QUARTER_TURN),
@@ -173,8 +166,7 @@ class Quantity:
         ends = (self.low, self.value, self.high)
         if self.lacks and ends == (None, None, None):
             return
-        numbers = [math.nan if end is None else end for end in ends]
-        low, value, high = numbers
+        low, value, high = (math.nan if end is None else end for end in ends)
         if self.lacks or not -math.inf < low <= value <= high < math.inf:
             raise ModelError(
                 say("calculation.disorder", symbol=self.symbol, ends=f"{ends}")
@@ -184,6 +176,21 @@ class Quantity:
     def is_known(self) -> bool:
         """It has a value."""
         return self.value is not None
+
+    def order(self, way: int) -> tuple[float, float, float]:
+        """Band in which something grows (1), falls (-1), or takes the value alone (0).
+
+        Raises
+        ------
+        ValueError
+            If the quantity is missing.
+        """
+        if self.low is None or self.value is None or self.high is None:
+            raise ValueError(f"{self.symbol} is missing")
+        if way == 0:
+            return self.value, self.value, self.value
+        ends = (self.low, self.value, self.high)
+        return ends if way > 0 else ends[::-1]
 
     def __add__(self, other: Operand) -> Quantity:
         return apply("+", self, other)
@@ -228,79 +235,6 @@ class Quantity:
 
 
 Operand = Quantity | float
-
-
-class Bare:
-    """Band of a quantity alone: no unit, no way, a tenth of the time.
-
-    It stands in a formula where only the size is asked for; what it gives is the band
-    that the quantity would have. An operation outside its range is refused.
-    """
-
-    __slots__ = ("high", "low", "value")
-    is_known, lacks = True, ()
-
-    def __init__(self, low: float, value: float, high: float) -> None:
-        """Take the ends of the band."""
-        self.low, self.value, self.high = low, value, high
-
-    def __add__(self, other: Bare | float) -> Bare:
-        band = _bare(other)
-        return Bare(self.low + band.low, self.value + band.value, self.high + band.high)
-
-    def __radd__(self, other: float) -> Bare:
-        return self + other
-
-    def __sub__(self, other: Bare | float) -> Bare:
-        band = _bare(other)
-        return Bare(self.low - band.high, self.value - band.value, self.high - band.low)
-
-    def __rsub__(self, other: float) -> Bare:
-        return _bare(other) - self
-
-    def __mul__(self, other: Bare | float) -> Bare:
-        band = _bare(other)
-        if not (self.low >= 0.0 and band.low >= 0.0):
-            raise _outside("*")
-        return Bare(self.low * band.low, self.value * band.value, self.high * band.high)
-
-    def __rmul__(self, other: float) -> Bare:
-        return self * other
-
-    def __truediv__(self, other: Bare | float) -> Bare:
-        band = _bare(other)
-        if not (self.low >= 0.0 and band.low > 0.0):
-            raise _outside("/")
-        return Bare(self.low / band.high, self.value / band.value, self.high / band.low)
-
-    def __rtruediv__(self, other: float) -> Bare:
-        return _bare(other) / self
-
-    def named(self, *_: str) -> Bare:
-        """Itself: it has no symbol."""
-        return self
-
-    def take(self, end: int) -> float:
-        """Low end (-1), value (0) or high end (1)."""
-        return (self.value, self.high, self.low)[end]
-
-
-def _bare(number: Bare | float) -> Bare:
-    return number if isinstance(number, Bare) else Bare(number, number, number)
-
-
-def _outside(operation: str) -> ModelError:
-    return ModelError(say("calculation.outside", operation=operation, symbol=""))
-
-
-def strip(quantity: Quantity) -> Quantity:
-    """Band of a quantity, for a formula of which only the size is asked for; `Bare`.
-
-    One that is missing stays itself.
-    """
-    if quantity.low is None or quantity.value is None or quantity.high is None:
-        return quantity
-    return cast(Quantity, Bare(quantity.low, quantity.value, quantity.high))
 
 
 def leaf(
@@ -362,59 +296,34 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     ModelError
         If units do not fit.
     """
-    first: object = operands[0]
-    if isinstance(first, Bare):
-        return _apply_bare(operation, operands)
     rule = OPERATIONS[operation]
     of = tuple(x if isinstance(x, Quantity) else constant(x) for x in operands)
-    if rule.dimension is _keep:  # zero has any unit
-        dimension = _keep(*(x.dimension for x in of if not _is_zero(x)))
-    else:
-        dimension = rule.dimension(*(x.dimension for x in of))
-    if dimension is None:
-        units = ", ".join(name_dimension(x.dimension) for x in of)
-        raise ModelError(say("calculation.units", operation=operation, units=units))
-    lacks = tuple(dict.fromkeys(lack for operand in of for lack in operand.lacks))
+    low = value = high = None
+    lacks = tuple(dict.fromkeys(lack for x in of for lack in x.lacks))
+    lacks = lacks or _list_lacks(operation, of)
     if not lacks:
-        lack = _find_lack(operation, of)
-        lacks = () if lack is None else (lack,)
-    low, value, high = (
-        None if lacks else _evaluate(rule, of, end) for end in (-1, 0, 1)
-    )
+        bands = (x.order(rule.way(place)) for place, x in enumerate(of))
+        low, value, high = (rule.of(*ends) for ends in zip(*bands, strict=True))
     return Quantity(
         low=low,
         value=value,
         high=high,
-        dimension=dimension,
+        dimension=_find_dimension(operation, of),
         operation=operation,
         of=of,
         lacks=lacks,
     )
 
 
-def _apply_bare(operation: str, operands: Sequence[Operand]) -> Quantity:
-    """Band of an operation on bare ones and numbers.
-
-    Raises
-    ------
-    ModelError
-        Where one lies outside the range of the operation.
-    """
-    rule, of = OPERATIONS[operation], [_bare(cast(Bare, x)) for x in operands]
-    if any(band.low < rule.least or band.high > rule.most for band in of):
-        raise _outside(operation)
-    if rule.ways == (1,):
-        low, value, high = (
-            rule.of(*ends)
-            for ends in zip(*((x.low, x.value, x.high) for x in of), strict=True)
-        )
-    else:
-        ways = [rule.way(place) for place in range(len(of))]
-        low, value, high = (
-            rule.of(*(x.take(end * way) for x, way in zip(of, ways, strict=True)))
-            for end in (-1, 0, 1)
-        )
-    return cast(Quantity, Bare(low, value, high))
+def _find_dimension(operation: str, of: Sequence[Quantity]) -> Dimension:
+    rule = OPERATIONS[operation].dimension
+    # zero has any unit
+    counted = (x for x in of if rule is not _keep or not _is_zero(x))
+    dimension = rule(*(x.dimension for x in counted))
+    if dimension is None:
+        units = ", ".join(name_dimension(x.dimension) for x in of)
+        raise ModelError(say("calculation.units", operation=operation, units=units))
+    return dimension
 
 
 def _name(quantity: Quantity) -> str:
@@ -423,34 +332,22 @@ def _name(quantity: Quantity) -> str:
     return quantity.symbol or f" {quantity.operation} ".join(parts)
 
 
-def _find_lack(operation: str, of: Sequence[Quantity]) -> Message | None:
+def _list_lacks(operation: str, of: Sequence[Quantity]) -> tuple[Message, ...]:
     """Lack of a result where the ends of known operands would not give its ends."""
     rule = OPERATIONS[operation]
     for x in of:
-        if take_end(x, -1) < rule.least or take_end(x, 1) > rule.most:
-            return say("calculation.outside", operation=operation, symbol=_name(x))
-    if operation == "/" and take_end(of[1], -1) == 0.0:
-        return say("calculation.over_nothing", symbol=_name(of[1]))
-    return None
+        low, _, high = x.order(1)
+        if low < rule.least or high > rule.most:
+            lack = say("calculation.outside", operation=operation, symbol=_name(x))
+            return (lack,)
+    if operation == "/" and of[1].low == 0.0:
+        return (say("calculation.over_nothing", symbol=_name(of[1])),)
+    return ()
 
 
 def _is_zero(quantity: Quantity) -> bool:
     is_constant = not (quantity.symbol or quantity.operation)
     return is_constant and quantity.value == 0.0
-
-
-def _evaluate(operation: Operation, of: Sequence[Quantity], end: int) -> float:
-    return operation.of(
-        *(take_end(x, end * operation.way(place)) for place, x in enumerate(of))
-    )
-
-
-def take_end(quantity: Quantity, end: int) -> float:
-    """Low end (-1), value (0) or high end (1) of a known quantity."""
-    number = (quantity.value, quantity.high, quantity.low)[end]
-    if number is None:
-        raise ValueError(f"{quantity.symbol} is missing")
-    return number
 
 
 def largest(first: Quantity, *others: Operand) -> Quantity:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.calculation.quantity import Kind, Quantity, leaf, strip
+from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.checks import Standard
 from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
@@ -102,32 +102,14 @@ def find_force(
 
     It has its way, or its numbers alone where ``is_size`` asks for them; each is
     calculated once.
-
-    Raises
-    ------
-    ModelError
-        Where an operation of its formula lies outside its range.
     """
     mode = resistance.mode if resistance.mode in OWN_FORCES else ""
-    key = (resistance.member, mode, width, is_size)
+    key = (resistance.member, mode, width)
     if key not in forces.worked_out:
-        if is_size:
-            force = _find_numbers(forces, resistance, width)
-        else:
-            force = _work_out(forces, resistance, width, is_size=False)
-        forces.worked_out[key] = force
-    return forces.worked_out[key]
-
-
-def _find_numbers(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> MemberForce | None:
-    """Find the numbers of a force on a member, without its way."""
-    try:
-        force = _work_out(forces, resistance, width, is_size=True)
-    except ModelError:  # outside the range of an operation: the way names it
-        force = _work_out(forces, resistance, width, is_size=False)
-    return force and replace(force, on=_take_numbers(force.on))
+        force = _work_out(forces, resistance, width)
+        numbers = force and replace(force, on=_take_numbers(force.on))
+        forces.worked_out[key] = (force, numbers)
+    return forces.worked_out[key][is_size]
 
 
 def _take_numbers(on: SupportForce) -> SupportForce:
@@ -146,23 +128,19 @@ def _begin_at(symbol: str, force: Quantity) -> Quantity:
     return leaf(symbol, force.value, "kN", "", band=(force.low, force.high))
 
 
-def _calculate(
-    forces: RowForces, leaves: Sequence[Quantity], *, is_size: bool
-) -> SupportForce:
-    kept = map(strip, leaves) if is_size else leaves
-    symbols = (quantity.symbol for quantity in leaves)
+def _calculate(forces: RowForces, leaves: Sequence[Quantity]) -> SupportForce:
     return calculate_force(
-        dict(zip(symbols, kept, strict=True)),
+        {quantity.symbol: quantity for quantity in leaves},
         by_guideline=forces.standard.is_by_guideline,
     )
 
 
 def _work_out(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth, *, is_size: bool
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberForce | None:
     member = resistance.member
     if member in ROPE_OF:
-        return _find_end_force(forces, member, width, is_size=is_size)
+        return _find_end_force(forces, member, width)
     section = forces.largest.get(member)
     if section is None:
         return None
@@ -183,7 +161,7 @@ def _work_out(
         leaves += _list_rope_leaves(forces, member, width)
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
-    force = _calculate(forces, leaves, is_size=is_size)
+    force = _calculate(forces, leaves)
     is_by_panel, held = high_of(force.by_panel) > high_of(force.coupled), None
     at_foot = (Member.FOOT_ANCHOR, *forces.row.layout.anchors_at_foot)
     if member not in (NetPart.MESH, *at_foot):
@@ -212,15 +190,23 @@ def find_guideline_force(
         Member and support.
     inside : float
         Force in the section, inside the row [kN].
+
+    Raises
+    ------
+    ModelError
+        Where the force is missing, with the reason.
     """
     leaves = _list_support_leaves(forces.row, width, member)
     leaves.append(_solved("E_s", inside, "kN", f"floor.{member}"))
     leaves += _list_load_leaves(forces, member, width)[0]
-    return _calculate(forces, leaves, is_size=True).action.value or 0.0
+    force = _calculate(forces, leaves).action
+    if force.value is None:
+        raise ModelError(force.lacks[0])
+    return force.value
 
 
 def _find_end_force(
-    forces: RowForces, member: str, width: LoadedWidth, *, is_size: bool
+    forces: RowForces, member: str, width: LoadedWidth
 ) -> MemberForce | None:
     """Force of a border rope, or on a member that holds its pull at the row's end.
 
@@ -235,7 +221,7 @@ def _find_end_force(
     leaves += _list_floor_factor(forces, ROPE_OF[member])
     if member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
         leaves += _list_guy_angle(forces.row)
-    force = _calculate(forces, leaves, is_size=is_size)
+    force = _calculate(forces, leaves)
     return MemberForce(on=force, solved=(rope,), largest=rope)
 
 
@@ -310,7 +296,7 @@ def _list_load_leaves(
     if member in PARTS:
         part: float = getattr(held, PARTS[member])
         leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
-        rise = high_of(load_guy(*map(strip, leaves)).added)
+        rise = high_of(load_guy(*leaves).added)
         leaves += by_floor[:1]
         if not is_shared(forces.row, member):
             return leaves, rise
@@ -323,14 +309,12 @@ def _list_load_leaves(
         for force in (0.0, held.least_tension_kN)
     )
     # the least tension does not grow
-    of_post = [weight, share, pull, splay]
-    rise = high_of(load_post(*map(strip, (*of_post, nothing))).added)
-    leaves = [*of_post, least]
-    added = [load_post(*map(strip, leaves)).added]
+    rise = high_of(load_post(weight, share, pull, splay, nothing).added)
+    leaves = [weight, share, pull, splay, least]
+    added = [load_post(*leaves).added]
     if by_floor:
         of_floor, own = by_floor
-        alike = (weight, share, of_floor, splay, own)
-        added.append(load_post(*map(strip, alike)).added)
+        added.append(load_post(weight, share, of_floor, splay, own).added)
     is_loaded = any(map(high_of, added)) or width.position == "second"
     return ([*leaves, *by_floor] if is_loaded else []), rise
 

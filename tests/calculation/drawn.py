@@ -85,7 +85,7 @@ def operate(random, known, *, has_values):
 def name_unit(dimension):
     """Unit as a workbook has it; "" of one that has several parts."""
     parts = {1: [], -1: []}
-    for base, power in dimension.powers:
+    for base, power in dimension:
         if abs(power) > 9:
             return ""
         sign = 1 if power > 0 else -1
