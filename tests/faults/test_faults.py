@@ -17,13 +17,14 @@ import pytest
 FAIL, USAGE, INTERRUPTED = 1, 2, 130
 OUTPUTS = {"study.json", "report.html", "report.xlsx", ".netdesign.json"}
 
-pytestmark = [
-    pytest.mark.long,
-    pytest.mark.skipif(sys.platform == "win32", reason="POSIX limits, signals"),
-]
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX limits, signals")
 
 
 def long(*values):
+    return pytest.param(*values, marks=pytest.mark.long)
+
+
+def rare(*values):
     """Values of a test that are tried with ``-m faults`` only."""
     return pytest.param(*values, marks=pytest.mark.faults)
 
@@ -46,7 +47,7 @@ def limit_files(size):
     )
 
 
-@pytest.mark.parametrize("size", [2_000, long(60_000), long(110_000)])
+@pytest.mark.parametrize("size", [long(2_000), rare(60_000), rare(110_000)])
 def test_a_full_disk_leaves_nothing_and_costs_nothing(begin, clean, tmp_path, size):
     """No room for any case in the store, or for some, nor for the outputs; later on."""
     code, messages = end(begin("--out", "out", "--jobs", 1, before=limit_files(size)))
@@ -58,6 +59,7 @@ def test_a_full_disk_leaves_nothing_and_costs_nothing(begin, clean, tmp_path, si
     assert read(tmp_path / "out") == clean
 
 
+@pytest.mark.long
 def test_two_runs_at_once_leave_the_outputs_of_one(begin, tmp_path):
     """Both may overwrite: whoever comes last, the three outputs are of one run."""
     runs = [
@@ -73,6 +75,7 @@ def test_two_runs_at_once_leave_the_outputs_of_one(begin, tmp_path):
     assert f"{other}-" not in found["report.html"].decode()
 
 
+@pytest.mark.long
 def test_of_two_runs_the_second_replaces_what_the_first_wrote(begin, clean, tmp_path):
     """Neither may overwrite files of others; each may replace the program's own."""
     ends = [end(run) for run in [begin("--out", "out", "--jobs", 1) for _ in "ab"]]
@@ -95,7 +98,10 @@ datetime.datetime = Clock
 
 @pytest.mark.parametrize(
     ("before", "epoch"),
-    [(BACKWARDS, ""), long("", "0"), long("", "-86400"), long("", "253402300799")],
+    [
+        long(BACKWARDS, ""),
+        *(rare("", epoch) for epoch in ("0", "-86400", "253402300799")),
+    ],
     ids=["back a day at each look", "1970", "1969", "9999"],
 )
 def test_the_clock_decides_nothing_but_the_date(begin, clean, tmp_path, before, epoch):
@@ -112,7 +118,7 @@ def test_the_clock_decides_nothing_but_the_date(begin, clean, tmp_path, before, 
     assert study == expected
 
 
-@pytest.mark.parametrize("pause", [long(0.0), 0.05, long(0.4)])
+@pytest.mark.parametrize("pause", [rare(0.0), long(0.05), rare(0.4)])
 def test_ctrl_c_twice_ends_as_once(begin, clean, tmp_path, pause):
     """In the midst of a pool; nothing is written, and a run continues it."""
     options = ("--out", "out", "--jobs", 2)
@@ -147,6 +153,7 @@ w.ProcessPool.spread = kill_one
 """
 
 
+@pytest.mark.long
 def test_a_worker_killed_from_outside_changes_nothing(begin, clean, tmp_path):
     """The case in its hands was no culprit: it is solved again."""
     run = begin("--out", "out", "--jobs", 2, before=KILL_A_WORKER)
@@ -160,6 +167,7 @@ def test_a_worker_killed_from_outside_changes_nothing(begin, clean, tmp_path):
 READ_ONLY = 'mount --bind out out && mount -o remount,ro,bind out && exec "$@"'
 
 
+@pytest.mark.long
 def test_a_folder_of_a_read_only_disk_is_refused_before_solving(begin, tmp_path):
     (tmp_path / "out").mkdir()
     own = ["unshare", "--mount", "sh", "-c", READ_ONLY, "sh"]

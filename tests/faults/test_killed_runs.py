@@ -15,10 +15,7 @@ KILLER = Path(__file__).with_name("kill_runs.py")
 FAILS = 1  # R7 of the example is too weak
 IN_THE_SUITE, ALL = 5, 100
 
-pytestmark = [
-    pytest.mark.long,
-    pytest.mark.skipif(not hasattr(os, "fork"), reason="forks its runs"),
-]
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="forks its runs")
 
 
 def kill(site, folder, kills, seed):
@@ -33,6 +30,7 @@ def kill(site, folder, kills, seed):
     return document
 
 
+@pytest.mark.long
 def test_killed_runs_leave_nothing_half_and_continue_to_the_same_bytes(site, tmp_path):
     document = kill(site, tmp_path, IN_THE_SUITE, seed=4)
     assert document["faults"] == []
