@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.winter import maxima
 from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.maxima import (
     find_annual_maximum,
@@ -73,12 +74,15 @@ def count_solves(solver):
     return Counting(row=solver.row, settings=solver.settings), solved
 
 
+@pytest.mark.parametrize("count", [2, pytest.param(5, marks=pytest.mark.long)])
 @each("kind", ["no-slip", "sliding", "free"])
-def test_a_maximum_alone_takes_fewer_solves_and_is_the_same(kind):
-    """Five drawn winters on drawn rows: whatever their ranks say."""
+def test_a_maximum_alone_takes_fewer_solves_and_is_the_same(monkeypatch, count, kind):
+    """Drawn winters on drawn rows: whatever their ranks say."""
+    # that of both is of the same pull
+    monkeypatch.setattr(maxima, "find_equivalent", lambda *_: None)
     rng = np.random.default_rng(417)
     compared, solves = 0, np.zeros(2)
-    for _ in range(5):
+    for _ in range(count):
         solver = draw_solver(rng, kind)
         top = solver.row.scene.net.height_normal / math.cos(SLOPE)
         heights = [0.45 * top * h for h in draw_winter(rng)]
@@ -92,7 +96,7 @@ def test_a_maximum_alone_takes_fewer_solves_and_is_the_same(kind):
             assert found.foot == pytest.approx(truth.foot, rel=2.0 * accuracy)
             solves += len(some_days), len(all_days)
             compared += 1
-    assert compared >= 3
+    assert compared >= count - 2
     assert solves[0] < 0.9 * solves[1]
 
 

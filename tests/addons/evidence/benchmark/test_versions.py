@@ -21,10 +21,13 @@ THIS, OTHER = Path(sys.executable), Path("other-python")
 SIZE = Size(repeats=3, scenes=("paper-0",), rows=1)
 
 
-@pytest.fixture
-def runs(monkeypatch):
-    """Runs as asked for; the other takes 3, 5, 4 s by the processor, this one 2 s."""
-    order, others = [], itertools.cycle((3.0, 5.0, 4.0))
+@pytest.fixture(scope="module")
+def compared():
+    """Runs as asked for, and what was told as they ended.
+
+    The other takes 3, 5, 4 s by the processor, this one 2 s.
+    """
+    order, done, others = [], [], itertools.cycle((3.0, 5.0, 4.0))
 
     def measure(python, figure, folder):
         order.append((python, figure, folder))
@@ -33,22 +36,23 @@ def runs(monkeypatch):
         taken = 2.0 if python == THIS else next(others)
         return {"cpu_s": taken, "wall_s": 2.0 * taken}
 
-    monkeypatch.setattr(versions, "time_figure", measure)
-    monkeypatch.setattr(versions, "read_version", lambda python: f"of {python.name}")
-    return order
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(versions, "time_figure", measure)
+        patch.setattr(versions, "read_version", lambda python: f"of {python.name}")
+        compare_versions(OTHER, SIZE, done.append)
+    return order, done
 
 
-def test_versions_take_turns_and_the_other_begins_every_second_repeat(runs):
-    done = []
-    compare_versions(OTHER, SIZE, done.append)
+def test_versions_take_turns_and_the_other_begins_every_second_repeat(compared):
+    runs, done = compared
     figures = list_figures(SIZE, Path())
     in_turns = [THIS, OTHER, OTHER, THIS, THIS, OTHER]
     assert [python for python, _, _ in runs] == in_turns * len(figures)
     assert len(done) == len(runs) == count_runs(SIZE)
 
 
-def test_each_repeat_has_a_store_that_the_second_run_of_the_site_finds(runs):
-    compare_versions(OTHER, SIZE)
+def test_each_repeat_has_a_store_that_the_second_run_of_the_site_finds(compared):
+    runs, _ = compared
     sites = [one for one in runs if one[1].timed[0][-1].endswith("/site")]
     first, again = sites[:6], sites[6:]
     assert len({folder for _, _, folder in first}) == 6
