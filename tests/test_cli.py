@@ -14,8 +14,6 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.edge.input_files import find_resource
-from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
-from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import load_input_example
 from netdesign.words.message import restore, say
@@ -366,61 +364,6 @@ def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
     assert "Traceback" not in stderr
     assert stdout == ""
     assert listing(tmp_path) == {"site.xlsx"}
-
-
-# --- the built-in example ----------------------------------------------------------
-
-STUDY_KEYS = {"schema", "verdict", "rows", "provenance"}
-ROW_KEYS = {"id", "verdict", "checks"}
-CHECK_KEYS = {
-    "id",
-    "clause",
-    "member",
-    "demand_kN",
-    "mode",
-    "steps",
-    "resistance_kN",
-    "utilisation",
-    "verdict",
-    "case",
-    "reason",
-}
-
-
-def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
-    result = start_program(
-        *("check", "--example", "--json", "--accuracy", "0.1", "--jobs", "2"),
-        cwd=tmp_path,
-    )
-    assert result.code == 1, result.err
-    document = json.loads(result.out)
-    assert document["schema"] == "netdesign.study/4"
-    assert document["verdict"] == "fail"
-    assert set(document) >= STUDY_KEYS
-    verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
-    assert verdicts["A1"] == "declared"
-    assert verdicts["A2"] == "not_proven"
-    assert verdicts["A4"] == verdicts["B4"] == "fail"
-    for row in document["rows"]:
-        assert set(row) >= ROW_KEYS
-        assert {case["outcome"] for case in row["cases"]} == {"converged"}
-        for check in row["checks"]:
-            assert set(check) >= CHECK_KEYS
-            assert check["verdict"] in ("pass", "fail", "not_proven", "declared")
-            assert check["reason"]
-    assert listing(tmp_path) == set()
-    row = max((json.dumps(row, indent=1) for row in document["rows"]), key=len)
-    case = max((json.dumps(c, indent=1) for c in document["rows"][0]["cases"]), key=len)
-    case = case.replace("\n", "\n   ")
-    # a site as large as it may be, whose searches take twice as many cases as most, can
-    # be read again
-    for most, sizes in (
-        (MAX_JSON_BYTES, (len(row), len(case) + 1)),
-        (MAX_VALUES, (row.count(","), case.count(",") + 1)),
-        (MAX_OBJECTS, (row.count("{"), case.count("{"))),
-    ):
-        of_rows, of_cases = MAX_NET_ROWS * sizes[0], 100_000 * sizes[1]
-        assert 1.1 * (of_rows + of_cases) < most
 
 
 # --- init --------------------------------------------------------------------------

@@ -1,11 +1,16 @@
 """The blocks of the pages for users are run, and what they print is compared."""
 
+import json
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from netdesign.edge.json_text import MAX_JSON_BYTES, MAX_OBJECTS, MAX_VALUES
+from netdesign.site.cells.cells import MAX_NET_ROWS
 from tests.each import each
 from tests.make import write_rows
 
@@ -60,12 +65,68 @@ def test_two_commands_run_as_printed(tmp_path):
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
 
 
-def test_the_example_gives_what_is_shown(tmp_path):
-    result = run("netdesign check --example --quiet", tmp_path)
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    """Folder in which the example is checked, and how that ended."""
+    folder = tmp_path_factory.mktemp("example")
+    return folder, run("netdesign check --example --quiet", folder)
+
+
+def test_the_example_gives_what_is_shown(example):
+    _, result = example
     assert result.returncode == 1, result.stderr
     printed = [line.rstrip() for line in result.stdout.splitlines()]
     shown = TABLE.splitlines()
     assert printed[: len(shown)] == shown
+
+
+STUDY_KEYS = {"schema", "verdict", "rows", "provenance"}
+ROW_KEYS = {"id", "verdict", "checks"}
+CHECK_KEYS = {
+    "id",
+    "clause",
+    "member",
+    "demand_kN",
+    "mode",
+    "steps",
+    "resistance_kN",
+    "utilisation",
+    "verdict",
+    "case",
+    "reason",
+}
+
+
+def test_the_example_fails_as_meant_with_the_keys_of_the_interface(example):
+    folder, _ = example
+    text = (folder / "netdesign-out" / "study.json").read_text(encoding="utf-8")
+    document = json.loads(text)
+    assert document["schema"] == "netdesign.study/4"
+    assert document["verdict"] == "fail"
+    assert set(document) >= STUDY_KEYS
+    verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
+    assert verdicts["A1"] == "declared"
+    assert verdicts["A2"] == "not_proven"
+    assert verdicts["A4"] == verdicts["B4"] == "fail"
+    for row in document["rows"]:
+        assert set(row) >= ROW_KEYS
+        assert {case["outcome"] for case in row["cases"]} == {"converged"}
+        for check in row["checks"]:
+            assert set(check) >= CHECK_KEYS
+            assert check["verdict"] in ("pass", "fail", "not_proven", "declared")
+            assert check["reason"]
+    row = max((json.dumps(row, indent=1) for row in document["rows"]), key=len)
+    case = max((json.dumps(c, indent=1) for c in document["rows"][0]["cases"]), key=len)
+    case = case.replace("\n", "\n   ")
+    # a site as large as it may be, whose searches take twice as many cases as most, can
+    # be read again
+    for most, sizes in (
+        (MAX_JSON_BYTES, (len(row), len(case) + 1)),
+        (MAX_VALUES, (row.count(","), case.count(",") + 1)),
+        (MAX_OBJECTS, (row.count("{"), case.count("{"))),
+    ):
+        of_rows, of_cases = MAX_NET_ROWS * sizes[0], 100_000 * sizes[1]
+        assert 1.1 * (of_rows + of_cases) < most
 
 
 def test_scene_file_is_solved(tmp_path):
