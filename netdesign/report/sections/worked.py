@@ -6,7 +6,7 @@ interval, each formula with its result.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from netdesign.calculation.steps import PRINTED, Step, list_operands, translate
 from netdesign.checks.check import Check
@@ -70,40 +70,18 @@ def work_out(check: Check, words: Words) -> Table:
 
 
 def show_governing(study: Study, words: Words) -> Part:
-    """Governing checks of the rows worked out, of each kind the one that is used most.
-
-    The pages of rows have forces, resistances and utilisations of all others.
-    """
-    of_kind: dict[tuple[str, str], list[tuple[RowStudy, Check]]] = {}
+    """Governing check of each row worked out."""
+    parts: list[Block] = []
     for row in study.rows:
         check = find_worked(row)
         if check is not None:
-            of_kind.setdefault((check.member, check.mode), []).append((row, check))
-    parts: list[Block] = [
-        _show_worst(number, same, words)
-        for number, same in enumerate(of_kind.values(), 1)
-    ]
+            named = show_check(words, check), name_case(check, words)
+            title = words.join((show_text(row.id), *named))
+            name = f"worked-{len(parts) + 1}"
+            worked = work_out(check, words)
+            parts.append(section(name, title, worked, level=3))
     none = Paragraph(text=words("heading.no_utilisation"), look="none")
     return section("worked", words("heading.worked"), *(parts or [none]))
-
-
-def _show_worst(
-    number: int, same: Sequence[tuple[RowStudy, Check]], words: Words
-) -> Part:
-    """The most used of some checks of one kind, and the rows that it stands for."""
-    row, check = max(same, key=lambda one: _rank(one[1]))
-    texts = (show_text(row.id), show_check(words, check), name_case(check, words))
-    others = [show_text(other.id) for other, _ in same if other is not row]
-    blocks: list[Block] = [work_out(check, words)]
-    if others:
-        text = words("worked.others", rows=words.join(others))
-        blocks.append(Paragraph(text=text, look="small"))
-    return section(f"worked-{number}", words.join(texts), *blocks, level=3)
-
-
-def _rank(check: Check) -> tuple[float, float]:
-    """Utilisation, then force."""
-    return check.used or 0.0, check.demand_kN or 0.0
 
 
 def _list_shown(check: Check) -> list[Step]:
