@@ -312,34 +312,23 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
 
 # --- bugs, interrupts, closed pipes ------------------------------------------------
 
-BUG = """
-import netdesign.study.cases
-def search_site(*_):
-    raise ZeroDivisionError("spoilt")
-netdesign.study.cases.search_site = search_site
-"""
 
+def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path, monkeypatch):
+    def search(*_):
+        raise ZeroDivisionError("spoilt")
 
-def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path):
-    result = start_program(
-        "check", home / "site.xlsx", cwd=tmp_path, program=spoilt_program(BUG)
-    )
+    for module in ("check_site", "side_by_side"):
+        monkeypatch.setattr(f"netdesign.study.{module}.search_site", search)
+    command = ("check", home / "site.xlsx", *QUICK)
+    result = call_program(*command, cwd=tmp_path)
     assert result.code == 5
-    assert "internal error, please report it: ZeroDivisionError: spoilt" in (result.err)
+    assert "internal error, please report it: ZeroDivisionError: spoilt" in result.err
     assert "Traceback" not in result.err
     assert result.out == ""
     assert listing(tmp_path) == set()
-
-
-def test_a_traceback_is_there_for_the_asking(home, tmp_path):
-    result = start_program(
-        *("check", home / "site.xlsx"),
-        cwd=tmp_path,
-        program=spoilt_program(BUG),
-        NETDESIGN_TRACEBACK="1",
-    )
-    assert result.code == 5
-    assert "Traceback" in result.err
+    asked = call_program(*command, cwd=tmp_path, NETDESIGN_TRACEBACK="1")
+    assert asked.code == 5
+    assert "Traceback" in asked.err
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
