@@ -239,14 +239,19 @@ def _is_refused(step: Step, check: Check) -> bool:
 
 
 def _write_formula(step: Step, end: int, cells: Cells, none: str) -> str:
-    """Formula of an end of a step; ``none`` where a cell of it holds no number."""
+    """Formula of an end of a step; ``none`` where a cell of it holds no number.
+
+    That sign comes from a function of Excel 2013, marked as such: XlsxWriter looks for
+    newer ones in any formula without the mark, which takes a quarter of all outputs.
+    """
     read = list_operands(step.formula, end)
     formula = translate(
         step.formula, SPREADSHEET, lambda symbol, of: _find(cells, symbol, of), end
     )
     used = dict.fromkeys(_find(cells, *one) for one in read)
     counted = f"COUNT({','.join(used)})={len(used)}"
-    return f'=IFERROR(IF({counted},{formula},"{none}"),"{none}")'
+    sign = f"_xlfn.UNICHAR({ord(none)})"
+    return f"=IFERROR(IF({counted},{formula},{sign}),{sign})"
 
 
 def _write_texts(book: Book, sheet: Any, line: int, step: Step) -> None:
