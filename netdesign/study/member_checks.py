@@ -80,17 +80,6 @@ class MemberCheck:
         return self.resistance.member in ROPE_OF
 
     @property
-    def use(self) -> float | None:
-        """Utilisation for each kN on a member inside the row [1/kN].
-
-        None without a resistance.
-        """
-        factor, design = map(self.check.read, ("γ_E", "R_d"))
-        if self.force is None or not (factor and design):
-            return None
-        return self.force.on_support * factor / design
-
-    @property
     def ratio(self) -> float:
         """Upper end of the utilisation [-]; below 0 without one."""
         high = self.check.utilisation_band[1]

@@ -16,7 +16,6 @@ from netdesign.checks.forces import (
     GUYS_ON_ANCHOR,
     SupportForce,
     calculate_force,
-    load_guy,
     load_post,
 )
 from netdesign.checks.schema import LATERAL_SHARE
@@ -155,23 +154,17 @@ def _work_out(
     if least is not None:
         leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
     leaves += list_maker_leaves(forces.row, forces.standard, member)
-    added, rise = _list_load_leaves(forces, member, width)
-    leaves += added
+    leaves += _list_load_leaves(forces, member, width)
     if panel is not None:
         leaves += _list_rope_leaves(forces, member, width)
     if is_sliding:
         leaves.append(_solved("t", forces.tilt, "-", "tilt"))
     force = _calculate(forces, leaves)
-    is_by_panel, held = high_of(force.by_panel) > high_of(force.coupled), None
-    at_foot = (Member.FOOT_ANCHOR, *forces.row.layout.anchors_at_foot)
-    if member not in (NetPart.MESH, *at_foot):
-        held = forces.along_row
+    is_by_panel = high_of(force.by_panel) > high_of(force.coupled)
     return MemberForce(
         on=force,
         solved=(section,) if panel is None else (section, panel),
         largest=panel if panel is not None and is_by_panel else section,
-        pull=held.pull_kN if held else 0.0,
-        rise=rise,
     )
 
 
@@ -198,7 +191,7 @@ def find_guideline_force(
     """
     leaves = _list_support_leaves(forces.row, width, member)
     leaves.append(_solved("E_s", inside, "kN", f"floor.{member}"))
-    leaves += _list_load_leaves(forces, member, width)[0]
+    leaves += _list_load_leaves(forces, member, width)
     force = _calculate(forces, leaves).action
     if force.value is None:
         raise ModelError(force.lacks[0])
@@ -233,7 +226,7 @@ def find_end_pull(forces: RowForces) -> float | None:
         return None
     leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
     leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
-    pull = calculate_force({quantity.symbol: quantity for quantity in leaves}).action
+    pull = _calculate(forces, leaves, is_size=True).action
     return newton_from_kilonewton(high_of(pull))
 
 
@@ -244,8 +237,7 @@ def find_one_way_pull(forces: RowForces) -> float:
         return 0.0
     leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
     leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
-    force = calculate_force({quantity.symbol: quantity for quantity in leaves})
-    return high_of(force.push)
+    return high_of(_calculate(forces, leaves, is_size=True).push)
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
@@ -278,14 +270,14 @@ def _list_support_leaves(
 
 def _list_load_leaves(
     forces: RowForces, member: str, width: LoadedWidth
-) -> tuple[list[Quantity], float]:
-    """Leaves of what the load along the row adds, and how that may grow [kN]."""
+) -> list[Quantity]:
+    """Leaves of what the load along the row adds."""
     share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
     held = forces.along_row
     if member in forces.row.layout.anchors_at_foot:
-        return ([share] if share.is_known else []), 0.0
+        return [share] if share.is_known else []
     if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
-        return [], 0.0  # it presses a post, (S18)
+        return []  # it presses a post, (S18)
     splay = leaf("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
     by_floor = _list_floor_leaves(forces, member, held)
     pull = leaf(
@@ -296,27 +288,21 @@ def _list_load_leaves(
     if member in PARTS:
         part: float = getattr(held, PARTS[member])
         leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
-        rise = high_of(load_guy(*leaves).added)
         leaves += by_floor[:1]
         if not is_shared(forces.row, member):
-            return leaves, rise
+            return leaves
         cell = find_cell(forces.row, "guy_anchors")
         symbol = GUYS_ON_ANCHOR[forces.standard.shared_sum]
-        return [leaf(symbol, 2.0, "-", cell), *leaves], 2.0 * rise
+        return [leaf(symbol, 2.0, "-", cell), *leaves]
     weight = _solved("w", held.post_part, "-", "post_part")
-    nothing, least = (
-        _solved("T_min", force, "kN", "least_tension")
-        for force in (0.0, held.least_tension_kN)
-    )
-    # the least tension does not grow
-    rise = high_of(load_post(weight, share, pull, splay, nothing).added)
+    least = _solved("T_min", held.least_tension_kN, "kN", "least_tension")
     leaves = [weight, share, pull, splay, least]
     added = [load_post(*leaves).added]
     if by_floor:
         of_floor, own = by_floor
         added.append(load_post(weight, share, of_floor, splay, own).added)
     is_loaded = any(map(high_of, added)) or width.position == "second"
-    return ([*leaves, *by_floor] if is_loaded else []), rise
+    return [*leaves, *by_floor] if is_loaded else []
 
 
 def _list_floor_leaves(

@@ -12,12 +12,25 @@ from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.structure.members import Member, RopeForce
+from netdesign.structure.members import (
+    ROPE_OF,
+    Member,
+    NetPart,
+    RopeForce,
+    name_in_panel,
+)
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects
 from netdesign.study.load_along_row import find_tilt
 from netdesign.study.member_checks import MemberCheck
-from netdesign.study.member_force import MemberForce, RowForces, find_force
+from netdesign.study.member_force import (
+    PARTS,
+    MemberForce,
+    RowForces,
+    find_force,
+    is_shared,
+)
+from netdesign.study.row_forces import high_of
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.units import kilonewton_from_newton
 
@@ -162,20 +175,88 @@ def _follows_cases(check: MemberCheck) -> bool:
     may grow while its own force falls.
     """
     force = check.force
-    if force is not None and (force.on.load.across is not None or force.is_by_truss):
+    if force is None or check.resistance.dimensions or check.ratio <= 0.0:
         return False
-    if force is not None and force.is_post_beside:
-        return False
-    if (
-        force is None
-        or check.resistance.dimensions
-        or check.use is None
-        or check.ratio <= 0.0
-    ):
+    is_shared = force.on.load.across is not None
+    if is_shared or _is_by_truss(force) or _is_post_beside(force):
         return False
     if check.is_of_end and check.check.has_open(OpenKind.UNSOLVED):
         return False
-    return force.largest.high_kN > 0.0 or force.added_high == 0.0
+    return force.largest.high_kN > 0.0 or _find_added(force) == 0.0
+
+
+def _is_by_truss(force: MemberForce) -> bool:
+    """The truss of post, guys and end guy has the largest force."""
+    loads = (force.on.coupled, force.on.by_panel, force.on.guideline)
+    shared = force.on.shared
+    return shared is not None and high_of(shared) >= max(map(high_of, loads))
+
+
+def _is_post_beside(force: MemberForce) -> bool:
+    """A post beside the end: what presses it is worked out together, (P11)."""
+    on, posts = force.on, (Member.POST, Member.POST_BASE)
+    is_post = force.largest.quantity in (*posts, *map(name_in_panel, posts))
+    return is_post and on.support.is_second and on.push is not None
+
+
+def _find_use(check: MemberCheck, force: MemberForce) -> float:
+    """Utilisation for each kN on a member inside the row [1/kN]."""
+    factor, design = map(check.check.read, ("γ_E", "R_d"))
+    return _find_growth(force) * (factor or 0.0) / (design or math.inf)
+
+
+def _find_growth(force: MemberForce) -> float:
+    """Force on the support over that inside the row, lateral load included [-]."""
+    support, lateral = force.on.support, force.on.load.lateral
+    if force.largest.quantity in tuple(RopeForce):
+        return high_of(force.action) / (force.largest.high_kN or 1.0)
+    if support.end_factor is not None and support.width is None:  # of the mesh
+        return 1.0 + (support.end_factor.value or 0.0)
+    ratio = 1.0
+    if support.width is not None and support.spacing is not None:
+        ratio = (support.width / support.spacing).value or 1.0
+    return ratio * ((lateral.value if lateral else None) or 1.0)
+
+
+def _find_share(force: MemberForce) -> float:
+    """Part of the section's force in the member [-]."""
+    share = force.on.load.share
+    return _find_tilt(force) * ((share.value if share else None) or 1.0)
+
+
+def _find_tilt(force: MemberForce) -> float:
+    return (force.on.tilt.value if force.on.tilt else None) or 1.0
+
+
+def _find_added(force: MemberForce) -> float:
+    """Upper end of what the load along the row adds, inside the row [kN]."""
+    added, across = force.on.load.added, force.on.load.across
+    return _find_tilt(force) * (high_of(added) + high_of(across))
+
+
+def _find_rise(forces: RowForces, member: str) -> float:
+    """Growth of that where the pull on the head doubles, at most [kN]."""
+    held, row = forces.along_row, forces.row
+    alone = (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH)
+    if held is None or member in (*alone, *row.layout.anchors_at_foot):
+        return 0.0
+    if member in ROPE_OF:
+        return 0.0
+    load, splay = held.share * held.pull_high_kN, math.radians(held.splay_deg)
+    if member not in PARTS:
+        return held.post_part * load / math.tan(splay)
+    part: float = getattr(held, PARTS[member])
+    guys = 2.0 if is_shared(row, member) else 1.0
+    return guys * part * load / math.sin(splay)
+
+
+def _compare_load(force: MemberForce, now: MemberForce) -> float:
+    """Load of its support over that of another [-].
+
+    The larger growth of width and of what the end guy brings counts for both.
+    """
+    growth, push = _find_growth(force) / _find_growth(now), high_of(now.on.push)
+    return max(growth, high_of(force.on.push) / push) if push else growth
 
 
 def _build_check(
@@ -185,12 +266,12 @@ def _build_check(
 
     Of section and panel that one which is larger is followed, the other beside it.
     """
-    force, use = check.force, check.use
-    if force is None or use is None:
+    force = check.force
+    if force is None:
         raise ValueError("a check without a force has no target")
-    results = task.solved.results
+    use, results = _find_use(check, force), task.solved.results
     scales = {
-        record.quantity: use * force.share * _widen(record, results) / 1e3
+        record.quantity: use * _find_share(force) * _widen(record, results) / 1e3
         for record in force.solved
     }
     followed = force.largest.quantity
@@ -200,8 +281,8 @@ def _build_check(
         member=followed,
         scale=scales.pop(followed),
         beside=tuple(scales.items()),
-        added=use * force.added_high,
-        rise=use * force.rise,
+        added=use * _find_added(force),
+        rise=use * _find_rise(check.forces, check.resistance.member),
         governing=task.extremes[followed].governing.case,
         results=results,
         widen=cache(partial(_find_load, forces, check, force)),
@@ -217,7 +298,7 @@ def _find_push(task: RowToCheck, check: MemberCheck, force: MemberForce) -> Push
     is_foot = check.resistance.member == Member.FOOT_ANCHOR
     rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
-    inside = force.on_support * force.share
+    inside = _find_growth(force) * _find_share(force)
     ratios = {
         record.quantity: on.push.high / pull / (inside * _widen(record, results))
         for record in force.solved
@@ -240,7 +321,7 @@ def _find_load(
     effects = find_effects(forces.row, forces.standard, ranges)
     width = effects.find_support(check.width.position)
     moved = find_force(forces, check.resistance, width) or now
-    load, span = moved.compare_load(now), ranges["inclination"]
+    load, span = _compare_load(moved, now), ranges["inclination"]
     if check.resistance.mode != "sliding":
         return load
     return load * find_tilt(forces.row, (span.low, span.high))
