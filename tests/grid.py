@@ -17,6 +17,7 @@ from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.study.row_to_check import build_row_task, build_scene
 
 SAMPLES = 3  # of a quantity that ranges
+KNOWN, MOST_KNOWN = {}, 1000  # cases that were solved, with their results
 
 
 def build_cases(ranges, samples=SAMPLES):
@@ -42,8 +43,19 @@ def solve_site(site, run, runner=None, samples=SAMPLES):
         at_row = site.at_row(row)
         cases = build_cases(at_row.ranges, samples)
         tasks = [build_row_task(row, one, run.creep_law, run.settings) for one in cases]
-        found.append(wrap_results(at_row, row, run_cases(tasks, runner), run))
+        found.append(wrap_results(at_row, row, solve_tasks(tasks, runner), run))
     return found
+
+
+def solve_tasks(tasks, runner=None):
+    """Results of cases, each solved once in a process; a runner solves its own anew."""
+    if runner is not None:
+        return run_cases(tasks, runner)
+    new = [one for one in dict.fromkeys(tasks) if one not in KNOWN]
+    results = KNOWN | dict(zip(new, run_cases(new), strict=True))
+    KNOWN.clear()
+    KNOWN.update(list(results.items())[-MOST_KNOWN:])
+    return [results[one] for one in tasks]
 
 
 def wrap_results(site, row, results, run):

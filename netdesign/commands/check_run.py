@@ -289,7 +289,7 @@ def _check_and_size(
 
     ``read`` gives the site with some cells replaced.
     """
-    from netdesign.study.check_site import judge_solved, solve_rows
+    from netdesign.study.check_site import check_site, judge_solved, solve_rows
     from netdesign.study.sizing import size_site
 
     solved = solve_rows(site, run, runner, watch)
@@ -301,8 +301,7 @@ def _check_and_size(
         if not instead:
             sized.append((cells, None))
             continue
-        again = solve_rows(read(instead), run, runner, watch, solved)
-        (what_if,) = judge_solved(again, [profile], run, runner, watch)
+        (what_if,) = check_site(read(instead), [profile], run, runner, watch)
         sized.append((cells, what_if))
     return studies, sized
 

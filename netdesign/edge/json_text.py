@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
@@ -56,48 +57,21 @@ def write_json(document: object) -> str:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class JsonPart:
-    """Part of a JSON document.
-
-    Attributes
-    ----------
-    text : str
-        As the document has it.
-    values : str
-        The same on one line and in ASCII, with every number as a float: equal for equal
-        values, since 2 and 2.0 are one number and become one when a document is read.
-    """
-
-    text: str
-    values: str
+def join_items(parts: Sequence[str]) -> str:
+    """List of texts that `write_json` made."""
+    return f"[{_NEXT.join(parts)}]"
 
 
-def write_part(value: object) -> JsonPart:
-    """Part of a document."""
-    text = write_json(value)
+def join_members(parts: Mapping[str, str]) -> str:
+    """Object with such texts by their keys."""
+    members = (f"{json.dumps(key)}: {text}" for key, text in parts.items())
+    return f"{{{_NEXT.join(members)}}}"
+
+
+def hash_values(text: str) -> str:
+    """SHA-256 of the values of a JSON text: 2 and 2.0 are one number, spaces none."""
     values = json.dumps(json.loads(text, parse_int=float), check_circular=False)
-    return JsonPart(text, values)
-
-
-def join_items(parts: Sequence[JsonPart]) -> JsonPart:
-    """List of parts."""
-    return _join("[", parts, "]")
-
-
-def join_members(parts: Mapping[str, JsonPart]) -> JsonPart:
-    """Object with parts by their keys."""
-    named = []
-    for key, part in parts.items():
-        name = json.dumps(key, ensure_ascii=False)
-        named.append(JsonPart(f"{name}: {part.text}", f"{name}: {part.values}"))
-    return _join("{", named, "}")
-
-
-def _join(opening: str, parts: Sequence[JsonPart], closing: str) -> JsonPart:
-    text = _NEXT.join(part.text for part in parts)
-    values = ", ".join(part.values for part in parts)
-    return JsonPart(f"{opening}{text}{closing}", f"{opening}{values}{closing}")
+    return hashlib.sha256(values.encode()).hexdigest()
 
 
 def list_fields(value: Any) -> dict[str, Any]:

@@ -94,8 +94,11 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LoadOnNet:
-    """The guideline's load on a net, for each metre of width."""
+class FloorForceRecord:
+    """Largest force of the guideline's load in one member, inside the row.
+
+    With the load on the net that brings it, for each metre of width.
+    """
 
     load_case: str  # "load_case_1" or "load_case_2"
     normal_share: float = 0.35  # a of (G4): of the normal part
@@ -110,12 +113,6 @@ class LoadOnNet:
     stiffness_kN_per_m: float
     slack: float
     chord_tension_kN_per_m: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class FloorForceRecord(LoadOnNet):
-    """Largest force of the guideline's load in one member, inside the row."""
-
     member: str
     force_kN: float  # characteristic
 

@@ -12,12 +12,11 @@ from netdesign.edge.progress import Phase, RunProgress
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import have_same_forces, list_alike, search_site
+from netdesign.study.cases import list_alike, search_site
 from netdesign.study.judge import gather_study
 from netdesign.study.records import Study
 from netdesign.study.row_to_check import CheckRun
 from netdesign.study.side_by_side import (
-    RowNames,
     RowsJob,
     Studies,
     find_rows,
@@ -101,7 +100,7 @@ def check_site(
 
 def _judge_new(
     site: Site,
-    names: Mapping[str, RowNames],
+    names: Mapping[str, str],
     standards: Sequence[Standard],
     run: CheckRun,
     runner: Runner,
@@ -132,34 +131,11 @@ def _judge_new(
 
 
 def solve_rows(
-    site: Site,
-    run: CheckRun,
-    runner: Runner,
-    watch: RunProgress,
-    before: SolvedSite | None = None,
+    site: Site, run: CheckRun, runner: Runner, watch: RunProgress
 ) -> SolvedSite:
-    """Solve the cases of every net row whose forces differ from those in ``before``.
-
-    A what-if has the rows of the site before it, in their order; where a row has the
-    same forces, only its checks differ.
-    """
-    todo = [
-        row for row in site.rows if before is None or _is_new(row, site, before, run)
-    ]
-    part = replace(site, rows=tuple(todo))
-    envelopes = search_site(part, run, runner, watch.report_wave)
-    by_id = dict(zip((row.id for row in todo), envelopes, strict=True))
-    if before is not None:
-        old = zip(before.site.rows, before.rows, strict=True)
-        by_id = {row.id: solved for row, solved in old} | by_id
-    return SolvedSite(site=site, rows=[by_id[row.id] for row in site.rows])
-
-
-def _is_new(row: NetRow, site: Site, before: SolvedSite, run: CheckRun) -> bool:
-    old = {row.id: row for row in before.site.rows}.get(row.id)
-    return old is None or not have_same_forces(
-        row, site.ranges, old, before.site.ranges, run
-    )
+    """Solve the cases of every net row."""
+    rows = search_site(site, run, runner, watch.report_wave)
+    return SolvedSite(site=site, rows=rows)
 
 
 def judge_solved(

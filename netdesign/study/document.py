@@ -5,7 +5,6 @@ A text with a fault is refused, and the refusal names the place.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from collections import Counter
@@ -27,11 +26,12 @@ from netdesign.edge.input_files import (
 )
 from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
+    hash_values,
     join_members,
     list_fields,
     read_json,
     restore_json,
-    write_part,
+    write_json,
 )
 from netdesign.outcome import ContentError, StudyError
 from netdesign.study.records import SCHEMA, RowStudy, Study
@@ -50,24 +50,22 @@ def compute_digest(study: Study) -> str:
     was altered by accident. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
-    return hashlib.sha256(study.written.values.encode()).hexdigest()
+    return study.own_digest
 
 
 def hash_text(text: str) -> str:
     """SHA-256 of a document as it is stored, without its own digest."""
-    document = json.loads(text, parse_int=float)
-    values = json.dumps({**document, "digest": ""}, check_circular=False)
-    return hashlib.sha256(values.encode()).hexdigest()
+    return hash_values(json.dumps({**json.loads(text), "digest": ""}))
 
 
 def hash_results(study: Study) -> str:
     """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
     results = {
-        "verdict": write_part(study.verdict),
-        "profile": write_part(study.profile.sha256),
+        "verdict": write_json(study.verdict),
+        "profile": write_json(study.profile.sha256),
         "rows": study.written_rows,
     }
-    return hashlib.sha256(join_members(results).values.encode()).hexdigest()
+    return hash_values(join_members(results))
 
 
 def write_document(study: Study) -> str:
@@ -77,7 +75,7 @@ def write_document(study: Study) -> str:
     """
     # no text in the document has a line end of its own, so this line stands once
     digest = f'{_OPEN_LINE[:-1]}{compute_digest(study)}"'
-    return study.written.text.replace(_OPEN_LINE, digest, 1)
+    return study.written.replace(_OPEN_LINE, digest, 1)
 
 
 def read_document(text: str) -> Study:

@@ -25,6 +25,10 @@ _ANCHORS = (
     *("row", "anchor", "position", "E_k_kN", "E_d_kN", "R_d_kN"),
     *("utilisation", "verdict", "assumed", "missing"),
 )
+_CHECKS = (
+    *("row", "member", "mode", "position", "type", "verdict", "utilisation"),
+    *("utilisation_low", "utilisation_high", "demand_kN", "resistance_kN"),
+)
 _OPEN = ("row", "kind", "text", "needs_kN")
 _FORCES = (
     *("row", "force", "low_kN", "value_kN", "high_kN", "bound_kN"),
@@ -35,6 +39,20 @@ _FORCES = (
 def list_anchors(study: Study) -> DataFrame:
     """Check that decides each anchor of each net row, by its position along the row."""
     return _build(_ANCHORS, [line for row in study.rows for line in _of_row(row)])
+
+
+def list_checks(study: Study) -> DataFrame:
+    """Checks of all net rows, one line each."""
+    lines = [
+        (
+            *(row.id, check.member, check.mode, check.position, check.resistance_type),
+            *(check.verdict.value, check.utilisation, *check.utilisation_band),
+            *(check.demand_kN, check.resistance_kN),
+        )
+        for row in study.rows
+        for check in row.checks
+    ]
+    return _build(_CHECKS, lines)
 
 
 def list_open(study: Study) -> DataFrame:

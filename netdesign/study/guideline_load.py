@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
-from typing import Any, Literal
+from typing import Literal
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import leave_open
@@ -287,31 +287,24 @@ def record_floor(
 
 
 def _record_force(force: FloorForce) -> FloorForceRecord:
+    net, (along, across) = force.at.net, force.load.resultant
     return FloorForceRecord(
         member=force.member,
         force_kN=kilonewton_from_newton(force.force),
-        **list_load(force),
+        load_case=force.case.name,
+        normal_share=force.case.normal_share,
+        inclination_deg=given_degree_from_radian(net.inclination),
+        snow_thickness_m=net.snow_thickness,
+        density_kg_m3=force.case.density,
+        height_vertical_m=force.case.height_vertical,
+        creep_factor=force.load.creep_factor,
+        glide_factor=force.load.glide_factor,
+        load_along_kN_per_m=kilonewton_from_newton(along),
+        load_across_kN_per_m=kilonewton_from_newton(across),
+        stiffness_kN_per_m=kilonewton_from_newton(net.stiffness),
+        slack=net.slack,
+        chord_tension_kN_per_m=kilonewton_from_newton(force.pull.chord_tension),
     )
-
-
-def list_load(force: FloorForce) -> dict[str, Any]:
-    """Load that brings a force, by the keys of a ``LoadOnNet``."""
-    net, (along, across) = force.at.net, force.load.resultant
-    return {
-        "load_case": force.case.name,
-        "normal_share": force.case.normal_share,
-        "inclination_deg": given_degree_from_radian(net.inclination),
-        "snow_thickness_m": net.snow_thickness,
-        "density_kg_m3": force.case.density,
-        "height_vertical_m": force.case.height_vertical,
-        "creep_factor": force.load.creep_factor,
-        "glide_factor": force.load.glide_factor,
-        "load_along_kN_per_m": kilonewton_from_newton(along),
-        "load_across_kN_per_m": kilonewton_from_newton(across),
-        "stiffness_kN_per_m": kilonewton_from_newton(net.stiffness),
-        "slack": net.slack,
-        "chord_tension_kN_per_m": kilonewton_from_newton(force.pull.chord_tension),
-    }
 
 
 _DECIMALS = 3  # of heights on the net [m]

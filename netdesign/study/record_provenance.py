@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-from dataclasses import replace
+from dataclasses import fields, replace
 from datetime import UTC, datetime
 from functools import cache
-from typing import cast, get_args
+from typing import Any, cast, get_args
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
@@ -33,24 +33,16 @@ _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 
 def record_profile(standard: Standard) -> ProfileRecord:
     """Every value of a limit profile, as a study states it."""
-    return ProfileRecord(
-        id=standard.id,
-        title=standard.title,
-        edition=standard.edition,
-        sha256=standard.sha256,
-        version=standard.version,
-        choice=standard.choice,
-        choice_text=standard.choice_text,
-        floor=standard.floor,
-        shared_sum=standard.shared_sum,
-        is_floor_overruled=standard.is_floor_overruled,
-        has_maker_floor=standard.has_maker_floor,
-        is_by_guideline=standard.is_by_guideline,
-        not_checked=list(standard.not_checked),
-        is_default=standard.is_default,
-        proof_factor=find_proof_factor(standard),
-        values=[*standard.listed, *_list_floor_values(standard)],
-    )
+    shared = (field.name for field in fields(ProfileRecord))
+    alike: dict[str, Any] = {
+        name: getattr(standard, name) for name in shared if hasattr(standard, name)
+    }
+    own = {
+        "not_checked": list(standard.not_checked),
+        "proof_factor": find_proof_factor(standard),
+        "values": [*standard.listed, *_list_floor_values(standard)],
+    }
+    return ProfileRecord(**alike | own)
 
 
 def load_own_profile(record: ProfileRecord, named: str | None = None) -> Standard:

@@ -15,11 +15,11 @@ from netdesign.checks.check import CasePoint, Check, OpenKind
 from netdesign.checks.loader import StandardValue
 from netdesign.edge.json_text import (
     Items,
-    JsonPart,
+    hash_values,
     join_items,
     join_members,
     list_fields,
-    write_part,
+    write_json,
 )
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import InputEcho, Project, ReplacedCell
@@ -258,9 +258,9 @@ class RowStudy:
         return [*unproven, *self.unmet]
 
     @cached_property
-    def written(self) -> JsonPart:
+    def written(self) -> str:
         """JSON text of the row in the document, made where the row is judged."""
-        return write_part(self)
+        return write_json(self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -345,14 +345,19 @@ class Study:
         )
 
     @cached_property
-    def written(self) -> JsonPart:
+    def written(self) -> str:
         """JSON text of the study without its digest."""
         without = list_fields(self) | {"digest": ""}
         parts = {
-            name: self.written_rows if name == "rows" else write_part(value)
+            name: self.written_rows if name == "rows" else write_json(value)
             for name, value in without.items()
         }
         return join_members(parts)
+
+    @cached_property
+    def own_digest(self) -> str:
+        """SHA-256 of the study without its digest."""
+        return hash_values(self.written)
 
     def __repr__(self) -> str:
         """Name, number of net rows, verdict, profile."""
@@ -393,30 +398,10 @@ class Study:
             ``utilisation_high`` [-], ``demand_kN`` and ``resistance_kN`` what it gives,
             None where it is not known.
         """
-        from pandas import DataFrame
-
-        return DataFrame(
-            [
-                {
-                    "row": row.id,
-                    "member": check.member,
-                    "mode": check.mode,
-                    "position": check.position,
-                    "type": check.resistance_type,
-                    "verdict": check.verdict.value,
-                    "utilisation": check.utilisation,
-                    "utilisation_low": check.utilisation_band[0],
-                    "utilisation_high": check.utilisation_band[1],
-                    "demand_kN": check.demand_kN,
-                    "resistance_kN": check.resistance_kN,
-                }
-                for row in self.rows
-                for check in row.checks
-            ]
-        )
+        return frames.list_checks(self)
 
     @cached_property
-    def written_rows(self) -> JsonPart:
+    def written_rows(self) -> str:
         """Net rows in the document."""
         return join_items([row.written for row in self.rows])
 

@@ -15,7 +15,6 @@ from itertools import chain
 from pathlib import Path
 
 from netdesign.checks import Standard
-from netdesign.edge.json_text import JsonPart
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import Fault, catch_fault
 from netdesign.site.model import NetRow, Project, Site
@@ -68,21 +67,10 @@ def cut_site(site: Site, row: NetRow) -> Site:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class RowNames:
-    """Names of a row's record: by all that may decide it, and without other types.
-
-    Only a record that proposes a change may name a type that the row does not have.
-    """
-
-    whole: str
-    own: str
-
-
 def name_rows(
     site: Site, standards: Sequence[Standard], run: CheckRun
-) -> dict[str, RowNames]:
-    """Names of the records of a site's rows, by the ids of the rows.
+) -> dict[str, str]:
+    """Names of the records of a site's rows by all that decides them, by ids of rows.
 
     Command, time and number of processes are no part of a name: no record has them.
     A row with a value of a new kind has no name, and is judged every time.
@@ -94,16 +82,13 @@ def name_rows(
         types = write_parts(list(site.catalogue))
         for row in site.rows:
             part = write_parts(replace(cut_site(site, row), catalogue=()))
-            own, whole = f"[{shared}, {part}]", f"[{shared}, {part}, {types}]"
-            names[row.id] = RowNames(
-                whole=hashlib.sha256(whole.encode()).hexdigest(),
-                own=hashlib.sha256(own.encode()).hexdigest(),
-            )
+            whole = f"[{shared}, {part}, {types}]"
+            names[row.id] = hashlib.sha256(whole.encode()).hexdigest()
     return names
 
 
 def find_rows(
-    names: Mapping[str, RowNames], runner: Runner, count: int
+    names: Mapping[str, str], runner: Runner, count: int
 ) -> dict[str, Studies]:
     """Rows that the store knows, by their ids, under so many profiles each.
 
@@ -111,20 +96,20 @@ def find_rows(
     """
     by_row = {}
     for row_id, name in names.items():
-        texts = runner.find_row(name.own) or runner.find_row(name.whole)
+        texts = runner.find_row(name)
         if texts is None:
             continue
         try:
-            pairs = zip(texts[::2], texts[1::2], range(count), strict=True)
-            by_row[row_id] = [_restore(text, values) for text, values, _ in pairs]
+            pairs = zip(texts, range(count), strict=True)
+            by_row[row_id] = [_restore(text) for text, _ in pairs]
         except ValueError:
             path = str(runner.store.path if runner.store else "")
-            runner.tell(say("store.row_damaged", path=path, name=name.whole[:12]))
+            runner.tell(say("store.row_damaged", path=path, name=name[:12]))
     return by_row
 
 
 def keep_rows(
-    names: Mapping[str, RowNames],
+    names: Mapping[str, str],
     rows: Iterable[NetRow],
     judged: Iterable[Studies],
     runner: Runner,
@@ -138,13 +123,10 @@ def keep_rows(
     for row, studies in zip(rows, judged, strict=True):
         name = names.get(row.id)
         if name is not None:
-            parts = [study.written for study in studies]
-            texts = [text for part in parts for text in (part.text, part.values)]
-            proposes = any(check.changes for study in studies for check in study.checks)
-            runner.keep_row(name.whole if proposes else name.own, texts)
+            runner.keep_row(name, [study.written for study in studies])
 
 
-def _restore(text: str, values: str) -> RowStudy:
+def _restore(text: str) -> RowStudy:
     """Record of a row, with its text: 2.0 that was written as 2 is written so again.
 
     Raises
@@ -153,7 +135,7 @@ def _restore(text: str, values: str) -> RowStudy:
         If it is none.
     """
     row = restore_row(text)
-    vars(row)["written"] = JsonPart(text, values)
+    vars(row)["written"] = text
     return row
 
 

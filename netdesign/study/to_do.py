@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.outcome import SEVERITY, Verdict
+from netdesign.study.conditions import Who
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name_check, name_member, name_mode
 
-Who = Literal["office", "supplier", "ground", "site"]
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10
 _LOWERS = "check.assumed_lowers"  # neither end of a range passes

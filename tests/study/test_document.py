@@ -283,7 +283,7 @@ def test_what_is_written_beside_the_fields_and_altered_is_found(
 
 
 def test_a_row_is_read_without_what_is_written_beside_its_fields():
-    assert restore_row(ROW.written.text) == ROW
+    assert restore_row(ROW.written) == ROW
 
 
 @each("old", [1, 2, 3])

@@ -14,6 +14,7 @@ from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
+from netdesign.solving.runner import Runner
 from netdesign.structure.members import END_ANCHORS, END_MODES, ROPE_OF
 from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
@@ -83,6 +84,11 @@ def with_panel(panel, *, end=None, **changes):
 def judge(row, *, standard=PROFILE, solver=None, ranges=RANGES, solve=solve_site):
     site = build_site(row, ranges=ranges)
     return site, judge_site(site, solve(site, RUN), standard, RUN, solver)
+
+
+def solve_anew(site, run):
+    """Cases of a site as the program solves them now."""
+    return solve_site(site, run, Runner())
 
 
 def checks_of(study):
@@ -221,7 +227,7 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
         return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
 
     monkeypatch.setattr(running, "resolve_panels", fail)
-    _, study = judge(with_panel(a_panel()))
+    _, study = judge(with_panel(a_panel()), solve=solve_anew)
     forces = [one for one in study.rows[0].checks if one.position]
     assert {one.verdict for one in forces} == {Verdict.NOT_PROVEN}
     for one in forces:
@@ -235,7 +241,7 @@ def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
     lost = FailedPanel(outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.not_found"))
     monkeypatch.setattr(running, "resolve_panels", lambda *_: lost)
     weak = with_panel(a_panel(), resistances=resist(1e3))
-    _, study = judge(weak)
+    _, study = judge(weak, solve=solve_anew)
     assert study.verdict is Verdict.FAIL
 
 

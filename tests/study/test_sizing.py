@@ -16,7 +16,7 @@ from netdesign.study.sizing import size_site
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.make import find_cell, load_rows, write_rows, write_site
-from tests.small_site import ROWS, RUN, build_site
+from tests.small_site import RUN
 
 PROFILE = load_standard("nf-p-95-304-style")
 FOOT, UPHILL = (find_cell("rows", f"{one}_anchor") for one in ("foot", "uphill"))
@@ -39,8 +39,8 @@ class Nobody:
         """Nor a check."""
 
 
-def solve(site, known=None):
-    return solve_rows(site, RUN, Runner(), Nobody(), known)
+def solve(site):
+    return solve_rows(site, RUN, Runner(), Nobody())
 
 
 @pytest.fixture(scope="module")
@@ -197,39 +197,6 @@ def test_a_site_that_passes_has_nothing_to_replace(example):
     assert study.verdict is Verdict.PASS
     assert cells == []
     assert [one.cell for one in study.what_if] == [FOOT]
-
-
-def test_only_rows_with_other_forces_are_solved_again():
-    """The net's stiffness changes a force, a type of anchor does not."""
-    built = build_site(*ROWS)
-    known = solve(built)
-    softer = replace(ROWS[0], net_stiffness_per_m=3.1e6)
-    stronger = replace(ROWS[1], resistances=ROWS[0].resistances[::-1])
-    again = solve(build_site(softer, stronger), known)
-    assert again.rows[1] is known.rows[1]
-    afresh = solve(build_site(softer, stronger))
-    found, old, new = (
-        [one.member_forces["foot_anchor"].value for one in rows[0].results]
-        for rows in (again.rows, known.rows, afresh.rows)
-    )
-    assert found == new
-    assert not set(found) & set(old)
-
-
-def test_ranges_that_differ_are_solved_again():
-    built = build_site(*ROWS)
-    known = solve(built)
-    other = replace(built.ranges["density"], high=412.5)
-    ranges = replace(
-        built.ranges,
-        intervals=tuple(
-            (name, other if name == "density" else span)
-            for name, span in built.ranges.intervals
-        ),
-    )
-    again = solve(replace(built, ranges=ranges), known)
-    densities = {one.case.density for row in again.rows for one in row.results}
-    assert max(densities) == 412.5
 
 
 # --- fault 17: a question, or a refusal, of one cell is not that of another -----------
