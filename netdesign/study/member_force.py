@@ -226,7 +226,7 @@ def find_end_pull(forces: RowForces) -> float | None:
         return None
     leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
     leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
-    pull = _calculate(forces, leaves, is_size=True).action
+    pull = _calculate(forces, leaves).action
     return newton_from_kilonewton(high_of(pull))
 
 
@@ -237,7 +237,7 @@ def find_one_way_pull(forces: RowForces) -> float:
         return 0.0
     leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
     leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
-    return high_of(_calculate(forces, leaves, is_size=True).push)
+    return high_of(_calculate(forces, leaves).push)
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
