@@ -6,15 +6,12 @@ An index has one decimal, and never stands beside a verdict.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from netdesign.addons.charts import draw_rectangle
 from netdesign.quantities import QUANTITIES
 from netdesign.report.blocks import (
-    Block,
     Cell,
     Column,
-    Figure,
     Items,
     Paragraph,
     Part,
@@ -22,13 +19,6 @@ from netdesign.report.blocks import (
     key_columns,
     section,
     text_cell,
-)
-from netdesign.report.drawing.plain_svg import (
-    ACCENT,
-    TEXT_PT,
-    WIDTH,
-    Chart,
-    measure_words,
 )
 from netdesign.report.sections.additions import Addition
 from netdesign.report.words import (
@@ -39,39 +29,6 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.study.records import ReliabilityRecord, RowStudy, Study, VariableRecord
-
-_LINE, _BAR = 11.0, 7.0  # from bar to bar, height of a bar [pt]
-_BETWEEN_BARS = 6.0  # beside a bar [pt]
-_NUMBER = 26.0  # room of a number [pt]
-
-
-def draw_shares(shares: Sequence[tuple[str, float]], title: str, words: Words) -> str:
-    """SVG of the bars, the largest first.
-
-    Parameters
-    ----------
-    shares : sequence of (str, float)
-        Name and share of each, from 0 to 1; at least one.
-    title : str
-        What is shown.
-    words : Words
-        Of the language.
-    """
-    ranked = sorted(shares, key=lambda pair: -pair[1])
-    left = max(measure_words(label, TEXT_PT) for label, _ in ranked) + _BETWEEN_BARS
-    room = 0.6 * WIDTH - left - _NUMBER
-    sketch, texts = Chart(language=words.language), []
-    for place, (label, share) in enumerate(ranked):
-        top = place * _LINE + 0.5 * (_LINE - _BAR)
-        base = top + 0.5 * _BAR + 0.35 * TEXT_PT
-        shown = words("reliability.percent", share=words.show_fixed(100.0 * share, 0))
-        sketch.text(left - _BETWEEN_BARS, base, label, anchor="end")
-        draw_rectangle(sketch, left, top, max(0.5, room * share), _BAR, ACCENT)
-        sketch.text(left + room * share + _BETWEEN_BARS, base, shown)
-        texts.append(words("show.label", label=label, text=shown))
-    description = words("drawing.with_values", what=title, values=tuple(texts))
-    return sketch.write(len(ranked) * _LINE + 2.0, description)
-
 
 # Annual indices of the JCSS Probabilistic Model Code where safety is expensive, for
 # minor, moderate and large consequences.
@@ -100,7 +57,7 @@ def show_reliability(study: Study, words: Words) -> Iterator[Part]:
             *(
                 block
                 for row, record in records
-                for block in _show_shares(row, record, words)
+                for block in _tell_shares(row, record, words)
             ),
             tabulate_variables(study, words),
         )
@@ -217,20 +174,25 @@ def _compare(implied: float | None, of_profile: float | None, words: Words) -> s
     )
 
 
-def _show_shares(
+def _tell_shares(
     row: RowStudy, record: ReliabilityRecord, words: Words
-) -> Iterator[Block]:
-    """Bars of alpha squared of one row, above the case of its design point."""
-    shares = [
-        (_name(variable, words), variable.alpha_squared)
+) -> Iterator[Paragraph]:
+    """Alpha squared of a row's variables, the largest first; its design point."""
+    shares = {
+        _name(variable, words): variable.alpha_squared
         for variable in record.variables
         if variable.alpha_squared is not None
-    ]
+    }
+    if not shares:
+        return
+    ranked = words.join(
+        f"{name} {words('reliability.percent', share=words.show_fixed(100.0 * x, 0))}"
+        for name, x in sorted(shares.items(), key=lambda pair: -pair[1])
+    )
     title = words("reliability.shares", row=show_text(row.id))
-    point = words.name_case(record.design_point)
-    if shares:
-        caption = words("reliability.design_point", title=title, case=point)
-        yield Figure(svg=draw_shares(shares, title, words), caption=caption)
+    title = words("show.label", label=title, text=ranked)
+    case = words.name_case(record.design_point)
+    yield Paragraph(text=words("reliability.design_point", title=title, case=case))
 
 
 def _name(variable: VariableRecord, words: Words) -> str:
