@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from netdesign.study.records import Study
 
 _FAIL, _NOT_PROVEN = 1, 4
-_SHOWN = 20  # differences at most
 
 
 @click.command()

@@ -50,7 +50,6 @@ from netdesign.coupling.interface import ErrorModel, Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     FailedSolution,
-    OnFailure,
     Solution,
     end_solve,
 )
@@ -71,8 +70,6 @@ _BALANCE_TOLERANCE, _FRICTION_TOLERANCE = 1e-8, 1e-2
 def solve_staggered(
     scene: Scene,
     settings: StaggeredSettings | None = None,
-    *,
-    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """The paper's exchange, with a step and with half of it.
 
@@ -82,8 +79,6 @@ def solve_staggered(
         Snow, ground and net.
     settings : StaggeredSettings, optional
         Drag, step, start.
-    on_failure : str
-        ``return`` a FailedSolution, or ``raise`` a SolveError.
 
     Returns
     -------
@@ -91,16 +86,11 @@ def solve_staggered(
         ``error`` is that of the step and, on free ground, of the drag (K9); not that
         of the mesh.
 
-    Raises
-    ------
-    SolveError
-        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
-
     Verified by
     -----------
     tests/addons/history/test_staggered.py, ``netdesign verify``
     """
-    return end_solve(lambda: _solve(scene, settings or StaggeredSettings()), on_failure)
+    return end_solve(lambda: _solve(scene, settings or StaggeredSettings()))
 
 
 def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:

@@ -45,7 +45,6 @@ from netdesign.coupling.interface import ErrorModel, refine
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
     FailedSolution,
-    OnFailure,
     Solution,
     end_solve,
 )
@@ -82,8 +81,6 @@ _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 def solve_transient(
     scene: Scene,
     settings: TransientSettings | None = None,
-    *,
-    on_failure: OnFailure = "return",
 ) -> Solution | FailedSolution:
     """History of a scene on two meshes or more.
 
@@ -93,8 +90,6 @@ def solve_transient(
         Snow, ground and net.
     settings : TransientSettings, optional
         Start, horizon, accuracy.
-    on_failure : str
-        ``return`` a FailedSolution, or ``raise`` a SolveError.
 
     Returns
     -------
@@ -104,18 +99,11 @@ def solve_transient(
         ``history``. A history whose plateau is not reached, or is left again, says so
         and proves nothing.
 
-    Raises
-    ------
-    SolveError
-        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
-
     Verified by
     -----------
     tests/addons/history/test_transient.py, ``netdesign verify``
     """
-    return end_solve(
-        lambda: _refine(scene, settings or TransientSettings()), on_failure
-    )
+    return end_solve(lambda: _refine(scene, settings or TransientSettings()))
 
 
 def run_history(

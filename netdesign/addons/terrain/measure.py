@@ -34,7 +34,6 @@ LEAST_STEEP = math.radians(25.0)  # below it the snow holds itself
 KINK, BROKEN = math.radians(5.0), math.radians(15.0)  # bends of a row at a post
 CARED_ANGLE, CARED_LENGTH = math.radians(0.5), 0.1  # a check cares about [rad, m]
 LEAST_LENGTH = 1.0  # of snow above a row; less is none [m]
-_FAR = 30.0  # along the ground; no anchors of two rows reach each other from there [m]
 _BEYOND = 5.0  # steep ground above a zone that is told [m]
 _ERRORS = 2.0  # standard errors of a band
 

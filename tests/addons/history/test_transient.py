@@ -125,7 +125,7 @@ def test_fluidity_only_rescales_time(a_scene):
 def solve(scene, **options) -> Solution:
     options = {"horizon": 86400.0, "accuracy": 0.1, **options}
     settings = TransientSettings(**options)
-    solution = solve_transient(scene, settings, on_failure="raise")
+    solution = solve_transient(scene, settings)
     assert isinstance(solution, Solution)
     return solution
 
@@ -178,5 +178,4 @@ def test_first_step_that_fails_is_a_failure(a_scene, monkeypatch):
     assert isinstance(result, FailedSolution)
     assert result.outcome is Outcome.NO_EQUILIBRIUM
     assert str(result.reason).startswith("first step: ")
-    with pytest.raises(SolveError, match="nothing holds"):
-        solve_transient(a_scene(), on_failure="raise")
+    assert "nothing holds" in str(result.reason)
