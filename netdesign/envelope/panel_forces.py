@@ -29,7 +29,8 @@ from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (
     AnchorForces,
     compute_anchor_forces,
-    compute_forces_of_layouts,
+    compute_member_forces,
+    stack_ways,
 )
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
@@ -117,11 +118,12 @@ def hold_pulls(
         moved = np.concatenate([pulls.ends[None], pulls.ends + _MOVES * pulls.errors])
         is_finite = np.isfinite(moved * width).all(axis=-1)
         x, y, along, across = np.moveaxis(moved, -1, 0)
-        of_members, is_held = compute_forces_of_layouts(
-            places,
+        of_members, is_held = compute_member_forces(
+            stack_ways(places, x.ndim),
             foot_pull_per_m=(x, y),
             head_pull_per_m=(along, across),
             post_spacing=width,
+            is_foot_shared=places[0].is_foot_shared,
         )
         forces = np.stack(list(of_members.values()))
         values = forces[:, :, 0]

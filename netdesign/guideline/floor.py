@@ -26,21 +26,23 @@ from netdesign.guideline.load_model import (
     SnowLoad,
     compute_creep_factor,
 )
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats, Ints, measure_length
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
-    ManyForces,
-    compute_many_forces,
+    compute_member_forces,
+    find_ways,
+    measure_pull,
 )
-from netdesign.structure.layout import ManyLayouts, SupportLayout
-from netdesign.structure.members import CARRYING_MEMBERS, GUYS, Member, NetPart
+from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried first, and parts of each other range.
 SCAN_STEP = math.radians(0.25)
 SCAN_PARTS = 8
 _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
+_HEAD, _TURN = "head_pull", "foot_turn"
 
 Span = tuple[float, float]
 
@@ -239,13 +241,12 @@ def _take_floor(
     return Floor(forces=tuple(forces), head=_measure_head(largest))
 
 
-def _pick(tried: ManyForces, place: int, own: Ints) -> dict[str, Floats]:
+def _pick(tried: Mapping[str, Floats], place: int, own: Ints) -> dict[str, Floats]:
     """Forces of the members on one layout, at some of what was tried [N]."""
-    forces = {member: tried.of_members[member] for member in _LOADED}
-    shape = tried.of_members[Member.UPHILL_GUY].shape
+    shape = tried[Member.POST].shape
     return {
-        member: np.broadcast_to(each, shape)[place][..., own]
-        for member, each in forces.items()
+        member: np.broadcast_to(tried[member], shape)[place][..., own]
+        for member in _LOADED
     }
 
 
@@ -298,20 +299,20 @@ class _Scan:
         less that direction, the tension of the guys with a sign and less that.
         """
         tried = self.try_points(points)
-        turn = tried.foot_turn
-        uphill, downhill = (tried.of_members[guy] for guy in GUYS)
-        signed = uphill - downhill
-        members = (tried.of_members[member] for member in _LOADED)
-        sought = (*members, tried.head_pull, turn, -turn, signed, -signed)
+        turn = tried[_TURN]
+        signed = tried[Member.UPHILL_GUY] - tried[Member.DOWNHILL_GUY]
+        members = (tried[member] for member in _LOADED)
+        sought = (*members, tried[_HEAD], turn, -turn, signed, -signed)
         shape = (len(self.layouts), len(points.T))
         largest = [np.broadcast_to(one.max(axis=(-3, -2)), shape) for one in sought]
         values: Floats = np.stack(largest, axis=1).reshape(-1, shape[1])
         return values
 
-    def try_points(self, points: Floats) -> ManyForces:
-        """Forces by layout, load case, end of the tension and point, (m, c, e, n).
+    def try_points(self, points: Floats) -> dict[str, Floats]:
+        """Forces of the members, pull on the head [N], direction of the foot's [rad].
 
-        Without the first dimension what is alike on all layouts.
+        By layout, load case, end of the tension and point, (m, c, e, n); without the
+        first dimension what is alike on all layouts.
         """
         net = self._place(points)
         snow, glide = self._load(points)
@@ -319,17 +320,22 @@ class _Scan:
             _, pull = find_pulls(self.model, net, snow, glide)
         except ModelError:
             raise self._find_failed(points) from None
-        forces = compute_many_forces(
-            ManyLayouts.of(self.layouts),
-            place_head(net),
+        spacing = net.layout.post_spacing
+        of_members, is_held = compute_member_forces(
+            find_ways(self.layouts, place_head(net)),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
+            post_spacing=spacing,
+            is_foot_shared=self.layouts[0].is_foot_shared,
         )
-        if not forces.is_held.all():
+        if not is_held.all():
             raise self._find_failed(points)
-        of_members: dict[str, Floats] = {**forces.of_members}
-        of_members[NetPart.MESH] = pull.largest_tension
-        return replace(forces, of_members=of_members)
+        return {
+            **of_members,
+            NetPart.MESH: pull.largest_tension,
+            _HEAD: spacing * measure_length(*pull.head),
+            _TURN: measure_pull(*pull.foot, Member.FOOT_ANCHOR),
+        }
 
     def _place(self, points: Floats) -> NetGeometry[Floats]:
         """Nets at points; the ends of the tension are rows."""

@@ -7,7 +7,6 @@ array gives an array.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -140,25 +139,6 @@ def as_mask(condition: Truth) -> Mask:
     return np.asarray(condition)
 
 
-def spread_over(values: Iterable[float], like: Floats) -> Floats:
-    """Numbers along a new first axis, each over an array of its own.
-
-    Parameters
-    ----------
-    values : iterable of float
-        n of them, any unit.
-    like : ndarray, any shape
-        Its shape is that of each array.
-
-    Returns
-    -------
-    ndarray, shape (n, ...)
-        In the unit of the values.
-    """
-    column = np.array(list(values)).reshape((-1, *(1,) * like.ndim))
-    return np.broadcast_to(column, (len(column), *like.shape))
-
-
 def require_all_within(
     name: str, value: float | Number, low: float, high: float, unit: str = ""
 ) -> None:
@@ -209,8 +189,3 @@ def require_all_positive(name: str, value: float | Number, unit: str = "") -> No
             require_positive(name, float(end), unit)
     else:
         require_positive(name, value, unit)
-
-
-def spread(values: Iterable[float]) -> Floats:
-    """Numbers along the first of four dimensions, shape (n, 1, 1, 1)."""
-    return np.array(list(values)).reshape(-1, 1, 1, 1)

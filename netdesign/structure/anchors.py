@@ -6,17 +6,17 @@ First: directions of the pulls on an anchor, and their angles to its axis.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from netdesign.numerics.arrays import (
     Floats,
     Mask,
     Number,
-    as_mask,
     measure_length,
     measure_turn,
-    spread_over,
     take_larger,
 )
 from netdesign.outcome import Outcome, require_positive, require_within
@@ -30,7 +30,7 @@ from netdesign.structure.head import (
     hold_head,
     list_directions,
 )
-from netdesign.structure.layout import ManyLayouts, Point, SupportLayout, SupportPoints
+from netdesign.structure.layout import Point, SupportLayout, SupportPoints, locate_base
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
@@ -241,122 +241,86 @@ class AnchorForces:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ManyForces:
-    """Forces of many supports with heads of their own, and perhaps layouts.
-
-    Attributes
-    ----------
-    of_members : mapping of str to ndarray
-        Characteristic force that each member must resist [N].
-    head_pull : ndarray
-        Size of the pull on the head [N].
-    foot_turn : ndarray
-        Inclination of the pull on the foot anchor, as `measure_pull` has it [rad].
-    is_held : ndarray of bool, shape of the others
-        The support has an equilibrium; the forces are of use only where it has.
-    """
-
-    of_members: Mapping[str, Floats]
-    head_pull: Floats
-    foot_turn: Floats
-    is_held: Mask
+# Unit vectors from the head along post, uphill and downhill guy, of many supports.
+Ways = tuple[Vector[Floats], Vector[Floats], Vector[Floats]]
 
 
-def compute_many_forces(
-    layout: SupportLayout | ManyLayouts,
-    head: Vector[Floats],
-    *,
-    foot_pull_per_m: Vector[Floats],
-    head_pull_per_m: Vector[Floats],
-) -> ManyForces:
-    """Member forces of many supports at once, as `compute_anchor_forces` has them.
+def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
+    """Ways of the members below some heads, on each of some layouts.
 
     Parameters
     ----------
-    layout : SupportLayout or ManyLayouts
-        Of all of them; or several, which become a further dimension before the others.
-    head : tuple of ndarray, shape (2,)
+    layouts : sequence of SupportLayout, shape (m,)
+        Of the supports.
+    heads : tuple of ndarray, shape (2, n)
         Where each net hangs, from its foot [m].
-    foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
-        As there, finite, of shapes that go together with the heads' [N/m].
 
-    Verified by
-    -----------
-    tests/structure/test_many_forces.py
+    Returns
+    -------
+    tuple of tuple of ndarray, shape (3, 2, m, 1, 1, n)
+        [-].
     """
-    foot = _scale(foot_pull_per_m, layout.post_spacing)
-    pull = _scale(head_pull_per_m, layout.post_spacing)
-    ground = 0.0 * head[0]
-    x_base = layout.locate_bases(*head)
-    post = find_direction(head, (x_base, ground))
-    held = hold_head(
-        pull,
-        post,
-        find_direction(head, (ground - layout.uphill_anchor_distance, ground)),
-        find_direction(head, (x_base + layout.downhill_anchor_distance, ground)),
-    )
-    return ManyForces(
-        of_members=_list_forces(
-            held,
-            foot=measure_length(*foot),
-            out_of_ground=held.post_compression * post[1],
-            is_foot_shared=layout.is_foot_shared,
-        ),
-        head_pull=measure_length(*pull),
-        foot_turn=measure_pull(*foot, Member.FOOT_ANCHOR),
-        is_held=as_mask(held.is_held),
+    bases = np.array([locate_base(layout, *heads) for layout in layouts])[:, None, None]
+    ground = 0.0 * bases
+    uphill, downhill = np.array(
+        [
+            (each.uphill_anchor_distance, each.downhill_anchor_distance)
+            for each in layouts
+        ]
+    ).T[:, :, None, None, None]
+    return (
+        find_direction(heads, (bases, ground)),
+        find_direction(heads, (ground - uphill, ground)),
+        find_direction(heads, (bases + downhill, ground)),
     )
 
 
-def compute_forces_of_layouts(
-    places: Sequence[SupportPoints],
+def stack_ways(places: Sequence[SupportPoints], dimensions: int) -> Ways:
+    """Ways of the members of some supports, beside arrays of so many dimensions."""
+    ways = np.array([list_directions(points) for points in places])
+    post, uphill, downhill = np.moveaxis(ways, 0, -1).reshape(
+        3, 2, -1, *[1] * dimensions
+    )
+    return (post[0], post[1]), (uphill[0], uphill[1]), (downhill[0], downhill[1])
+
+
+def compute_member_forces(
+    ways: Ways,
     *,
     foot_pull_per_m: Vector[Floats],
     head_pull_per_m: Vector[Floats],
     post_spacing: float,
+    is_foot_shared: bool,
 ) -> tuple[dict[str, Floats], Mask]:
-    """Member forces of several supports, each under all of the pulls.
-
-    As `compute_anchor_forces` has them.
+    """Member forces of many supports under many pulls, as `compute_anchor_forces` has.
 
     Parameters
     ----------
-    places : sequence of SupportPoints
-        Supports, whose posts have a length; net and uphill guy share an anchor in all
-        or in none of them.
+    ways : tuple of tuple of ndarray
+        Of the members at each head.
     foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
-        As there, finite, of one shape [N/m].
-    post_spacing : float
-        As there [m].
+        As there, finite, of shapes that go together with the ways' [N/m].
+    post_spacing, is_foot_shared : float, bool
+        As there, of all supports [m].
 
     Returns
     -------
     dict of str to ndarray, ndarray of bool
-        Forces by member [N], of use only where the second says that the head is held;
-        of shape (supports, ...) for pulls of shape (...).
+        Forces by member [N], of use only where the second says that the head is held.
 
     Verified by
     -----------
     tests/structure/test_many_forces.py
     """
-    foot = _scale(foot_pull_per_m, post_spacing)
-    still = 0.0 * foot[0]
-    post, uphill, downhill = (
-        (spread_over(x, still) + still, spread_over(y, still) + still)
-        for x, y in (
-            zip(*ways, strict=True)
-            for ways in zip(*map(list_directions, places), strict=True)
-        )
-    )
-    held = hold_head(_scale(head_pull_per_m, post_spacing), post, uphill, downhill)
+    held = hold_head(_scale(head_pull_per_m, post_spacing), *ways)
     of_members = _list_forces(
         held,
-        foot=measure_length(*foot) + 0.0 * post[0],
-        out_of_ground=held.post_compression * post[1],
-        is_foot_shared=places[0].is_foot_shared,
+        foot=measure_length(*_scale(foot_pull_per_m, post_spacing)),
+        out_of_ground=held.post_compression * ways[0][1],
+        is_foot_shared=is_foot_shared,
     )
-    return of_members, as_mask(held.is_held)
+    *forces, is_held = np.broadcast_arrays(*of_members.values(), held.is_held)
+    return dict(zip(of_members, forces, strict=True)), is_held
 
 
 def _list_forces(

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from netdesign.numerics.arrays import Floats, Number, spread
+from netdesign.numerics.arrays import Number
 from netdesign.outcome import require_positive, require_within
 from netdesign.structure.members import Member
 
@@ -53,10 +52,6 @@ class SupportLayout:
         """Tangent of the post's angle from the slope normal [-]."""
         return math.tan(self.post_tilt)
 
-    def locate_bases(self, x_head: Floats, y_head: Floats) -> Floats:
-        """Post bases below many heads, as `locate_base` has them [m]."""
-        return locate_base(self, x_head, y_head)
-
     @property
     def anchors_at_foot(self) -> tuple[Member, ...]:
         """Anchors of the net's foot, on which the load along the row acts as well."""
@@ -78,47 +73,6 @@ class SupportLayout:
             require_within(
                 "post base distance", self.post_base_distance, -50.0, 50.0, "m"
             )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ManyLayouts:
-    """Layouts of one support that differ in tilt and distances, as columns of arrays.
-
-    Attributes
-    ----------
-    post_spacing, is_foot_shared, post_base_distance : float, bool, float or None
-        Of all of them.
-    lean, uphill_anchor_distance, downhill_anchor_distance : ndarray
-        As a `SupportLayout` has them, of shape (n, 1, 1, 1).
-    """
-
-    post_spacing: float
-    is_foot_shared: bool
-    post_base_distance: float | None
-    lean: Floats
-    uphill_anchor_distance: Floats
-    downhill_anchor_distance: Floats
-
-    @classmethod
-    def of(cls, layouts: Sequence[SupportLayout]) -> ManyLayouts:
-        """Columns of some layouts, beside which arrays have three dimensions."""
-        first = layouts[0]
-        return cls(
-            post_spacing=first.post_spacing,
-            is_foot_shared=first.is_foot_shared,
-            post_base_distance=first.post_base_distance,
-            lean=spread(layout.lean for layout in layouts),
-            uphill_anchor_distance=spread(x.uphill_anchor_distance for x in layouts),
-            downhill_anchor_distance=spread(
-                x.downhill_anchor_distance for x in layouts
-            ),
-        )
-
-    def locate_bases(self, x_head: Floats, y_head: Floats) -> Floats:
-        """Bases of each layout below many heads, as `locate_base` has them [m]."""
-        if self.post_base_distance is not None:
-            return 0.0 * x_head + self.post_base_distance
-        return x_head - y_head * self.lean
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,7 +24,7 @@ from netdesign.guideline.floor import (
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
-from netdesign.structure.anchors import compute_many_forces
+from netdesign.structure.anchors import compute_member_forces, find_ways
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
@@ -142,21 +142,22 @@ def solve_dense(ranges, altitude, counts, at_ends=2):
     found = {}
     for case in list_load_cases(MODEL, net, altitude):
         _, pull = find_pulls(MODEL, net, case, least + share * (largest - least))
-        forces = compute_many_forces(
-            net.layout,
-            place_head(net),
+        forces, is_held = compute_member_forces(
+            find_ways([net.layout], place_head(net)),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
+            post_spacing=net.layout.post_spacing,
+            is_foot_shared=net.layout.is_foot_shared,
         )
-        if not forces.is_held.all():
+        if not is_held.all():
             return None
-        guys = (forces.of_members[one] for one in (Member.UPHILL_GUY, DOWNHILL))
+        turn = np.arctan2(pull.foot[1], pull.foot[0])
         values = {
-            **forces.of_members,
-            "pull": forces.head_pull,
-            "less tension": -sum(guys),
-            "turn": forces.foot_turn,
-            "less turn": -forces.foot_turn,
+            **forces,
+            "pull": net.layout.post_spacing * np.hypot(*pull.head),
+            "less tension": -forces[Member.UPHILL_GUY] - forces[DOWNHILL],
+            "turn": turn,
+            "less turn": -turn,
             NetPart.MESH: pull.largest_tension,
         }
         for name, value in values.items():

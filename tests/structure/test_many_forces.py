@@ -8,12 +8,13 @@ import pytest
 
 from netdesign.structure.anchors import (
     compute_anchor_forces,
-    compute_many_forces,
-    measure_pull,
+    compute_member_forces,
+    find_ways,
+    stack_ways,
 )
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
-from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.structure.members import CARRYING_MEMBERS
 from tests.each import each
 
 COUNT = 90
@@ -67,14 +68,15 @@ def solve_each(layout, heads, feet, pulls):
 @each("seed", range(24))
 def test_forces_of_many_are_those_of_each(seed):
     layout, heads, feet, pulls = draw_supports(seed)
-    many = compute_many_forces(
-        layout,
-        tuple(np.array(heads).T),
+    forces, is_held = compute_member_forces(
+        find_ways([layout], tuple(np.array(heads).T)),
         foot_pull_per_m=tuple(np.array(feet).T),
         head_pull_per_m=tuple(np.array(pulls).T),
+        post_spacing=layout.post_spacing,
+        is_foot_shared=layout.is_foot_shared,
     )
     for k, one in enumerate(solve_each(layout, heads, feet, pulls)):
-        assert many.is_held[k] == (not isinstance(one, FailedSupport))
+        assert is_held[0, 0, 0, k] == (not isinstance(one, FailedSupport))
         if isinstance(one, FailedSupport):
             continue
         pull = layout.post_spacing * math.hypot(*pulls[k])
@@ -82,10 +84,7 @@ def test_forces_of_many_are_those_of_each(seed):
         rounding = 1e-13 * 60.0 * (pull + foot)  # 1 / sin(1 degree) is 57
         for member in CARRYING_MEMBERS:
             expected = one.member_forces[member]
-            assert abs(many.of_members[member][k] - expected) <= rounding
-        assert many.head_pull[k] == pytest.approx(pull, rel=1e-14, abs=1e-9)
-        turn = measure_pull(*feet[k], Member.FOOT_ANCHOR)
-        assert many.foot_turn[k] == pytest.approx(turn, rel=1e-14, abs=1e-14)
+            assert abs(forces[member][0, 0, 0, k] - expected) <= rounding
 
 
 def test_drawn_supports_are_of_all_kinds():
@@ -102,3 +101,12 @@ def test_drawn_supports_are_of_all_kinds():
         "support.no_equilibrium",
         "support.post_pulls",
     }
+
+
+@each("seed", range(4))
+def test_supports_in_a_row_have_the_ways_of_each(seed):
+    layout, heads, _, _ = draw_supports(seed)
+    places = [place_support(layout, head) for head in heads]
+    of_heads = np.array(find_ways([layout], tuple(np.array(heads).T)))[:, :, 0, 0, 0]
+    of_places = np.array(stack_ways(places, 2))[..., 0, 0]
+    assert of_places == pytest.approx(of_heads, rel=1e-15, abs=1e-15)
