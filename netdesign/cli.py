@@ -131,13 +131,22 @@ class GroupedCommands(click.Group):
         return super().resolve_command(ctx, args)
 
 
-def _print_version(
-    context: click.Context, option: click.Parameter, asked: bool
-) -> None:
-    if asked:
-        from netdesign.commands.version import print_version
+def _print_version(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    """Print version, core and profiles, and end; neither NumPy nor a solver is read."""
+    if not asked or context.resilient_parsing:
+        return
+    import tomllib
 
-        print_version(context, option, asked)
+    from netdesign import __version__
+    from netdesign.core.library import name_core
+    from netdesign.edge.input_files import find_resource
+
+    click.echo(f"netdesign {__version__}\ncore     {name_core()}")
+    for path in sorted(find_resource("standards").glob("*/document.toml")):
+        profile = tomllib.loads(path.read_text(encoding="utf-8"))
+        edition = f"version {profile['version']}, edition {profile['edition']}"
+        click.echo(f"profile  {profile['id']}: {edition}")
+    context.exit()
 
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \

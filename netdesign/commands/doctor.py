@@ -14,7 +14,6 @@ import click
 
 from netdesign import __version__
 from netdesign.commands.options import take_options
-from netdesign.commands.running import print_document
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -37,35 +36,15 @@ class Probe:
 
 @click.command()
 @take_options("doctor")
-def doctor(*, as_json: bool, language: Language) -> None:
-    """Show versions, threads and data, and test that the program works here.
-
-    \b
-    netdesign doctor
-    netdesign doctor --json
-    """
+def doctor(*, language: Language) -> None:
+    """Show versions, threads and data, and test that the program works here."""
     probes = [*_list_versions(), *_list_threads(), *_run_tests()]
-    if as_json:
-        document = {
-            "schema": "netdesign.doctor/1",
-            "sound": all(probe.is_sound for probe in probes),
-            "probes": [_dump(probe, language) for probe in probes],
-        }
-        print_document(document)
-    else:
-        for probe in probes:
-            mark = render(
-                say("doctor.ok" if probe.is_sound else "doctor.fault"), language
-            )
-            what, shows = (render(x, language) for x in (probe.what, probe.shows))
-            click.echo(f"{mark:8}{what:24}{shows}")
+    for probe in probes:
+        key = "doctor.ok" if probe.is_sound else "doctor.fault"
+        parts = (say(key), probe.what, probe.shows)
+        mark, what, shows = (render(one, language) for one in parts)
+        click.echo(f"{mark:8}{what:24}{shows}")
     sys.exit(0 if all(probe.is_sound for probe in probes) else _EXIT_UNSOUND)
-
-
-def _dump(probe: Probe, language: Language) -> dict[str, Any]:
-    """Probe as plain values; what was looked at is a key, the same in each language."""
-    shows = render(probe.shows, language)
-    return {"what": str(probe.what), "shows": shows, "is_sound": probe.is_sound}
 
 
 def _list_versions() -> list[Probe]:

@@ -201,9 +201,8 @@ def init(site_file: Path, **asked: Any) -> None:
     netdesign init site.xlsx --with parts,tests
     netdesign init example.xlsx --example
     """
-    from netdesign.edge.output import require_free
-    from netdesign.site.template.example import load_input_example
-    from netdesign.site.template.office_workbook import WITH, write_input_workbook
+    from netdesign.site.template.example import write_site_workbook
+    from netdesign.site.template.office_workbook import WITH
 
     if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
@@ -211,13 +210,12 @@ def init(site_file: Path, **asked: Any) -> None:
     strange = tuple(one for one in more if one not in WITH)
     if strange:
         raise UsageRefusal(say("usage.init_with", sheets=strange, known=tuple(WITH)))
-    require_free([site_file], overwrite=asked["force"])
-    write_input_workbook(
+    write_site_workbook(
         site_file,
+        example=asked["example"],
+        overwrite=asked["force"],
         language=asked["language"],
         more=more,
-        tables=load_input_example() if asked["example"] else None,
-        overwrite=asked["force"],
     )
     tell(say("cli.wrote", path=str(site_file)), err=True)
 

@@ -6,6 +6,7 @@ import io
 import re
 import sys
 import zipfile
+from pathlib import Path
 
 import openpyxl
 import pytest
@@ -13,7 +14,7 @@ import pytest
 from netdesign import cli
 from netdesign.site.columns.office import load_plan
 from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import write_input_workbook
+from netdesign.site.template.office_workbook import render_input
 from tests.report.reading import read_workbook
 
 ROW = "A4"
@@ -50,7 +51,7 @@ def spoil_site(language):
 def run_all(folder, language, patch):
     """What each command told, by its name; its files are in the folder."""
     patch.chdir(folder)
-    write_input_workbook("site.xlsx", language=language, tables=shorten_example())
+    Path("site.xlsx").write_bytes(render_input(shorten_example(), language))
     told = {}
     for name, line in COMMANDS.items():
         if name == "refused":

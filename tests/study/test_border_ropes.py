@@ -10,7 +10,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import write_input_workbook
+from netdesign.site.template.office_workbook import render_input
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
@@ -25,7 +25,7 @@ OPEN = ("assumed.by_ropes", "assumed.by_sags")
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     path = tmp_path_factory.mktemp("ropes") / "site.xlsx"
-    write_input_workbook(path, tables=load_input_example())
+    path.write_bytes(render_input(load_input_example()))
     return read_site(path).take_rows({"A2"})
 
 

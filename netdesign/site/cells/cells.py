@@ -279,11 +279,9 @@ def name_column(column: int) -> str:
     >>> name_column(28)
     'AB'
     """
-    letters = ""
-    while column:
-        column, digit = divmod(column - 1, 26)
-        letters = chr(ord("A") + digit) + letters
-    return letters
+    from openpyxl.utils import get_column_letter  # slow to import
+
+    return get_column_letter(column)
 
 
 def split_address(address: str) -> tuple[int, int]:
@@ -292,11 +290,10 @@ def split_address(address: str) -> tuple[int, int]:
     >>> split_address("AB7")
     (28, 7)
     """
-    letters = address.rstrip("0123456789")
-    column = 0
-    for letter in letters:
-        column = 26 * column + ord(letter) - ord("A") + 1
-    return column, int(address[len(letters) :])
+    from openpyxl.utils.cell import coordinate_to_tuple  # slow to import
+
+    row, column = coordinate_to_tuple(address)
+    return column, row
 
 
 def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:
@@ -380,22 +377,14 @@ def _forbid_entities(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
     defusedxml.common.EntitiesForbidden
         As defusedxml does.
     """
-    from xml.parsers.expat import ExpatError, ParserCreate
+    from xml.etree.ElementTree import ParseError
 
-    from defusedxml.common import EntitiesForbidden
+    from defusedxml.ElementTree import iterparse
 
-    def forbid(name: str, _: bool, value: str | None, *place: str | None) -> None:
-        raise EntitiesForbidden(name, value, *place)
-
-    elements: list[str] = []
-    parser = ParserCreate()
-    parser.EntityDeclHandler = forbid
-    parser.StartElementHandler = lambda name, _: elements.append(name)
-    with archive.open(entry) as part, suppress(ExpatError):
-        # what is no XML at all is told by whoever reads the part; nothing can be
-        # declared behind the first element
-        while not elements and (chunk := part.read(_CHUNK)):
-            parser.Parse(chunk)
+    # what is no XML at all is told by whoever reads the part; nothing can be declared
+    # behind the first element
+    with archive.open(entry) as part, suppress(ParseError):
+        next(iterparse(part, events=("start",)), None)
 
 
 def _expand(

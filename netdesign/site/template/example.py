@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from netdesign.edge.input_files import find_resource
-from netdesign.site.template.office_workbook import write_input_workbook
+from netdesign.edge.output import write_files
+from netdesign.site.template.office_workbook import render_input
 from netdesign.words.catalogue import Language
 
 INPUT_EXAMPLE_FILE = "example_input.toml"
@@ -35,6 +36,7 @@ def write_site_workbook(
     example: bool = False,
     overwrite: bool = False,
     language: Language = "en",
+    more: Sequence[str] = (),
 ) -> None:
     """Write an input workbook to fill in, or the built-in example site.
 
@@ -49,15 +51,14 @@ def write_site_workbook(
     language : str
         Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``. The importer
         reads all three.
+    more : sequence of str
+        Further sheets: ``snow``, ``tests``, ``parts``, ``declared``, or of an add-on.
 
     Raises
     ------
     OutputError
         If the file exists and may not be replaced, or cannot be written.
     """
-    write_input_workbook(
-        path,
-        language=language,
-        tables=load_input_example() if example else None,
-        overwrite=overwrite,
-    )
+    tables = load_input_example() if example else {}
+    content = render_input(tables, language, more)
+    write_files({Path(path): content}, overwrite=overwrite)

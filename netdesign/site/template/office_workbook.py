@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from io import BytesIO
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from netdesign.checks import list_standards
-from netdesign.edge.output import require_free, write_files
 from netdesign.site.columns.all_tables import (
     MONITORING,
     UNCERTAINTY,
@@ -54,40 +52,6 @@ _WIDE = 18  # columns, of a sheet whose headings are narrow
 _NOTE = {"x_scale": 1.6, "y_scale": 0.8, "font_size": 9, "author": ""}
 
 
-def write_input_workbook(
-    path: str | Path,
-    *,
-    language: Language = "en",
-    more: Sequence[str] = (),
-    tables: Tables | None = None,
-    overwrite: bool = False,
-) -> None:
-    """Write an input workbook to fill in, or with some lines.
-
-    Parameters
-    ----------
-    path : str or Path
-        The xlsx file to write.
-    language : str
-        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``.
-    more : sequence of str
-        Further sheets, by their names in `WITH`; those with lines are always there.
-    tables : mapping, optional
-        Lines by table and key, as `office.toml` has them; words in English.
-    overwrite : bool
-        Replace a file that exists.
-
-    Raises
-    ------
-    OutputError
-        If the file exists and may not be replaced, or cannot be written.
-    """
-    path = Path(path)
-    require_free([path], overwrite=overwrite)
-    content = render_input(tables or {}, language, more)
-    write_files({path: content}, overwrite=overwrite)
-
-
 def render_input(
     tables: Tables,
     language: Language = "en",
@@ -99,8 +63,12 @@ def render_input(
 
     Parameters
     ----------
-    tables, language, more
-        As of `write_input_workbook`.
+    tables : mapping
+        Lines by table and key, as `office.toml` has them; words in English.
+    language : str
+        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``.
+    more : sequence of str
+        Further sheets, by their names in `WITH`; those with lines are always there.
     measures : mapping, optional
         What the unit cell of a column says it measures, by table and key.
     notes : sequence of mapping

@@ -18,7 +18,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.files.scene import SceneFile, build_scene_of_file
 from netdesign.outcome import ModelError
 from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import write_input_workbook
+from netdesign.site.template.office_workbook import render_input
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
 from netdesign.words.message import say
@@ -193,13 +193,13 @@ def write_offices(folder: Path) -> None:
     """
     folder.mkdir(exist_ok=True)
     tables = load_input_example()
-    write_input_workbook(folder / "office.xlsx", tables=tables)
+    (folder / "office.xlsx").write_bytes(render_input(tables))
     types = [
         {key: one[key] for key in ("id", "net_height")} for one in tables["net_types"]
     ]
     given = ("project", "rows", "anchor_types", "tests")
     bare = {**{name: tables[name] for name in given}, "net_types": types}
-    write_input_workbook(folder / "bare.xlsx", tables=bare)
+    (folder / "bare.xlsx").write_bytes(render_input(bare))
 
 
 _SNOW_DAYS = (60, 230)  # after the first of September: snow falls, and does not melt
