@@ -121,7 +121,7 @@ def lay_out(tables, language="en", measures=None):
     for plan in (one for one in _OF_ADDONS if one.name in tables):
         fields = plan.fields
         sheets[plan.name] = [
-            [one.heading_for(language) for one in fields],
+            [name_heading(one, language) for one in fields],
             *_say_lines(fields, tables[plan.name], language),
         ]
     return sheets
@@ -140,6 +140,12 @@ def find_cell(table, key, line=0, language="en", tables=None):
             _BELOW + 2 + len((tables or {}).get(one, ())) for one in before
         )
     return f"{name}!{xl_col_to_name(number)}{start + _BELOW + line + 1}"
+
+
+def name_heading(field, language):
+    """Name of a column in a language, with its unit in brackets."""
+    label = field.label_in(language)
+    return f"{label} [{field.unit}]" if field.unit else label
 
 
 def _lay_out_project(lines, language):

@@ -7,7 +7,7 @@ names a cell in the same way: it is read as if something else were typed there.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -22,7 +22,7 @@ from netdesign.site.cells.cells import (
 )
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
-from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids
+from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids, settle_ids
 from netdesign.site.model import InputEcho, NetRow, ReplacedCell
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.structure.members import (
@@ -35,7 +35,7 @@ from netdesign.structure.members import (
     NET_MODES,
     Member,
 )
-from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
@@ -172,6 +172,50 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 
 
+def _list_positions(member: str, mode: str) -> tuple[str, ...]:
+    """Supports of which a check may be declared: of every one, or of those at ends."""
+    return ("",) if (member, mode) in OF_ROWS else ("", "edge")
+
+
+_IN_GROUND = (*_ANCHORS, *END_ANCHORS)
+GROUPS = ("structure", "anchors", "post base", "ground at the anchors")
+
+
+def _is_of_group(group: str, member: str, mode: str) -> bool:
+    """One word stands for a check, beside others."""
+    is_anchor = member in _IN_GROUND and mode != "connection"
+    of_groups = {
+        "anchors": is_anchor or (member, mode) == ("net", "anchors"),
+        "structure": not is_anchor and member != Member.NET,
+        "post base": member == Member.POST_BASE and mode in ("bearing", "sliding"),
+        "ground at the anchors": mode in ("wedge", "cover"),
+    }
+    return of_groups[group]
+
+
+def name_group(group: str, language: Language) -> str:
+    """Word for several checks in a language."""
+    return render(say(f"choice.check.{normalise(group)}"), language)
+
+
+@lru_cache(maxsize=1)
+def _list_subjects() -> Mapping[str, tuple[_Subject, ...]]:
+    """Checks by id, and by the words for them that reports and the template have."""
+    every = [(*one, at) for one in DECLARABLE for at in _list_positions(*one)]
+    names: dict[str, tuple[_Subject, ...]] = {}
+    for subject in every:
+        member, mode, position = subject
+        spelt = f"{member}.{mode}{'.end' if position else ''}"
+        title = name_check(*subject)
+        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
+        names |= dict.fromkeys(map(normalise, spellings), (subject,))
+    for group in GROUPS:
+        of_group = tuple(one for one in every if _is_of_group(group, *one[:2]))
+        spellings = [name_group(group, one) for one in LANGUAGES]
+        names |= dict.fromkeys(map(normalise, spellings), of_group)
+    return names
+
+
 def read_declared(
     lines: Sequence[Row],
     workbook: Workbook,
@@ -187,7 +231,7 @@ def read_declared(
     workbook : Workbook
         As read; a number that is no longer there is not confirmed.
     places : mapping of str to str
-        Cells of the ids of sheet Nets.
+        Cells of the ids of sheet Rows.
     findings : list of Finding
         Appended to: unknown rows and checks, what is no date, a check declared twice,
         cells that hold something else than what is confirmed. A line without document
@@ -195,24 +239,30 @@ def read_declared(
     """
     declared: list[Declaration] = []
     confirmed: dict[str, Message] = {}
+    named = [_list_rows(line["row"], places) for line in lines]
     if places:
-        named = (one["row"] for one in lines if not _is_of_all(one["row"], places))
-        refuse_unknown_ids(named, places, findings, "declared.id_or_all")
-    for line in lines:
+        ids = (row for rows in named for row in rows if not _is_of_all(row, places))
+        refuse_unknown_ids(ids, places, findings, "declared.id_or_all")
+    for line, rows in zip(lines, named, strict=True):
         replacement = split_replacement(line["check"].word)
         if replacement is not None:
             confirmed |= _read_confirmation(line, replacement, workbook, findings)
             continue
-        found = _read_line(line, places, findings)
-        if found is None:
-            continue
-        twice = next((one for one in declared if _meet(one, found)), None)
-        if twice:
-            rule = say("declared.twice", place=twice.proof.cell)
-            refuse(line["check"], rule, say("declared.once"), findings)
-        else:
-            declared.append(found)
+        for found in _read_line(line, rows, places, findings):
+            twice = next((one for one in declared if _meet(one, found)), None)
+            if twice:
+                rule = say("declared.twice", place=twice.proof.cell)
+                refuse(line["check"], rule, say("declared.once"), findings)
+            else:
+                declared.append(found)
     return tuple(declared), confirmed
+
+
+def _list_rows(reading: Reading, places: Mapping[str, str]) -> list[Reading]:
+    """Net rows that a cell names: one, or several with commas."""
+    names = filter(None, map(str.strip, reading.word.replace(";", ",").split(",")))
+    rows = [{"row": replace(reading, value=name)} for name in names]
+    return [row["row"] for row in settle_ids(rows, places, "row")]
 
 
 def _meet(one: Declaration, other: Declaration) -> bool:
@@ -223,51 +273,40 @@ def _meet(one: Declaration, other: Declaration) -> bool:
 
 
 def _read_line(
-    line: Row, places: Mapping[str, str], findings: list[Finding]
-) -> Declaration | None:
+    line: Row,
+    rows: Iterable[Reading],
+    places: Mapping[str, str],
+    findings: list[Finding],
+) -> Iterator[Declaration]:
+    """Checks of net rows that a line declares: one, or all that its word stands for."""
     check = line["check"]
-    subject = list_check_names().get(normalise(check.word))
-    if check.word and subject is None:
+    subjects = _list_subjects().get(normalise(check.word), ())
+    if check.word and not subjects:
         shown = tuple(name_check(*one) for one in DECLARABLE)
         end = say("check.of_end", check="...")
         accepted = say("declared.accepted", checks=shown, end=end)
         refuse(check, say("declared.unknown"), accepted, findings)
-    is_faulty = any(reading.state == "faulty" for reading in line.values())
-    if subject is None or is_faulty:
-        return None
-    return Declaration(
-        row_id="" if _is_of_all(line["row"], places) else line["row"].word,
-        member=subject[0],
-        mode=subject[1],
-        position=subject[2],
-        proof=Proof(
-            document=line["document"].word,
-            author=line["author"].word,
-            date=line["date"].word,
-            cell=check.place,
-        ),
+    if any(reading.state == "faulty" for reading in line.values()):
+        return
+    proof = Proof(
+        document=line["document"].word,
+        author=line["author"].word,
+        date=line["date"].word,
+        cell=check.place,
     )
+    for row, (member, mode, position) in product(rows, subjects):
+        yield Declaration(
+            row_id="" if _is_of_all(row, places) else row.word,
+            member=member,
+            mode=mode,
+            position=position,
+            proof=proof,
+        )
 
 
 def _is_of_all(row: Reading, places: Mapping[str, str]) -> bool:
     """A line holds for all net rows, none of which has that name."""
     return row.word not in places and normalise(row.word) in ALL_ROWS
-
-
-@lru_cache(maxsize=1)
-def list_check_names() -> Mapping[str, _Subject]:
-    """Checks by their names in every language, as reports have them, and by id."""
-    names: dict[str, _Subject] = {}
-    at_ends = (("edge", ".end"), ("", ""))
-    for (member, mode), (position, end) in product(DECLARABLE, at_ends):
-        if position and (member, mode) in OF_ROWS:
-            continue
-        subject = (member, mode, position)
-        title = name_check(*subject)
-        spelt = f"{member}.{mode}{end}"
-        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
-        names |= dict.fromkeys(map(normalise, spellings), subject)
-    return names
 
 
 def _read_confirmation(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
@@ -78,6 +78,34 @@ class Lines:
     def places(self) -> dict[str, str]:
         """Cell of each net row's id."""
         return {line["id"].word: line["id"].place for line in self.rows}
+
+
+def fold_id(text: str) -> str:
+    """Id without case and double spaces."""
+    return " ".join(text.casefold().split())
+
+
+def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
+    """Lines whose column names an id as its sheet writes it, whatever the case.
+
+    Ids that differ by nothing else are told apart by their case.
+    """
+    by_fold: dict[str, list[str]] = {}
+    for name in dict.fromkeys(ids):
+        by_fold.setdefault(fold_id(name), []).append(name)
+    settled: list[Row] = []
+    for line in lines:
+        reading = line[key]
+        known = by_fold.get(fold_id(reading.word), ())
+        if reading.word and len(known) == 1:
+            line = {**line, key: replace(reading, value=known[0])}
+        settled.append(line)
+    return settled
+
+
+def list_ids(lines: Iterable[Row]) -> Iterator[str]:
+    """Ids of a sheet."""
+    return (line["id"].word for line in lines if line["id"].word)
 
 
 def index_lines(
@@ -205,11 +233,6 @@ def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
             found[own][other] = None
             found.setdefault(other, {})[own] = None
     return {own: tuple(others) for own, others in found.items()}
-
-
-def fold_id(text: str) -> str:
-    """Id without case and double spaces."""
-    return " ".join(text.casefold().split())
 
 
 def _check_ends(

@@ -197,7 +197,6 @@ def _describe_type(
     is_rope = mode == "tendon" and may_be_rope(kind)
     place = (resistance if is_given or not tests else kind["test_least"]).place
     is_anchor = "ground" in kind
-    lacks = mode == "tendon" and not is_given and lacks_inner(kind)
     return Resistance(
         member=member,
         mode=mode,
@@ -207,7 +206,6 @@ def _describe_type(
         source=place or kind["id"].place or sheet,
         derivation=derivation,
         tests=tests,
-        lack=say("type.no_inner", id=kind["id"].word) if lacks else None,
         buckling_length=kind["buckling_length"].si if is_strut else None,
         drilled_length=kind["drilled_length"].given_si if is_anchor else None,
         ground=kind["ground"].word if is_anchor else "",

@@ -30,7 +30,6 @@ Data = Mapping[str, Any]
 
 READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 
-_TOLD = ("column", "is_old")  # that the field itself has not
 _OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them too
 
 
@@ -41,27 +40,23 @@ def load_file(name: str) -> Data:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def _read_plan(name: str, *, is_old: bool = False) -> SheetPlan:
-    """Sheet with its columns, of a workbook of version 0.1 with all that it had."""
+def _read_plan(name: str) -> SheetPlan:
+    """Sheet with its columns, of an add-on or of a workbook of version 0.1."""
     entry = dict(load_file("columns")["sheets"][name])
     items = entry.pop("items", "")
     return SheetPlan(
         name=name,
-        fields=_read_fields(name, is_old=is_old),
+        fields=_read_fields(name),
         names=list_names(f"sheet.{name}", "sheets", name),
-        items=_read_fields(items, is_old=is_old) if items else (),
+        items=_read_fields(items) if items else (),
         **{key: _freeze(value) for key, value in entry.items()},
     )
 
 
-def _read_fields(table: str, *, is_old: bool) -> tuple[Field, ...]:
+def _read_fields(table: str) -> tuple[Field, ...]:
     """Columns of a sheet, or what its lines may name, in the order of the file."""
     entries: Data = load_file("columns")[table]
-    return tuple(
-        _read_field(table, key, entry)
-        for key, entry in entries.items()
-        if is_old or not entry.get("is_old")
-    )
+    return tuple(_read_field(table, key, entry) for key, entry in entries.items())
 
 
 def _read_field(table: str, key: str, entry: Data) -> Field:
@@ -84,7 +79,7 @@ def build_field(table: str, key: str, entry: Data) -> Field:
     values = {
         one: _READ.get(one, _freeze)(value)
         for one, value in entry.items()
-        if one not in _TOLD
+        if one != "column"
     }
     return Field(
         key=key,
@@ -157,10 +152,9 @@ def find_quantity(sheet: str, key: str) -> Field:
     return next(one for one in _PLANS[sheet].fields if one.key == key)
 
 
-@lru_cache(maxsize=1)
 def load_old_plans() -> Mapping[str, SheetPlan]:
     """Sheets of a workbook of version 0.1, by name."""
-    return {name: _read_plan(name, is_old=True) for name in _PLANS}
+    return _PLANS
 
 
 # The sheet that an annotated copy lists its findings on, by language.

@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 import tomllib
 import unicodedata
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from importlib.resources import files
 from typing import Literal
@@ -277,11 +277,6 @@ class Field:
         """One of its words; what is alike in all languages stays."""
         return name_word(self.key, word)
 
-    def heading_for(self, language: Language) -> str:
-        """Label in a language, with the unit in brackets."""
-        label = self.label_in(language)
-        return f"{label} [{self.unit}]" if self.unit else label
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetPlan:
@@ -335,14 +330,6 @@ class SheetPlan:
     def name_in(self, language: Language) -> str:
         """Name of the sheet in a language."""
         return self.names[language][0]
-
-    def free(self, keys: Container[str]) -> SheetPlan:
-        """Plan without the need for some columns, which are given elsewhere."""
-        fields = tuple(
-            replace(one, required=False) if one.key in keys else one
-            for one in self.fields
-        )
-        return replace(self, fields=fields)
 
 
 def name_word(key: str, word: str) -> Message | str:

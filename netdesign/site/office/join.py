@@ -7,8 +7,14 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.lines import TYPES, Lines, index_lines, refuse_unknown_ids
-from netdesign.site.office.declared import list_declared
+from netdesign.site.lines import (
+    TYPES,
+    Lines,
+    index_lines,
+    list_ids,
+    refuse_unknown_ids,
+    settle_ids,
+)
 from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import build_project, build_site_ranges, read_lines
 from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
@@ -19,8 +25,6 @@ from netdesign.site.office.types import (
     join_links,
     join_posts,
     list_end_types,
-    list_ids,
-    settle_ids,
 )
 from netdesign.site.readings import Row
 from netdesign.site.snow_sheets import order_layers
@@ -140,9 +144,7 @@ def _join(
         ranges=build_site_ranges(project),
         links=join_links(typed["links"]),
         tests=tests,
-        declared=settle_ids(
-            list_declared(typed["declared"]), list_ids(typed["rows"]), "row"
-        ),
+        declared=typed["declared"],
         further=find_further(workbook, findings),
         typed={one: typed[one] for one in typed if one not in _NOT_OF_ROWS},
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from netdesign.resistance.products import find_bar
@@ -11,7 +11,6 @@ from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import find_quantity
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.columns.office import list_derived
-from netdesign.site.lines import fold_id
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -38,29 +37,6 @@ def _add_derived(line: Row, table: str) -> dict[str, Reading]:
     """Line with the quantities that may follow from it, none of them known yet."""
     unknown = {one.key: read_nothing(one, None) for one in list_derived(table)}
     return {**unknown, **line}
-
-
-def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
-    """Lines whose column names an id as its sheet writes it, whatever the case.
-
-    Ids that differ by nothing else are told apart by their case.
-    """
-    by_fold: dict[str, list[str]] = {}
-    for name in dict.fromkeys(ids):
-        by_fold.setdefault(fold_id(name), []).append(name)
-    settled: list[Row] = []
-    for line in lines:
-        reading = line[key]
-        known = by_fold.get(fold_id(reading.word), ())
-        if reading.word and len(known) == 1:
-            line = {**line, key: replace(reading, value=known[0])}
-        settled.append(line)
-    return settled
-
-
-def list_ids(lines: Iterable[Row]) -> Iterator[str]:
-    """Ids of a sheet."""
-    return (line["id"].word for line in lines if line["id"].word)
 
 
 def join_anchors(

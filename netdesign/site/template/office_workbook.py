@@ -21,7 +21,7 @@ from netdesign.site.columns.office import (
     load_plan,
     name_measure,
 )
-from netdesign.site.office.declared import GROUPS, name_group
+from netdesign.site.declared_sheet import GROUPS, name_group
 from netdesign.site.template.empty import say_accepted, say_empty, say_why
 from netdesign.site.template.form import (
     Form,

@@ -14,6 +14,7 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.office import list_derived
 from netdesign.structure.members import END_MODES, MEMBER_MODES
 from tests.each import each
+from tests.make import name_heading
 from tests.site.columns.fields import FIELDS, PLANS
 
 
@@ -27,8 +28,8 @@ def test_no_heading_names_two_fields(table):
 @each("table", FIELDS)
 def test_labels_are_headings_that_are_read_back(table):
     for field in FIELDS[table]:
-        found = find_item(field.heading_for("en"), FIELDS[table])
-        assert found is field or PLANS[table].find(field.heading_for("en")) is field
+        found = find_item(name_heading(field, "en"), FIELDS[table])
+        assert found is field or PLANS[table].find(name_heading(field, "en")) is field
 
 
 def test_every_member_and_mode_has_its_column():

@@ -11,6 +11,7 @@ from netdesign.site.lists.guess import guess
 from netdesign.site.lists.targets import list_targets
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
+from tests.make import name_heading
 from tests.site.columns.fields import PLANS, QUANTITIES
 
 NAMES = [
@@ -25,7 +26,8 @@ NAMES = [
 def test_a_heading_of_a_csv_in_cp1252_is_the_same_column(table):
     """Signs that this encoding lacks are lost there: Greek letters and indices."""
     for field in PLANS[table].fields:
-        for heading in map(field.heading_for, LANGUAGES):
+        for language in LANGUAGES:
+            heading = name_heading(field, language)
             lost = heading.encode("cp1252", "replace").decode("cp1252")
             fitted = heading.replace("δ", "d").replace("φ", "f").replace("₁", "1")
             assert PLANS[table].find(lost).key == field.key

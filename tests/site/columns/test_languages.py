@@ -6,6 +6,7 @@ from netdesign.site.columns.fields import find_item
 from netdesign.site.template.empty import describe_accepted
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
+from tests.make import name_heading
 from tests.site.columns.fields import FIELDS, PLANS
 
 
@@ -13,7 +14,7 @@ from tests.site.columns.fields import FIELDS, PLANS
 @each("table", FIELDS)
 def test_what_is_written_as_heading_is_read_as_it(language, table):
     for field in FIELDS[table]:
-        heading = field.heading_for(language)
+        heading = name_heading(field, language)
         found = find_item(heading, FIELDS[table])
         assert found is field or PLANS[table].find(heading) is field
 

@@ -7,6 +7,7 @@ import xlsxwriter
 
 from netdesign.site.columns.all_tables import load_old_plans
 from netdesign.words.catalogue import render
+from tests.make import name_heading
 
 _FILE = Path(__file__).with_name("old_example.toml")
 
@@ -22,7 +23,7 @@ def write_old(path, lines, language="en"):
     for name, plan in load_old_plans().items():
         sheet = book.add_worksheet(plan.name_in(language))
         for column, field in enumerate(plan.fields):
-            sheet.write_string(0, column, field.heading_for(language))
+            sheet.write_string(0, column, name_heading(field, language))
             for row, line in enumerate(lines.get(name, ()), start=1):
                 value = line.get(field.key)
                 if value is not None:
