@@ -311,6 +311,7 @@ def run_notebook(name, folder, monkeypatch):
     return names
 
 
+@pytest.mark.long
 def test_the_notebook_runs_from_its_first_cell_to_its_last(tmp_path, monkeypatch):
     run_notebook("site.ipynb", tmp_path, monkeypatch)
     assert {path.name for path in (tmp_path / "reports").iterdir()} >= {
@@ -318,6 +319,7 @@ def test_the_notebook_runs_from_its_first_cell_to_its_last(tmp_path, monkeypatch
     }
 
 
+@pytest.mark.long
 def test_the_notebook_on_the_spacing_loads_anchors_the_more_the_wider(
     tmp_path, monkeypatch
 ):

@@ -69,6 +69,7 @@ def test_help_shows_the_commands_of_the_core_alone(core):
     assert [name for name in COMMANDS if f"\n  {name} " in shown] == []
 
 
+@pytest.mark.long
 def test_a_site_is_checked_and_a_scene_solved(core):
     call(core, "init", "site.xlsx", "--example")
     some = ("--row", "A1", "--row", "B4")  # one that passes, one that fails

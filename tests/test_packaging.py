@@ -141,6 +141,7 @@ def test_source_archive_holds_what_a_wheel_is_built_from(tmp_path):
     assert {f"standards/{name}" for name in files_below(ROOT / "standards")} <= paths
 
 
+@pytest.mark.long
 def test_installed_program_runs_from_anywhere(installed, tmp_path):
     place = call(
         *(installed / "python", "-c", "import netdesign; print(netdesign.__file__)"),
@@ -161,16 +162,3 @@ def test_installed_program_runs_from_anywhere(installed, tmp_path):
         if line.startswith(VERSION_LINE)
     )
     assert stated in version
-
-
-def test_installed_program_has_its_templates(installed, tmp_path):
-    call(installed / "netdesign", "init", "site.xlsx", "--example", cwd=tmp_path)
-    counted = call(
-        *(installed / "netdesign", "check", "site.xlsx", "--dry-run"), cwd=tmp_path
-    )
-    assert "8 net rows" in counted
-    report = (
-        "from netdesign.edge.input_files import find_resource;"
-        "print((find_resource('templates') / 'page.html').is_file())"
-    )
-    assert call(installed / "python", "-c", report, cwd=tmp_path) == "True\n"

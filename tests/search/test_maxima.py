@@ -92,7 +92,9 @@ def test_every_number_of_parameters_is_searched(dimension):
     assert found.upper_bound[0] >= 10.0
 
 
-@each("seed", [0, 2, 3])
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(one, marks=pytest.mark.long) for one in (2, 3))]
+)
 def test_five_parameters_with_a_kink_and_one_that_hardly_matters(seed):
     """A tent over two axes, a hyperbola over a third, a step of a thousandth.
 
