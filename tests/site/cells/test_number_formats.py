@@ -153,7 +153,7 @@ def test_a_share_may_be_typed_in_percent(tmp_path, sign, slack):
     sheets["Net types"][1] = [*sheets["Net types"][1], f"{100 * slack:.6g}{sign}"]
     row = read_site(write_csv_folder(tmp_path / "site", sheets)).rows[0]
     assert row.slack == pytest.approx(slack, rel=2e-15)
-    echo = next(one for one in row.inputs if str(one.label) == "slack")
+    echo = next(one for one in row.inputs if f"{one.label} [" in SLACK)
     assert echo.text.count("%") == 1
 
 
