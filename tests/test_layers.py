@@ -110,7 +110,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
-        "addons.evidence.validation.validation",
+        "addons.evidence.validation",
         *("checks.schema", "files.scene", "study.document"),
         "edge.json_text",
     ),

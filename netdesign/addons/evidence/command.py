@@ -161,7 +161,7 @@ def validate(**asked: Any) -> None:
     netdesign validate --out validation --json > validation.json
     """
     from netdesign.addons.evidence.measurements import spread
-    from netdesign.addons.evidence.validation.validation import (
+    from netdesign.addons.evidence.validation import (
         DOCUMENT_FILE,
         PAGE_FILE,
         load_structures,

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from netdesign.addons.evidence.validation.validation import (
+from netdesign.addons.evidence.validation import (
     Span,
     load_structures,
     validate_structure,
