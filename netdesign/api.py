@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from netdesign.cable.net import Net
 from netdesign.checks import Standard, load_default, load_standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
@@ -333,7 +332,7 @@ def find_guideline_load(scene: Scene, glide_factor: float) -> SnowLoad[float]:
     tests/test_api.py
     """
     snow, net = scene.snowpack, scene.net
-    if snow.layers or not isinstance(net, Net):
+    if snow.layers:
         raise ModelError(say("api.no_guideline_load"))
     return compute_snow_load(
         read_load_model(load_guideline()),

@@ -37,39 +37,6 @@ if TYPE_CHECKING:
     from netdesign.snow.flow_step import Step
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wall:
-    """A plane rigid surface from the origin upwards.
-
-    Attributes
-    ----------
-    height_normal : float
-        Normal to the slope [m].
-    inclination : float
-        From the slope normal, upper edge downslope positive [rad].
-    friction_angle : float or None
-        Of snow on the wall [rad]; None where the snow adheres (no velocity).
-    """
-
-    height_normal: float
-    inclination: float = 0.0
-    friction_angle: float | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse values that no wall has."""
-        require_positive("wall height", self.height_normal, "m")
-        require_within("wall inclination", self.inclination, 0.0, math.radians(80.0))
-        if self.friction_angle is not None:
-            limit = math.radians(60.0)
-            require_within("friction angle", self.friction_angle, 0.0, limit, "rad")
-
-    @property
-    def friction(self) -> float:
-        """Tan phi [-]; infinite for adhesion."""
-        angle = self.friction_angle
-        return math.inf if angle is None else math.tan(angle)
-
-
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.
 _OVERTOPPING = 1e-6
@@ -117,7 +84,7 @@ def is_overtopped(net_height: float, thickness: float) -> bool:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """A snowpack on its ground, against a net or a rigid wall.
+    """A snowpack on its ground, against a net.
 
     Attributes
     ----------
@@ -125,7 +92,7 @@ class Scene:
         The snow.
     ground : GroundLaw
         Base law.
-    net : Net or Wall
+    net : Net
         What holds the snow.
     creep_law : CreepLaw
         Set of a(D), b(D), n.
@@ -137,7 +104,7 @@ class Scene:
 
     snowpack: Snowpack
     ground: GroundLaw
-    net: Net | Wall
+    net: Net
     creep_law: CreepLaw = BOUTILLIER_2004
     fluidity: float | None = None
     ground_contact: Sides = "two-sided"
@@ -150,8 +117,7 @@ class Scene:
             raise ModelError(
                 say("scene.net_too_low", height=height, thickness=thickness)
             )
-        if isinstance(self.net, Net):
-            _require_clear_of_ground(self.net)
+        _require_clear_of_ground(self.net)
         if self.fluidity is not None:
             require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
         if not any(self.snowpack.gravity_direction):

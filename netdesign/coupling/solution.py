@@ -305,51 +305,6 @@ class Solution:
         return figure
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WallSolution:
-    """Snow against a rigid wall, its balances checked. SI units.
-
-    Attributes
-    ----------
-    scene : Scene
-        What was solved.
-    force : EndPull
-        Resultant of the snow on the wall.
-    moment_about_foot : float
-        Of the snow's forces about the wall's foot, positive where they tip its
-        upper edge downslope [N m per m].
-    wall_nodes, wall_forces : ndarray, shape (2, n)
-        Positions [m] and forces [N/m], foot to upper edge.
-    wall_slides : ndarray of bool, shape (n,)
-        Where the snow slips on the wall.
-    mesh_nodes, mesh_edges, mesh_triangles, mesh_density : ndarray
-        Of the same shape and unit as in ``Solution``.
-    largest_velocity : float
-        Of the snow [m/s].
-    balance, cost
-        As in ``Solution``.
-    """
-
-    scene: Scene
-    force: EndPull
-    moment_about_foot: float
-    wall_nodes: Floats
-    wall_forces: Floats
-    wall_slides: Mask
-    mesh_nodes: Floats
-    mesh_edges: Ints
-    mesh_triangles: Ints
-    mesh_density: Floats
-    largest_velocity: float
-    balance: Balance
-    cost: Cost
-
-    @property
-    def outcome(self) -> Outcome:
-        """Always converged: anything else is a ``FailedSolution``."""
-        return Outcome.CONVERGED
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FailedSolution:
     """A solve that gave no number that may be used.
@@ -392,7 +347,7 @@ def require_solved(solution: Found | FailedSolution) -> Found:
 
     Parameters
     ----------
-    solution : Solution, WallSolution or FailedSolution
+    solution : Solution or FailedSolution
         Of any solve.
 
     Raises

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from itertools import product
 from types import MappingProxyType
 
-from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.outcome import ModelError, show_given_units
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -75,8 +74,6 @@ def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
 
 def _put_net(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
-        if not isinstance(scene.net, Net):
-            raise ModelError(say("envelope.wall"))
         return replace(scene, net=replace(scene.net, **{name: value}))
 
     return put
@@ -321,13 +318,10 @@ class Case:
 
 def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
     """Case of a scene with some values of its own."""
-    net = scene.net
-    if not isinstance(net, Net):
-        raise ModelError(say("envelope.wall"))
     base = {
         "density": scene.snowpack.density,
-        "friction_angle": net.friction_angle,
-        "inclination": net.inclination,
+        "friction_angle": scene.net.friction_angle,
+        "inclination": scene.net.inclination,
     }
     return Case.of({**base, **values})
 

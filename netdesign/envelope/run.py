@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution
@@ -311,10 +310,9 @@ def _resolve_panel(
     task: CaseTask, state: SolvedState
 ) -> PanelPulls | FailedPanel | None:
     """Panels between posts and their pulls, or why there are none."""
-    net = task.job.scene.net if task.job else None
-    if not task.panels or not isinstance(net, Net):
+    if not task.panels or task.job is None:
         return None
-    return resolve_panels(task.panels, net, state)
+    return resolve_panels(task.panels, task.job.scene.net, state)
 
 
 def _read_ends(state: SolvedState) -> Floats:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from netdesign import __version__
-from netdesign.cable.net import Net
 from netdesign.core.library import name_core
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import (
@@ -75,7 +74,6 @@ def write_solution_document(
 
 def _write_bound(bound: Solution) -> dict[str, float]:
     """Pulls that a refused net stays below: those of the same net with this slack."""
-    assert isinstance(bound.scene.net, Net)
     ends = {"foot": bound.foot, "head": bound.head}
     return {
         "slack": bound.scene.net.slack,

@@ -191,9 +191,9 @@ def take_strip(solution: Solution) -> Strip:
     ModelError
         If the solution is no steady state of a net.
     """
-    net = solution.scene.net
-    if solution.method != "steady" or not isinstance(net, Net):
+    if solution.method != "steady":
         raise ModelError(say("panel.steady_only"))
+    net = solution.scene.net
     return build_strip(net, solution.net_curve, solution.net_forces, solution.foot)
 
 

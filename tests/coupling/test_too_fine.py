@@ -1,14 +1,12 @@
 """A mesh that rounding makes impossible ends a solve; it is no fault of the input."""
 
-from dataclasses import replace
-
 import pytest
 
+from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
 from netdesign.addons.history.settings import TransientSettings
 from netdesign.addons.history.transient import solve_transient
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize
@@ -18,7 +16,7 @@ TOO_FINE = MeshSize(net_spacing=0.04, corner=1e-7, sectors=12, upslope_spacing=0
 
 def build_wall(a_scene):
     scene = a_scene(length_m=27.3, thickness_m=3.1)
-    return replace(scene, net=Wall(inclination=0.21, height_normal=3.1))
+    return put_wall(scene, Wall(inclination=0.21, height_normal=3.1))
 
 
 def build_net(a_scene):

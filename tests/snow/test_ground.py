@@ -4,7 +4,7 @@ from itertools import product
 
 import pytest
 
-from netdesign.coupling.steady.rigid import measure_glide_factor
+from netdesign.addons.evidence.verification.rigid import measure_glide_factor
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,

@@ -15,7 +15,7 @@ def test_arithmetic_that_overflows_ends_as_an_outcome_without_a_warning(
 ):
     def overflow(*_):
         assert not np.isfinite(np.array([1e300]) * 1e300 - np.array([np.inf])).all()
-        reason = say("steady.needs_net")
+        reason = say("panel.steady_only")
         return FailedSolution(outcome=Outcome.NONFINITE, reason=reason)
 
     monkeypatch.setattr(solve, "solve_steady", overflow)

@@ -141,5 +141,5 @@ def test_without_further_ranges_a_case_has_three_values():
 def test_a_question_changes_no_force_of_layered_snow():
     """Fault 17: a trial whose type is asked about kept its row out of the trial."""
     row = sliding("layered", layers=LAYERS)
-    asked = replace(row, questions=(say("steady.needs_net"),))
+    asked = replace(row, questions=(say("panel.steady_only"),))
     assert have_same_forces(row, RANGES, asked, RANGES, RUN)

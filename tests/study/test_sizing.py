@@ -234,7 +234,7 @@ def test_a_question_of_one_cell_leaves_the_types_of_the_other(two_open_cells, se
             return site
         if seed == 2:
             raise SiteDataError([])
-        row = replace(site.rows[0], questions=(say("steady.needs_net"),))
+        row = replace(site.rows[0], questions=(say("panel.steady_only"),))
         return replace(site, rows=(row,))
 
     again = find_types(solved, study, read_asking)

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
+from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
@@ -109,7 +109,7 @@ def test_level_free_ground_pushes_nothing_downslope(a_scene, friction_angle):
     """
     level = a_scene(slope_deg=0.0)
     wall = Wall(height_normal=4.0, friction_angle=friction_angle)
-    solution = solve_rigid(replace(level, net=wall))
+    solution = solve_rigid(put_wall(level, wall))
     pack = level.snowpack
     weight_of_snow = pack.stress_scale * pack.upslope_length
     assert abs(solution.force.x) <= 1e-9 * weight_of_snow

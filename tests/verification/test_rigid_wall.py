@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.scene import SolverSettings, Wall
-from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
+from netdesign.coupling.scene import SolverSettings
 from tests.each import each
 
 SETTINGS = SolverSettings(accuracy=0.02)
@@ -16,7 +16,7 @@ def press(a_scene, *, friction_angle=None, inclination=0.0, **scene):
     wall = Wall(
         height_normal=4.0, inclination=inclination, friction_angle=friction_angle
     )
-    return solve_rigid(replace(a_scene(**scene), net=wall), SETTINGS)
+    return solve_rigid(put_wall(a_scene(**scene), wall), SETTINGS)
 
 
 @each("inclination", [0.0, 0.5])

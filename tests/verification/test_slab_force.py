@@ -15,8 +15,8 @@ from netdesign.addons.evidence.verification.exact_solutions import (
     compute_slab_force,
     scale_slip_length,
 )
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
-from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.addons.evidence.verification.rigid import Wall, solve_rigid
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw

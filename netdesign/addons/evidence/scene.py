@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
-from netdesign.coupling.solution import Solution, WallSolution, require_solved
-from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import Solution, require_solved
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import (
@@ -84,30 +82,3 @@ def solve(scene: Scene, settings: SolverSettings) -> Solution:
         If it has none.
     """
     return require_solved(solve_steady(scene, settings, on_failure="raise"))
-
-
-def solve_wall(
-    scene: Scene, settings: SolverSettings, *, friction_angle: float | None = None
-) -> WallSolution:
-    """Snow of a scene held by a wall in the place of its net, as high as the snow.
-
-    Parameters
-    ----------
-    scene : Scene
-        Its net gives the inclination.
-    settings : SolverSettings
-        Of the solve.
-    friction_angle : float, optional
-        Snow against wall [rad]; without one the snow adheres.
-
-    Raises
-    ------
-    SolveError
-        If it has no steady state.
-    """
-    wall = Wall(
-        height_normal=scene.snowpack.thickness,
-        inclination=scene.net.inclination,
-        friction_angle=friction_angle,
-    )
-    return require_solved(solve_rigid(replace(scene, net=wall), settings))

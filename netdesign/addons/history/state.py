@@ -13,7 +13,6 @@ import numpy as np
 from netdesign.addons.history.body import Settling, SnowBody, build_body
 from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.settings import Start
-from netdesign.cable.net import Net
 from netdesign.cable.sag import find_slack
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.net import guess_pressure, locate_nodes
@@ -135,11 +134,9 @@ def build_problem(
     Raises
     ------
     ModelError
-        If the scene has a wall or a one-sided contact.
+        If the scene has a one-sided contact.
     """
     net = scene.net
-    if not isinstance(net, Net):
-        raise ModelError(say("history.needs_net"))
     if "one-sided" in (scene.ground_contact, scene.net_contact):
         raise ModelError(say("history.two_sided_only"))
     thickness = scene.snowpack.thickness

@@ -12,7 +12,6 @@ from datetime import datetime, timedelta
 
 from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
 from netdesign.addons.winter.season import RowWinters, Season
-from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.site.further_sheets import MonitoringSeries
@@ -68,7 +67,7 @@ def find_half_time(scene: Scene) -> float:
     else:
         slip = ground.slip_length / pack.thickness
         factor = _HALVING / (1.0 + _BY_SLIP * math.sqrt(slip))
-    return factor * scene.force_scale / _read_stiffness(scene) * scene.time_scale
+    return factor * scene.force_scale / scene.net.stiffness_per_m * scene.time_scale
 
 
 def find_swing(scene: Scene, amplitude: float) -> float:
@@ -82,7 +81,7 @@ def find_swing(scene: Scene, amplitude: float) -> float:
         Of the day's wave of temperature [K].
     """
     turns = _DAY_RATE * find_half_time(scene) / math.log(2.0)
-    at_once = _read_stiffness(scene) * EXPANSION * amplitude
+    at_once = scene.net.stiffness_per_m * EXPANSION * amplitude
     return at_once * turns / math.hypot(1.0, turns)
 
 
@@ -100,11 +99,6 @@ def find_amplitude(
     """
     near = [kelvin for time, kelvin in temperatures if abs(time - day) <= _WINDOW]
     return (max(near) - min(near)) / 2.0 if len(near) > 1 else None
-
-
-def _read_stiffness(scene: Scene) -> float:
-    """ES [N/m]; a wall has no rope that could swing."""
-    return scene.net.stiffness_per_m if isinstance(scene.net, Net) else 0.0
 
 
 _NOON = 0.5  # time of a day's own value [d]

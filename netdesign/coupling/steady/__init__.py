@@ -1,1 +1,1 @@
-"""Steady state of creeping snow and a net at rest, or a rigid wall."""
+"""Steady state of creeping snow and a net at rest."""

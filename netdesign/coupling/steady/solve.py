@@ -13,7 +13,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from netdesign.cable.net import Net
 from netdesign.coupling.balance import (
     LARGEST_SUCTION,
     SuctionError,
@@ -43,7 +42,7 @@ from netdesign.coupling.solution import (
 )
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_net
 from netdesign.coupling.steady.rounds import CoupledState, couple
-from netdesign.outcome import ModelError, Outcome, SolveError
+from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.contact import FlowState
 from netdesign.snow.element import share_template
 from netdesign.snow.mesh import MeshSize, MeshTemplate
@@ -231,8 +230,6 @@ def _require_pressure(end: CoupledState) -> None:
 
 def _build_problem(scene: Scene, size: MeshSize) -> SteadyProblem:
     net, thickness = scene.net, scene.snowpack.thickness
-    if not isinstance(net, Net):
-        raise ModelError(say("steady.needs_net"))
     return SteadyProblem(
         snow=scene.steady_flow_problem,
         template=_build_template(scene, size),
@@ -311,7 +308,7 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | No
     Parameters
     ----------
     scene : Scene
-        Snow, ground and net, or a wall, which has no slack.
+        Snow, ground and net.
     settings : SolverSettings
         Accuracy and tolerances.
 
@@ -326,7 +323,7 @@ def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | No
     tests/coupling/steady/test_bound.py
     """
     net = scene.net
-    if not isinstance(net, Net) or net.slack == 0.0:
+    if net.slack == 0.0:
         return None
     if _keeps_volume(_build_problem(scene, settings.levels[0])):
         return None

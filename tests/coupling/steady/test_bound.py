@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
-from netdesign.coupling.scene import SolverSettings, Wall
+from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
 from netdesign.coupling.steady.solve import (
@@ -64,12 +64,10 @@ def test_the_most_slack_that_is_solved_is_taken(monkeypatch, a_scene, solved):
     assert tried == [0.75 * slack, 0.5 * slack, 0.25 * slack]
 
 
-def test_nothing_bounds_a_taut_net_or_a_wall(a_scene):
+def test_nothing_bounds_a_taut_net(a_scene):
     scene = a_scene()
     taut = replace(scene, net=replace(scene.net, slack=0.0))
     assert bound_by_less_slack(taut, ROUGH) is None
-    wall = replace(scene, net=Wall(height_normal=scene.net.height_normal))
-    assert bound_by_less_slack(wall, ROUGH) is None
 
 
 @pytest.mark.parametrize("slack", [0.0731])

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from netdesign.addons.evidence.scene import build_scene, solve, solve_wall
+from netdesign.addons.evidence.scene import build_scene, solve
 from netdesign.addons.evidence.verification.case import (
     Found,
     VerificationCase,
@@ -20,6 +20,7 @@ from netdesign.addons.evidence.verification.exact_solutions import (
     compute_slab_force,
     scale_slip_length,
 )
+from netdesign.addons.evidence.verification.rigid import solve_wall
 from netdesign.addons.history.moments import HistoryPoint
 from netdesign.addons.history.run import Run
 from netdesign.addons.history.settings import (

@@ -6,11 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.addons.evidence.verification import rigid
+from netdesign.addons.evidence.verification.rigid import (
+    Wall,
+    WallSolution,
+    measure_glide_factor,
+    put_wall,
+    solve_rigid,
+)
 from netdesign.coupling import interface
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings, Wall
-from netdesign.coupling.solution import FailedSolution, WallSolution
-from netdesign.coupling.steady import rigid
-from netdesign.coupling.steady.rigid import measure_glide_factor, solve_rigid
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Outcome
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
@@ -28,7 +34,7 @@ def walled(a_scene, friction_angle=None, inclination=0.0, **given):
     wall = Wall(
         height_normal=4.0, inclination=inclination, friction_angle=friction_angle
     )
-    return replace(a_scene(**given), net=wall)
+    return put_wall(a_scene(**given), wall)
 
 
 def press(*arguments, settings=COARSE, **given) -> WallSolution:

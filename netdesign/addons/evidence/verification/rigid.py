@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, cast
 
 import numpy as np
 
@@ -17,19 +18,21 @@ from netdesign.coupling.interface import (
     measure_looseness,
     refine,
 )
-from netdesign.coupling.scene import Scene, SolverSettings, Wall
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     Balance,
-    Cost,
     EndPull,
     FailedSolution,
-    WallSolution,
     end_solve,
-    list_skipped,
     require_solved,
-    triangle_density,
 )
-from netdesign.outcome import Outcome, SolveError
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.outcome import (
+    Outcome,
+    SolveError,
+    require_positive,
+    require_within,
+)
 from netdesign.snow.contact import FlowState
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.flow import solve_flow
@@ -40,6 +43,9 @@ from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.snow.snowpack import Snowpack
 from netdesign.words.message import say
 
+if TYPE_CHECKING:
+    from netdesign.cable.net import Net
+
 # The recipe: snow adhering to a rigid wall normal to the slope, as high as the snow.
 # What these leave open: coupling/THEORY.md, section 1.
 _THICKNESS = 3.0  # [m]
@@ -47,6 +53,83 @@ _UPSLOPE_LENGTH = 240.0  # [m]
 _SLOPE_ANGLE = math.radians(40.0)
 _DENSITY = 340.0  # [kg/m3]
 _FINE = SolverSettings(accuracy=0.001)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wall:
+    """A plane rigid surface from the origin upwards, in the place of a scene's net.
+
+    Attributes
+    ----------
+    height_normal : float
+        Normal to the slope [m].
+    inclination : float
+        From the slope normal, upper edge downslope positive [rad].
+    friction_angle : float or None
+        Of snow on the wall [rad]; None where the snow adheres (no velocity).
+    """
+
+    height_normal: float
+    inclination: float = 0.0
+    friction_angle: float | None = None
+    slack: ClassVar[float] = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse values that no wall has."""
+        require_positive("wall height", self.height_normal, "m")
+        require_within("wall inclination", self.inclination, 0.0, math.radians(80.0))
+        if self.friction_angle is not None:
+            limit = math.radians(60.0)
+            require_within("friction angle", self.friction_angle, 0.0, limit, "rad")
+
+    @property
+    def friction(self) -> float:
+        """Tan phi [-]; infinite for adhesion."""
+        angle = self.friction_angle
+        return math.inf if angle is None else math.tan(angle)
+
+
+def put_wall(scene: Scene, wall: Wall) -> Scene:
+    """Scene whose snow a wall holds, which stands for its net wherever snow asks."""
+    return replace(scene, net=cast("Net", wall))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WallSolution:
+    """Snow against a rigid wall, its balances checked. SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    force : EndPull
+        Resultant of the snow on the wall.
+    moment_about_foot : float
+        Of the snow's forces about the wall's foot, positive where they tip its
+        upper edge downslope [N m per m].
+    wall_nodes, wall_forces : ndarray, shape (2, n)
+        Positions [m] and forces [N/m], foot to upper edge.
+    wall_slides : ndarray of bool, shape (n,)
+        Where the snow slips on the wall.
+    largest_velocity : float
+        Of the snow [m/s].
+    balance
+        As in ``Solution``.
+    """
+
+    scene: Scene
+    force: EndPull
+    moment_about_foot: float
+    wall_nodes: Floats
+    wall_forces: Floats
+    wall_slides: Mask
+    largest_velocity: float
+    balance: Balance
+
+    @property
+    def outcome(self) -> Outcome:
+        """Always converged: anything else is a ``FailedSolution``."""
+        return Outcome.CONVERGED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -57,7 +140,6 @@ class _WallState:
     mesh: PlacedMesh
     state: FlowState
     forces: SupportForces
-    linear_solves: int
 
 
 def solve_rigid(
@@ -119,19 +201,8 @@ def _build_solution(
         wall_nodes=nodes * thickness,
         wall_forces=end.forces.on_net * scale,
         wall_slides=np.append(False, end.state.contact.sign != 0),
-        mesh_nodes=end.mesh.nodes * thickness,
-        mesh_edges=end.mesh.template.edges,
-        mesh_triangles=end.mesh.template.triangles[:3],
-        mesh_density=triangle_density(scene, end.mesh.template),
         largest_velocity=end.state.largest_velocity(end.mesh) * scene.velocity_scale,
         balance=balance,
-        cost=Cost(
-            linear_solves=sum(state.linear_solves for state in states),
-            rounds=len(states),
-            elements=end.mesh.template.triangles.shape[1],
-            degrees_of_freedom=end.mesh.n_dofs,
-            skipped=list_skipped(scene, end.mesh),
-        ),
     )
 
 
@@ -157,7 +228,6 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _WallState
         mesh=mesh,
         state=state,
         forces=forces,
-        linear_solves=flow.linear_solves,
     )
 
 
@@ -195,7 +265,34 @@ def _wall_force(law: CreepLaw, ground: GroundLaw) -> float:
             density=_DENSITY,
         ),
         ground=ground,
-        net=Wall(height_normal=_THICKNESS),
+        net=cast("Net", Wall(height_normal=_THICKNESS)),
         creep_law=law,
     )
     return require_solved(solve_rigid(scene, _FINE)).force.x
+
+
+def solve_wall(
+    scene: Scene, settings: SolverSettings, *, friction_angle: float | None = None
+) -> WallSolution:
+    """Snow of a scene held by a wall in the place of its net, as high as the snow.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its net gives the inclination.
+    settings : SolverSettings
+        Of the solve.
+    friction_angle : float, optional
+        Snow against wall [rad]; without one the snow adheres.
+
+    Raises
+    ------
+    SolveError
+        If it has no steady state.
+    """
+    wall = Wall(
+        height_normal=scene.snowpack.thickness,
+        inclination=scene.net.inclination,
+        friction_angle=friction_angle,
+    )
+    return require_solved(solve_rigid(put_wall(scene, wall), settings))
