@@ -13,11 +13,11 @@ import shapely
 from shapely import LineString, Point, Polygon
 from shapely.geometry import mapping
 
+from netdesign.addons.terrain.grid import read_file
 from netdesign.addons.terrain.measure import MeasuredRow
 from netdesign.addons.terrain.plan import ZONE
-from netdesign.edge.input_files import decode_utf8, explain, read_bounded
+from netdesign.edge.input_files import decode_utf8
 from netdesign.outcome import TerrainError
-from netdesign.words.message import say
 
 Feature = dict[str, Any]
 
@@ -113,6 +113,7 @@ def make_feature(geometry: Any, properties: dict[str, Any]) -> Feature:
 
 
 _MOST_BYTES = 20_000_000
+_NOT_OURS = "not the rows.geojson that 'netdesign terrain' wrote"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,13 +144,9 @@ def read_places(path: Path) -> tuple[dict[str, MeasuredPlace], Any]:
     TerrainError
         If the file is not one that ``netdesign terrain`` wrote.
     """
+    content = read_file(path, _MOST_BYTES)
     try:
-        text = decode_utf8(read_bounded(path, _MOST_BYTES))
-    except (OSError, ValueError) as error:
-        message = say("rows_map.unreadable", file=path.name, cause=explain(error))
-        raise TerrainError(message) from None
-    try:
-        document = json.loads(text)
+        document = json.loads(decode_utf8(content))
         rows = document["features"]
         rows = [
             feature for feature in rows if feature["properties"]["kind"] == "net row"
@@ -158,9 +155,9 @@ def read_places(path: Path) -> tuple[dict[str, MeasuredPlace], Any]:
             str(feature["properties"]["id"]): _read_place(feature) for feature in rows
         }
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise TerrainError(say("rows_map.no_places", file=path.name)) from None
+        raise TerrainError(f"{path.name}: {_NOT_OURS}") from None
     if not places:
-        raise TerrainError(say("rows_map.no_places", file=path.name))
+        raise TerrainError(f"{path.name}: {_NOT_OURS}")
     return places, document
 
 
