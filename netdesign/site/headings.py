@@ -8,7 +8,6 @@ from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.cells.findings import Finding, quote
-from netdesign.site.columns.all_tables import has_no_part
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     Field,
@@ -17,7 +16,7 @@ from netdesign.site.columns.fields import (
     split_heading,
 )
 from netdesign.site.columns.office import list_texts
-from netdesign.site.readings import refuse_stored
+from netdesign.site.readings import explain_unit, refuse_stored
 from netdesign.site.titles import (
     find_heading_unit,
     find_near,
@@ -26,7 +25,6 @@ from netdesign.site.titles import (
     is_unit,
     quote_title,
     read_unit,
-    refuse_unit,
 )
 from netdesign.words.message import say
 
@@ -241,33 +239,11 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
             unit = _find_unit(table, cell, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
     missing = [field for field in table.plan.fields if field.key not in columns]
-    judged = _judge_all_unknown(unknown, missing)
+    judged = [_judge_unknown(cell, missing) for cell in unknown]
     findings.extend(finding for finding, _ in judged)
     near = {field.key for _, field in judged if field}
     _report_missing(table, {*columns, *near}, findings)
     return columns
-
-
-def _judge_all_unknown(
-    unknown: list[Cell], missing: list[Field]
-) -> list[tuple[Finding, Field | None]]:
-    """Judge columns that are not read, each with the missing field it may be.
-
-    The headings that the sheet still needs are told once.
-    """
-    judged = [_judge_unknown(cell, missing) for cell in unknown]
-    sought = (
-        n
-        for n, (one, _) in enumerate(judged)
-        if one.severity == "note" and not has_no_part(one.text)
-    )
-    first = next(sought, -1)
-    needed = [field for field in missing if field.required]
-    if first >= 0 and needed:
-        names = tuple(quote_title(field) for field in needed)
-        known = say("heading.known", headings=names)
-        judged[first] = replace(judged[first][0], accepted=known), None
-    return judged
 
 
 def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | None]:
@@ -310,8 +286,7 @@ def _find_unit(
         return unit
     if not unit and (own := find_own_unit(table.examples(column), field)):
         return own
-    refusal = refuse_unit(unit, table.examples(column), field)
-    findings.append(cell.finding(*refusal, field.name))
+    findings.append(cell.finding(*explain_unit(unit, field), field.name))
     return None
 
 

@@ -153,7 +153,7 @@ def _build_site(
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
         raise _refuse(lines, findings)
-    notes = fold_findings(list(map(_shorten, findings)))
+    notes = fold_findings(findings)
     asked = ask(lines, confirmed, findings)
     rows = (replace(row, questions=asked[row.id]) for row in net_rows)
     return Site(
@@ -259,12 +259,6 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     kept = tuple(one for one in workbook.sheets if is_read(one.name))
     left = tuple(one.name for one in workbook.sheets if one not in kept)
     return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
-
-
-def _shorten(finding: Finding) -> Finding:
-    """Remark without the list of headings, which helps only where one is sought."""
-    is_long = finding.rule.key == "heading.unknown"
-    return replace(finding, accepted="") if is_long else finding
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:

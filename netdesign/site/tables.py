@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
@@ -37,7 +36,7 @@ def find_table(
     plan : SheetPlan
         The sheet that is looked for.
     findings : list of Finding
-        Appended to: missing or duplicated headings, units, merged cells, gaps.
+        Appended to: missing or duplicated headings, units, merged cells.
 
     Returns
     -------
@@ -156,25 +155,20 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
         for cell in headings
         if cell.column in sheet.hidden_columns
     )
-    findings.extend(_note_lines_above(table))
+    findings.extend(_refuse_items_above(table))
     _judge_columns_without_heading(table, findings)
 
 
 _NOT_ASKED = ("project", "declared", "Winter", "Monitoring", "Uncertainty")
 
 
-def _note_lines_above(table: Table) -> Iterator[Finding]:
-    """Lines above the headings: a title block, or lines of a table put too high."""
+def _refuse_items_above(table: Table) -> Iterator[Finding]:
+    """Refuse items that stand above the headings of their table."""
     for row in range(1, table.heading_row):
         cells = table.sheet.row(row)
-        if len(cells) < 2:
-            continue
-        item = find_item(str(cells[0].value), table.plan.items)
-        yield cells[0].finding(
-            say("table.above_headings"),
-            say("table.below_headings") if item else "",
-            severity="error" if item else "note",
-        )
+        if len(cells) > 1 and find_item(str(cells[0].value), table.plan.items):
+            rule = say("table.above_headings")
+            yield cells[0].finding(rule, say("table.below_headings"))
 
 
 def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:
@@ -242,7 +236,7 @@ def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
     table : Table
         The sheet with its headings.
     findings : list of Finding
-        Appended to: every filled line that is not read, and gaps in the table.
+        Appended to: every filled line that is not read.
 
     Returns
     -------
@@ -260,18 +254,6 @@ def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
     for row, rule in passed.items():
         cell = sheet.row(row)[0]
         findings.append(cell.finding(rule, severity="note"))
-    for above, row in pairwise((first_row - 1, *filled)):
-        is_at_part = above in passed or row in passed
-        is_whole = not plan.items and _is_whole(table, row)
-        if row == above + 1 or is_at_part or not table.titles:
-            continue
-        empty = sheet.cell(above + 1, 1)
-        if is_whole:
-            findings.append(empty.finding(say("table.gap"), severity="note"))
-        else:
-            findings.append(
-                empty.finding(say("table.empty_row"), say("table.without_gaps"))
-            )
     return tuple(row for row in filled if row not in passed)
 
 
@@ -348,15 +330,3 @@ def _is_total(table: Table, row: int) -> bool:
     columns = [column.number for column in table.columns.values()]
     filled = sum(not table.sheet.cell(row, column).is_blank for column in columns)
     return _LINE_OVER_SUM * (filled - 1) <= len(columns)
-
-
-def _is_whole(table: Table, row: int) -> bool:
-    """A line has all that a line of the table needs."""
-    needed = [
-        table.columns[field.key].number
-        for field in table.plan.fields
-        if field.required and field.key in table.columns
-    ]
-    return len(needed) > 1 and not any(
-        table.sheet.cell(row, column).is_blank for column in needed
-    )

@@ -15,12 +15,11 @@ from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     Field,
     SheetPlan,
-    convert_unit,
     normalise,
     normalise_unit,
     split_heading,
 )
-from netdesign.site.readings import IN_CELLS, explain_unit
+from netdesign.site.readings import IN_CELLS
 from netdesign.words.message import Message, say
 
 # How alike a heading or the name of a sheet must be to a missing one, misspelt.
@@ -68,47 +67,6 @@ def find_own_unit(cells: list[Cell], field: Field) -> str:
         return IN_CELLS
     has_grades = cells and all(read_grade(cell.value) is not None for cell in cells)
     return field.unit if field.is_grade and has_grades else ""
-
-
-def refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
-    """Reason why a column has no unit that its field knows."""
-    plain = explain_unit(unit, field)
-    return plain if unit else Refusal(_describe_missing_unit(cells, field), *plain[1:])
-
-
-def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
-    """Say that a column has no unit, and what its first number could be in each."""
-    if not cells:
-        return say("heading.no_unit")
-    example = cells[0]
-    number = parse_number(example.value, example.decimal_mark)
-    if isinstance(number, Refusal):
-        return say("heading.no_unit")
-    readings: list[Message] = []
-    for unit in field.units:
-        value = convert_unit(number, unit, field.unit)
-        if field.bounds[0] <= value <= field.bounds[1]:
-            readings.append(_describe_reading(number, unit, value, field.unit))
-    if len(readings) < 2:
-        return say("heading.no_unit")
-    return say(
-        "heading.no_unit_could_be", cell=example.address, readings=tuple(readings)
-    )
-
-
-def _describe_reading(
-    number: float, unit: str, other: float, other_unit: str
-) -> Message:
-    """A number with the unit that it may have, and what it is in the field's unit."""
-    if unit == other_unit:
-        return say("text.number_in", number=number, unit=unit)
-    return say(
-        "text.number_in_two",
-        number=number,
-        unit=unit,
-        other=other,
-        other_unit=other_unit,
-    )
 
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:

@@ -26,7 +26,6 @@ _FIRST_ROWS = 25  # in which headings and their units stand
 _LEAST_KNOWN = 2  # headings, to be a row of them
 _IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
 SHEETS_ALONE = tuple(one for one in TABLES if one not in PARTS)
-_OF_TEMPLATE = ("table.above_headings", "table.gap", "table.empty_row")
 _LEAST_OLD = 4  # headings of a sheet Nets
 
 
@@ -42,11 +41,6 @@ class OfficeTables:
     lines: Mapping[str, Sequence[Row]]
     measures: Mapping[tuple[str, str], str]
     unread: frozenset[str] = frozenset()  # tables whose sheet is there without headings
-
-    @property
-    def rows(self) -> Table | None:
-        """Table of the net rows."""
-        return self.tables["rows"]
 
 
 def is_read(name: str) -> bool:
@@ -103,7 +97,6 @@ def find_office_tables(
         Tables that are looked for beside those of sheet Parts, and those that need not
         be there.
     """
-    told: list[Finding] = []
     settled = [_settle_units(sheet) for sheet in workbook.sheets]
     named = {sheet.name: measures for sheet, measures in settled}
     plain = replace(workbook, sheets=tuple(sheet for sheet, _ in settled))
@@ -113,9 +106,8 @@ def find_office_tables(
         else load_plan(name)
         for name in alone
     }
-    tables = {name: find_table(plain, plan, told) for name, plan in plans.items()}
-    tables |= _find_parts(plain, told)
-    findings.extend(one for one in told if not _is_of_template(one))
+    tables = {name: find_table(plain, plan, findings) for name, plan in plans.items()}
+    tables |= _find_parts(plain, findings)
     return OfficeTables(
         tables=tables,
         unread=frozenset(
@@ -135,16 +127,7 @@ def find_further(
     workbook: Workbook, findings: list[Finding]
 ) -> Mapping[str, Table | None]:
     """Tables of the sheets of add-ons, by name; faults go to ``findings``."""
-    told: list[Finding] = []
-    tables = {one.name: find_table(workbook, one, told) for one in FURTHER}
-    findings.extend(one for one in told if not _is_of_template(one))
-    return tables
-
-
-def _is_of_template(finding: Finding) -> bool:
-    """A remark on titles above headings, or on lines left empty between others."""
-    is_mild = finding.severity == "note" or finding.rule.key != _OF_TEMPLATE[0]
-    return is_mild and finding.rule.key in _OF_TEMPLATE
+    return {one.name: find_table(workbook, one, findings) for one in FURTHER}
 
 
 def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
