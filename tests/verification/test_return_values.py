@@ -5,6 +5,7 @@ Truth: samples of known distributions.
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -24,12 +25,27 @@ def draw(shape, winters, *, mean=16.0, scale=4.7):
     )
 
 
+@cache
+def list_fits(shape, winters):
+    return [fit_gumbel(list(one)) for one in draw(shape, winters)]
+
+
+def spread(find, fits):
+    """What ``find`` gives of all fits: it moves and stretches with them."""
+    ends = np.array(find(replace(fits[0], mean=0.0, deviation=1.0)))
+    means, deviations = np.array([(one.mean, one.deviation) for one in fits]).T
+    found = means + np.outer(ends, deviations)
+    for number in range(0, len(fits), 97):
+        assert found[:, number] == pytest.approx(find(fits[number]), rel=1e-9)
+    return found
+
+
 @pytest.mark.parametrize("winters", [15, 30, 60])
 def test_upper_ends_hold_in_nineteen_of_twenty_samples(winters):
-    fits = [fit_gumbel(list(one)) for one in draw(0.0, winters)]
+    fits = list_fits(0.0, winters)
     for period in PERIODS:
         truth = 16.0 - 4.7 * math.log(-math.log(1.0 - 1.0 / period))
-        low, high = np.array([one.find_interval(period) for one in fits]).T
+        low, high = spread(lambda fit, t=period: fit.find_interval(t), fits)
         error = 3.0 * math.sqrt(0.95 * 0.05 / SAMPLES)
         assert np.mean(high >= truth) == pytest.approx(0.95, abs=error)
         assert np.mean(low <= truth) == pytest.approx(0.95, abs=error)
@@ -41,15 +57,16 @@ def test_a_further_winter_exceeds_the_predictive_value_once_in_a_period(
     winters, period
 ):
     """Truth: another draw of the distribution that the sample is from."""
-    samples = draw(0.0, winters)
-    chances, plain = [], []
-    for one in samples[:1000]:
-        fit = fit_gumbel(list(one))
-        wide = replace(fit, deviation=fit.find_predictive_variation(period) * fit.mean)
-        value, _ = wide.find_return_value(period)
-        chances.append(genextreme.sf(value, 0.0, 16.0, 4.7))
-        value, _ = fit.find_return_value(period)
-        plain.append(genextreme.sf(value, 0.0, 16.0, 4.7))
+    fits = list_fits(0.0, winters)[:1000]
+    more = fits[0].find_predictive_variation(period) / fits[0].variation
+    for one in fits[::97]:
+        found = one.find_predictive_variation(period)
+        assert found == pytest.approx(more * one.variation, rel=1e-9)
+    wide = [replace(one, deviation=more * one.deviation) for one in fits]
+    chances, plain = (
+        genextreme.sf([x.find_return_value(period)[0] for x in some], 0.0, 16.0, 4.7)
+        for some in (wide, fits)
+    )
     error = 4.0 * np.std(chances) / math.sqrt(len(chances))
     assert np.mean(chances) == pytest.approx(1.0 / period, abs=error)
     assert np.mean(plain) > 1.0 / period + error / 4.0
@@ -57,8 +74,7 @@ def test_a_further_winter_exceeds_the_predictive_value_once_in_a_period(
 
 @pytest.mark.parametrize("winters", [15, 40])
 def test_the_upper_end_is_farther_away(winters):
-    fits = [fit_gumbel(list(one)) for one in draw(0.0, winters)[:50]]
-    for one in fits:
+    for one in list_fits(0.0, winters)[:50]:
         value, _ = one.find_return_value(100.0)
         low, high = one.find_interval(100.0)
         assert high - value > value - low > 0.0
@@ -68,13 +84,13 @@ def test_the_upper_end_is_farther_away(winters):
 @each("shape", TAILS)
 def test_the_upper_end_of_a_heavier_tail_holds_in_nineteen_of_twenty(winters, shape):
     """Fault 12: coverage in drawn samples of that tail; Gumbel's ends miss more."""
-    fits = [fit_gumbel(list(one)) for one in draw(shape, winters)]
+    fits = list_fits(shape, winters)
     for period in PERIODS:
         truth = genextreme.ppf(1.0 - 1.0 / period, -shape, 16.0, 4.7)
-        ends = np.array([one.find_tail(period, shape)[1] for one in fits])
+        _, ends = spread(lambda fit, t=period: fit.find_tail(t, shape), fits)
         error = 3.0 * math.sqrt(0.95 * 0.05 / SAMPLES)
         assert np.mean(ends >= truth) == pytest.approx(0.95, abs=error)
-        plain = np.array([one.find_interval(period)[1] for one in fits])
+        _, plain = spread(lambda fit, t=period: fit.find_interval(t), fits)
         assert np.mean(plain < truth) > 0.08
 
 
