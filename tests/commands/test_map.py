@@ -2,8 +2,6 @@
 
 import json
 
-import pytest
-
 from netdesign.site.template.example import write_site_workbook
 from tests.site.lists.answer import answer_list
 from tests.site.lists.offices import CONSULTANT
@@ -18,16 +16,15 @@ def test_a_workbook_of_the_template_leaves_nothing_to_answer(call, tmp_path):
     assert not (tmp_path / "site.map.toml").exists()
 
 
-@pytest.mark.parametrize("language", ["en", "fr", "de"])
-def test_a_workbook_of_version_01_is_written_again(call, tmp_path, language):
+def test_a_workbook_of_version_01_is_written_again(call, tmp_path):
     old, new = tmp_path / "old.xlsx", tmp_path / "old-new.xlsx"
-    write_old(old, load_example(), language)
+    write_old(old, load_example(), "fr")
     for command in (("check", old, "--dry-run"), ("map", old)):
         refused = call(*command)
         assert refused.code == 3
         assert f"netdesign map {old} --out {new}" in refused.err
         assert len(refused.err.splitlines()) < 4  # and nothing else is said
-    written = call("map", old, "--out", new, "--language", language)
+    written = call("map", old, "--out", new, "--language", "fr")
     assert written.code == 0, written.err
     assert len(written.out.splitlines()) > 5  # what was done
     assert call("check", new, "--dry-run").code == 0

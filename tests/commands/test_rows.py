@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-from netdesign.words.catalogue import LANGUAGES
 from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet", "--no-excel")
@@ -26,21 +25,16 @@ def read_study(path):
     return json.loads(path.read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_row_that_passes_leaves_the_site_not_proven(site, call, language):
-    ended = call(
-        *("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a"),
-        *("--language", language),
-    )
+def test_a_row_that_passes_leaves_the_site_not_proven(site, call):
+    ended = call("check", "site.xlsx", *QUICK, "--row", "R1", "--out", "a")
     assert ended.code == 4, ended.err
     study = read_study(site / "a" / "part-study.json")
     assert [row["id"] for row in study["rows"]] == ["R1"]
     assert study["rows"][0]["verdict"] == "pass"
     assert (study["verdict"], study["left_out"]) == ("not_proven", ["R6"])
-    marks = {"en": "Left out here", "fr": "Non traitées ici", "de": "Hier nicht"}
-    assert marks[language] in " ".join(ended.out.split())  # it is folded
+    assert "Left out here" in " ".join(ended.out.split())  # it is folded
     page = (site / "a" / "part-report.html").read_text(encoding="utf-8")
-    assert marks[language] in page
+    assert "Left out here" in page
 
 
 def test_its_report_is_sound_and_an_altered_one_is_refused(site, call):
