@@ -64,14 +64,14 @@ def answer(path, part):
     path.write_text(text.replace(asked, told), encoding="utf-8")
 
 
-def follow(page, folder):
+def follow(page, folder, left_out):
     """Do what a page says, in its order; the number of commands that were run."""
     text = (FOLDER / page).read_text(encoding="utf-8")
     printed, ran = [], 0
     for part in PART.finditer(text):
         if part["kind"] == "sh":
             lines = part["text"].splitlines()
-            lines = [line for line in lines if not line.startswith("#")]
+            lines = [line for line in lines if not line.startswith(("#", *left_out))]
             printed = [one for line in lines for one in run(line, folder)]
             ran += len(lines)
         elif part["kind"] == "text":
@@ -94,9 +94,11 @@ COMMANDS = 9
 @pytest.mark.long
 @each("page", PAGES)
 def test_a_tutorial_does_what_it_prints(page, tmp_path):
+    """The new solve of the stored study, as long as all else, in English alone."""
     folder = tmp_path / page
     folder.mkdir()
-    assert follow(page, folder) == COMMANDS
+    left_out = () if page == PAGES[0] else ("netdesign verify",)
+    assert follow(page, folder, left_out) == COMMANDS - len(left_out)
 
 
 def test_the_tutorials_say_the_same():

@@ -28,6 +28,7 @@ pytest.importorskip("docx")
 from netdesign.report.document.word import render_document
 from tests.report.document.reading import W, open_word, squeeze
 
+pytestmark = pytest.mark.long
 SEED = 20261122
 PLAIN = re.compile(r"^-?\d+(?:\.\d+)?(?:e-?\d+)?$")
 
@@ -159,7 +160,6 @@ def is_shown(number, text):
     )
 
 
-@pytest.mark.long
 def test_no_value_of_a_check_differs(study, outputs):
     language, page, document, book = outputs
     texts = load_texts(language)
