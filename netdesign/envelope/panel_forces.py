@@ -28,11 +28,11 @@ from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
 from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (
     AnchorForces,
+    Ways,
     compute_anchor_forces,
     compute_member_forces,
-    stack_ways,
 )
-from netdesign.structure.head import FailedSupport
+from netdesign.structure.head import FailedSupport, list_directions
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
@@ -93,6 +93,15 @@ class HeldPulls(NamedTuple):
         raise ValueError("pulls that one way holds, and not the other")
 
 
+def stack_ways(places: Sequence[SupportPoints], dimensions: int) -> Ways:
+    """Ways of the members of some supports, beside arrays of so many dimensions."""
+    ways = np.array([list_directions(points) for points in places])
+    post, uphill, downhill = np.moveaxis(ways, 0, -1).reshape(
+        3, 2, -1, *[1] * dimensions
+    )
+    return (post[0], post[1]), (uphill[0], uphill[1]), (downhill[0], downhill[1])
+
+
 def hold_pulls(
     places: Sequence[SupportPoints], width: float, pulls: Pulls
 ) -> HeldPulls:
@@ -125,7 +134,7 @@ def hold_pulls(
             post_spacing=width,
             is_foot_shared=places[0].is_foot_shared,
         )
-        forces = np.stack(list(of_members.values()))
+        forces = np.stack(np.broadcast_arrays(*of_members.values()))
         values = forces[:, :, 0]
         changes = np.abs(forces[:, :, 1:] - values[:, :, None])
         errors = changes.reshape(*values.shape[:2], 4, 2, -1).max(axis=3).sum(axis=2)

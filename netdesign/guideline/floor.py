@@ -30,11 +30,12 @@ from netdesign.numerics.arrays import Floats, Ints, measure_length
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import (
+    Ways,
     compute_member_forces,
-    find_ways,
     measure_pull,
 )
-from netdesign.structure.layout import SupportLayout
+from netdesign.structure.head import Vector, find_direction
+from netdesign.structure.layout import SupportLayout, locate_base
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 
@@ -205,6 +206,33 @@ def find_floors(
         _take_floor(layout, load, of_layout, _pick(reached, place, tried[place]))
         for (place, layout), of_layout in zip(enumerate(layouts), own, strict=True)
     ]
+
+
+def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
+    """Ways of the members below some heads, on each of some layouts.
+
+    Parameters
+    ----------
+    layouts : sequence of SupportLayout, shape (m,)
+        Of the supports.
+    heads : tuple of ndarray, shape (2, n)
+        Where each net hangs, from its foot [m].
+
+    Returns
+    -------
+    tuple of tuple of ndarray, shape (3, 2, m, 1, 1, n)
+        [-].
+    """
+    bases = np.array([locate_base(layout, *heads) for layout in layouts])[:, None, None]
+    ground = 0.0 * bases
+    uphill, downhill = np.array(
+        [(x.uphill_anchor_distance, x.downhill_anchor_distance) for x in layouts]
+    ).T[:, :, None, None, None]
+    return (
+        find_direction(heads, (bases, ground)),
+        find_direction(heads, (ground - uphill, ground)),
+        find_direction(heads, (bases + downhill, ground)),
+    )
 
 
 _LoadOne = Callable[[tuple[float, ...], int, int], tuple[LoadedNet, GuidelineResult]]

@@ -90,8 +90,6 @@ class SnowLoad(Generic[Number]):
         S'_N on a rigid wall normal to the slope [N/m].
     parallel, normal : float or ndarray
         S'_N and S'_Q on the net, the latter towards the ground [N/m].
-    prism : float or ndarray
-        Weight G' of the snow between the net and the slope normal [N/m].
     resultant : tuple of float or ndarray, shape (2,)
         On the net, X downslope and Y out of the ground [N/m].
     """
@@ -101,7 +99,6 @@ class SnowLoad(Generic[Number]):
     rigid: Number
     parallel: Number
     normal: Number
-    prism: Number
     resultant: tuple[Number, Number]
 
 
@@ -294,7 +291,6 @@ def compute_snow_load(
         rigid=rigid,
         parallel=parallel,
         normal=normal,
-        prism=prism,
         resultant=(
             parallel + prism * math.sin(slope_angle),
             -normal - prism * math.cos(slope_angle),

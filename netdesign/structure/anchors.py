@@ -6,15 +6,14 @@ First: directions of the pulls on an anchor, and their angles to its axis.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-
-import numpy as np
 
 from netdesign.numerics.arrays import (
     Floats,
     Mask,
     Number,
+    as_mask,
     measure_length,
     measure_turn,
     take_larger,
@@ -26,11 +25,9 @@ from netdesign.structure.head import (
     MemberSizes,
     Vector,
     compute_head_forces,
-    find_direction,
     hold_head,
-    list_directions,
 )
-from netdesign.structure.layout import Point, SupportLayout, SupportPoints, locate_base
+from netdesign.structure.layout import Point, SupportPoints
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
@@ -177,17 +174,6 @@ class GroundForce:
         """Size of the force [N]."""
         return math.hypot(self.x, self.y)
 
-    @property
-    def direction(self) -> float | None:
-        """Angle of the force against the ground surface [rad]; None without force.
-
-        Counted from the downslope direction, -pi to pi: 0 points downslope, pi/2
-        straight out of the ground, pi upslope; negative presses into the ground.
-        """
-        if self.size == 0.0:
-            return None
-        return math.atan2(self.y, self.x)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorForces:
@@ -209,16 +195,6 @@ class AnchorForces:
     post_base: GroundForce
     head: HeadForces
     is_foot_shared: bool
-
-    @property
-    def on_ground(self) -> dict[Member, GroundForce]:
-        """Force at each point on the ground."""
-        return {
-            Member.FOOT_ANCHOR: self.foot_anchor,
-            Member.UPHILL_ANCHOR: self.uphill_anchor,
-            Member.DOWNHILL_ANCHOR: self.downhill_anchor,
-            Member.POST_BASE: self.post_base,
-        }
 
     @property
     def head_pull(self) -> Point:
@@ -245,45 +221,6 @@ class AnchorForces:
 Ways = tuple[Vector[Floats], Vector[Floats], Vector[Floats]]
 
 
-def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
-    """Ways of the members below some heads, on each of some layouts.
-
-    Parameters
-    ----------
-    layouts : sequence of SupportLayout, shape (m,)
-        Of the supports.
-    heads : tuple of ndarray, shape (2, n)
-        Where each net hangs, from its foot [m].
-
-    Returns
-    -------
-    tuple of tuple of ndarray, shape (3, 2, m, 1, 1, n)
-        [-].
-    """
-    bases = np.array([locate_base(layout, *heads) for layout in layouts])[:, None, None]
-    ground = 0.0 * bases
-    uphill, downhill = np.array(
-        [
-            (each.uphill_anchor_distance, each.downhill_anchor_distance)
-            for each in layouts
-        ]
-    ).T[:, :, None, None, None]
-    return (
-        find_direction(heads, (bases, ground)),
-        find_direction(heads, (ground - uphill, ground)),
-        find_direction(heads, (bases + downhill, ground)),
-    )
-
-
-def stack_ways(places: Sequence[SupportPoints], dimensions: int) -> Ways:
-    """Ways of the members of some supports, beside arrays of so many dimensions."""
-    ways = np.array([list_directions(points) for points in places])
-    post, uphill, downhill = np.moveaxis(ways, 0, -1).reshape(
-        3, 2, -1, *[1] * dimensions
-    )
-    return (post[0], post[1]), (uphill[0], uphill[1]), (downhill[0], downhill[1])
-
-
 def compute_member_forces(
     ways: Ways,
     *,
@@ -306,7 +243,8 @@ def compute_member_forces(
     Returns
     -------
     dict of str to ndarray, ndarray of bool
-        Forces by member [N], of use only where the second says that the head is held.
+        Forces by member [N], each of the shape that its parts have together; of use
+        only where the second says that the head is held.
 
     Verified by
     -----------
@@ -319,8 +257,7 @@ def compute_member_forces(
         out_of_ground=held.post_compression * ways[0][1],
         is_foot_shared=is_foot_shared,
     )
-    *forces, is_held = np.broadcast_arrays(*of_members.values(), held.is_held)
-    return dict(zip(of_members, forces, strict=True)), is_held
+    return of_members, as_mask(held.is_held)
 
 
 def _list_forces(

@@ -6,7 +6,7 @@ import math
 import sys
 from dataclasses import dataclass, fields
 from itertools import chain
-from typing import ClassVar, Generic, TypeAlias
+from typing import Generic, TypeAlias
 
 from netdesign.numerics.arrays import (
     Number,
@@ -61,13 +61,7 @@ class MemberSizes(Generic[Number]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadForces(MemberSizes[float]):
-    """Forces in the members that hold one post head; no guy has the wrong sign.
-
-    ``reason`` says which members carry.
-    """
-
-    reason: Message
-    outcome: ClassVar[Outcome] = Outcome.CONVERGED
+    """Forces in the members that hold one post head; no guy has the wrong sign."""
 
     def __post_init__(self) -> None:
         """Refuse negative forces, infinite ones, and NaN."""
@@ -125,7 +119,7 @@ def compute_head_forces(
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
     sizes = {field.name: getattr(held, field.name) for field in fields(MemberSizes)}
-    return HeadForces(**sizes, reason=say(_describe_carriers(held)))
+    return HeadForces(**sizes)
 
 
 def hold_head(
@@ -176,7 +170,6 @@ def hold_head(
         downhill_guy_tension=choose(by_down, down.tension, none),
         loose_uphill=loose_uphill,
         loose_downhill=loose_downhill,
-        is_alone=is_alone,
         is_held=is_alone | by_up | by_down,
         uphill=up,
         downhill=down,
@@ -308,13 +301,12 @@ class HeldHead(MemberSizes[Number]):
 
     Attributes
     ----------
-    is_alone, is_held : bool or ndarray
-        The post carries alone; some members can hold the head.
+    is_held : bool or ndarray
+        Some members can hold the head.
     uphill, downhill : _Pair
         Post and each guy.
     """
 
-    is_alone: Truth
     is_held: Truth
     uphill: _Pair[Number]
     downhill: _Pair[Number]
@@ -340,15 +332,6 @@ def _resolve(
         can_pull=find_none(is_along, is_slack),
         holds=find_none(is_along, is_slack, find_none(is_pressed)),
     )
-
-
-def _describe_carriers(held: HeldHead[float]) -> str:
-    if held.post_tension > 0.0:
-        return "support.post_pulls"
-    if held.is_alone:
-        return "support.post_alone"
-    by_up = held.uphill.holds
-    return "support.post_and_uphill" if by_up else "support.post_and_downhill"
 
 
 def _explain(held: HeldHead[float]) -> Message:

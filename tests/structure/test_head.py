@@ -37,8 +37,6 @@ def test_pull_downslope_is_held_by_the_uphill_guy():
     assert forces.uphill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
     assert forces.post_compression == pytest.approx(40 * KN, rel=1e-14)
     assert forces.downhill_guy_tension == 0.0
-    assert forces.outcome is Outcome.CONVERGED
-    assert str(forces.reason) == "post and uphill guy carry, the downhill guy is slack"
 
 
 def test_pull_upslope_is_held_by_the_downhill_guy():
@@ -46,7 +44,6 @@ def test_pull_upslope_is_held_by_the_downhill_guy():
     assert forces.downhill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
     assert forces.post_compression == pytest.approx(50 * KN, rel=1e-14)
     assert forces.uphill_guy_tension == 0.0
-    assert str(forces.reason) == "post and downhill guy carry, the uphill guy is slack"
 
 
 @pytest.mark.parametrize("across", [0.0, 1e-14, -1e-14])
@@ -54,7 +51,6 @@ def test_pull_down_the_post_leaves_both_guys_slack(across):
     forces = compute_head_forces((across * 70 * KN, -70 * KN), some_points())
     assert forces.post_compression == pytest.approx(70 * KN, rel=1e-15)
     assert (forces.uphill_guy_tension, forces.downhill_guy_tension) == (0.0, 0.0)
-    assert str(forces.reason) == "the post carries, both guys are slack"
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -71,7 +67,6 @@ def test_slack_net_loads_nothing():
     forces = compute_head_forces((0.0, 0.0), some_points())
     assert forces.post_compression == 0.0
     assert (forces.uphill_guy_tension, forces.downhill_guy_tension) == (0.0, 0.0)
-    assert str(forces.reason) == "the post carries, both guys are slack"
 
 
 def test_the_size_of_a_support_does_not_matter_its_angles_do():
@@ -120,7 +115,6 @@ def test_pull_along_a_guy_close_to_a_tilted_post_is_told_from_tension():
 def test_lifting_pull_is_held_by_the_foot():
     held = compute_head_forces((0.0, 10 * KN), some_points())
     assert (held.post_compression, held.post_tension) == (0.0, 10 * KN)
-    assert str(held.reason) == "the net lifts the head: the post pulls on its foot"
 
 
 def test_lifting_pull_aside_is_held_by_foot_and_guy():
@@ -135,7 +129,7 @@ def test_what_presses_the_post_loosens_nothing_however_small(size):
     assert held.post_compression == pytest.approx(size)
     assert held.post_tension == held.loose_uphill == held.loose_downhill == 0.0
     lifted = compute_head_forces((0.0, size), some_points())
-    assert str(lifted.reason).startswith("the net lifts the head")
+    assert lifted.post_tension == pytest.approx(size)
 
 
 # Both guys on one side: a flat one at 3 : 4 : 5, and a steep one. Beside the flat one
@@ -232,7 +226,7 @@ def test_what_is_no_number_gives_no_forces(bad):
         assert failed.outcome is Outcome.NONFINITE
 
 
-SIZES = [one.name for one in fields(HeadForces) if one.name != "reason"]
+SIZES = [one.name for one in fields(HeadForces)]
 
 
 @each("bad", [-5e-324, math.nan, math.inf])
@@ -242,7 +236,7 @@ SIZES = [one.name for one in fields(HeadForces) if one.name != "reason"]
 )
 def test_forces_with_a_wrong_sign_cannot_be_built(member, bad):
     with pytest.raises(ModelError, match="^" + member.replace("_", " ")):
-        HeadForces(**(dict.fromkeys(SIZES, 1.0) | {member: bad}), reason="")
+        HeadForces(**(dict.fromkeys(SIZES, 1.0) | {member: bad}))
 
 
 @each("seed", range(20))
