@@ -93,7 +93,7 @@ def test_every_number_of_parameters_is_searched(dimension):
 
 
 @pytest.mark.parametrize(
-    "seed", [0, *(pytest.param(one, marks=pytest.mark.long) for one in (2, 3))]
+    "seed", [2, *(pytest.param(one, marks=pytest.mark.long) for one in (0, 3))]
 )
 def test_five_parameters_with_a_kink_and_one_that_hardly_matters(seed):
     """A tent over two axes, a hyperbola over a third, a step of a thousandth.

@@ -7,6 +7,7 @@ never a verdict: no cell can make an unearned pass.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 from netdesign.calculation.quantity import Kind
@@ -256,21 +257,29 @@ def _write_formula(step: Step, end: int, cells: Cells, none: str) -> str:
 
 def _write_texts(book: Book, sheet: Any, line: int, step: Step) -> None:
     """Texts of a step: symbol, name, formula, unit and origin."""
-    words = book.words
-    printed = translate(step.formula, PRINTED) if step.formula else ""
-    texts = {
-        "symbol": step.symbol,
-        "name": words(f"symbol.{step.symbol}"),
-        "formula": words.write_formula(printed),
-        "unit": "" if step.unit == "-" else show_unit(step.unit),
-        "source": _name_source(step, words),
-    }
-    form = book.text(text_wrap=True)
-    for name, text in texts.items():
-        if text:
-            sheet.write_string(line, _PLACES[name], text, form)
-    lines = count_lines(list(texts.values()), [_WIDTHS[name] for name in texts])
+    words, form = book.words, book.text(text_wrap=True)
+    source = _name_source(step, words)
+    texts, lines = _list_texts(words, step.symbol, step.formula, step.unit, source)
+    for place, text in texts:
+        sheet.write_string(line, place, text, form)
     book.set_height(sheet, line, lines, level=1, hidden=True)
+
+
+@lru_cache(maxsize=4096)  # a study has a few hundred, each many times
+def _list_texts(
+    words: Words, symbol: str, formula: str, unit: str, source: str
+) -> tuple[list[tuple[int, str]], int]:
+    """Texts of a step by their columns, and the lines that they take."""
+    printed = translate(formula, PRINTED) if formula else ""
+    texts = {
+        "symbol": symbol,
+        "name": words(f"symbol.{symbol}"),
+        "formula": words.write_formula(printed),
+        "unit": "" if unit == "-" else show_unit(unit),
+        "source": source,
+    }
+    lines = count_lines(list(texts.values()), [_WIDTHS[name] for name in texts])
+    return [(_PLACES[name], text) for name, text in texts.items() if text], lines
 
 
 def _name_source(step: Step, words: Words) -> str:
