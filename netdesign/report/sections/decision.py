@@ -92,9 +92,9 @@ def _show_title(study: Study, words: Words, *, is_verified: bool) -> Iterator[Bl
     """Kind and title; of a what-if, what was replaced."""
     project, verdict = study.project, mark_verdict(study, words)
     kind = name_kind(study, words, is_verified=is_verified)
-    named = show_text(project.name)
+    named = show_text(project.name.strip() or study.provenance.site_file)
     title = words(f"decision.{study.verdict}", name=named)
-    number = show_text(project.number)
+    number = project.number
     if project.revision:
         revision = show_text(project.revision)
         number = words("decision.revision", number=number, revision=revision)
