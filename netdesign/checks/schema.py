@@ -43,7 +43,6 @@ GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 LEAST_DIP = "anchor.dip.min"  # of a bore below the horizontal, so that mortar fills it
 ANCHOR_DISTANCE = "anchor.distance.min"
-LONGEST_BOND = "bond.length.max"  # that counts
 # eta of a post where snow glides least, and its growth with the glide factor.
 POST_EFFICIENCY, POST_EFFICIENCY_GROWTH = "post.efficiency", "post.efficiency.per_glide"
 # On the strength of the ground that an anchor may pull out with itself.
@@ -61,23 +60,18 @@ Floor = Literal["guideline", "none"]
 # How the pulls of two guys on one anchor are added.
 SharedSum = Literal["vector", "scalar"]
 
-# Accepted values of each file, with the unit in which they stand there.
-LIMIT_UNITS = {
-    MIN_INCLINATION: "deg",
-    MAX_INCLINATION: "deg",
-    MIN_SLOPE: "deg",
-    MAX_SLOPE: "deg",
-    LEAST_PLAUSIBLE_SLOPE: "deg",
-    MOST_PLAUSIBLE_SLOPE: "deg",
-    HEIGHT_RATIO: "-",
-    MAX_GAP: "m",
-    GROUND_FRICTION: "-",
-    SPACING_CAP: "-",
-    ROPE_ANGLE: "deg",
-    LEAST_DIP: "deg",
-    ANCHOR_DISTANCE: "m",
-    LONGEST_BOND: "m",
-    DIMENSIONING: "kN/m3",
+# Accepted values of each file by their ids, with unit and bounds.
+_VALUES: Mapping[str, Mapping[str, Mapping[str, Any]]] = tomllib.loads(
+    files(__package__).joinpath("values.toml").read_text(encoding="utf-8")
+)
+LIMIT_UNITS = {name: value["unit"] for name, value in _VALUES["limits"].items()}
+# The load model of a guideline; values that start alike are given all or none.
+MODEL_UNITS = {name: value["unit"] for name, value in _VALUES["model"].items()}
+# Values by a count, such as the number of tests; the counts need no gap.
+TABLE_COUNTS = {name: value["over"] for name, value in _VALUES["tables"].items()}
+# What any document has, wide: beyond it a value is a slip, or it needs a reason.
+VALUE_BOUNDS: Mapping[str, tuple[float, float]] = {
+    name: value["bounds"] for part in _VALUES.values() for name, value in part.items()
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
@@ -86,54 +80,10 @@ _PAIRS = (
 )
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
-    ACTION_FACTOR,
-    UPLIFT_FACTOR,
-    ACCEPTANCE_TEST,
-    *(SOIL_COHESION, SOIL_FRICTION),
+    *(name for name in _VALUES["factors"] if name != "resistance"),
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
 )
-# The load model of a guideline; values that start alike are given all or none.
-MODEL_UNITS = {
-    "snow.gravity": "m/s2",
-    "snow.creep.constant": "-",
-    "snow.creep.linear": "m3/t",
-    "snow.creep.square": "m6/t2",
-    "snow.creep.cube": "m9/t3",
-    "snow.density": "t/m3",
-    "snow.altitude.base": "m",
-    "snow.altitude.top": "m",
-    "snow.altitude.rate": "1/100 m",
-    "snow.case_2.height": "-",
-    "snow.flexible": "-",
-    "snow.normal": "-",
-    "snow.normal.loose": "-",
-    "snow.normal.dense": "-",
-    "end.constant": "-",
-    "end.per_glide": "-",
-    "end.cap_constant": "-",
-    "end.cap_per_glide": "-",
-    "end.length": "-",
-    "end.length_cap": "-",
-    "end.isolated_gap": "m",
-    LATERAL_SHARE: "-",
-    POST_EFFICIENCY: "-",
-    POST_EFFICIENCY_GROWTH: "-",
-    TEST_COUNT: "-",
-}
-# Values by a count, such as the number of tests; the counts need no gap.
-TABLE_COUNTS = {
-    CORRELATION_MEAN: "tests",
-    CORRELATION_LEAST: "tests",
-    **dict.fromkeys(GLIDE_FACTORS, "ground class"),
-}
-# What any document has, wide: beyond it a value is a slip, or it needs a reason.
-VALUE_BOUNDS: Mapping[str, tuple[float, float]] = {
-    name: (low, high)
-    for name, (low, high) in tomllib.loads(
-        files(__package__).joinpath("bounds.toml").read_text(encoding="utf-8")
-    ).items()
-}
 
 
 def list_action_factors(mode: str) -> tuple[str, ...]:

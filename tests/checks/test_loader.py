@@ -72,7 +72,6 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.tension": 1.4,
         "anchor.angle.rope": 30.0,
         "anchor.dip.min": 10.0,
-        "bond.length.max": 10.0,
         "resistance.direction": 1.4,
         "anchor.distance.min": 1.5,
     }

@@ -207,7 +207,6 @@ NOT_NEEDED = {
     *("resistance.wedge", "soil.cohesion", "soil.friction"),
     *("post.efficiency", "post.efficiency.per_glide"),
     "tests.count",  # no anchor here has single tests
-    "bond.length.max",  # nor a bond that is worked out
 }
 LIMITS = {
     "end." if one.id.startswith("end.") else one.id
