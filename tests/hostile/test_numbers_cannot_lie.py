@@ -50,7 +50,7 @@ def judge(site, runner=None, standard=None):
     """Study of a site, searched or on a grid by its ranges."""
     standard = standard or load_standard(PROFILE)
     solve = search_site if site.ranges is SEARCHED else solve_site
-    return judge_site(site, solve(site, RUN, runner), standard, RUN)
+    return judge_site(site, solve(site, RUN, runner or Runner()), standard, RUN)
 
 
 @pytest.fixture(autouse=True)
