@@ -101,7 +101,7 @@ def check(
         started=datetime.now(UTC).isoformat(timespec="seconds"),
         has_reliability=reliability,
     )
-    phases = list_phases(chosen, run, 1)
+    phases = list_phases(chosen)
     watch = RunProgress(phases, _show_stages(progress))
     with open_runner(
         executor="",

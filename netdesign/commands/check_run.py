@@ -77,9 +77,8 @@ def carry_out(
     is_sized = read_instead is not None
     is_alone = len(profiles) == 1 and not is_sized and not asked["as_json"]
     is_live = is_alone and sys.stdout.isatty()
-    solved = len(profiles) * (2 if is_sized else 1)
     sized: list[Sized] = []
-    with open_run(site, run, asked, solved) as (runner, progress):
+    with open_run(site, asked) as (runner, progress):
         if read_instead is None:
             on_row = _print_rows(site, progress) if is_live else None
             studies = check_site(site, profiles, run, runner, progress, on_row)

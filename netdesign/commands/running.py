@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from netdesign.solving.runner import Runner
     from netdesign.solving.workers import Job
     from netdesign.study.records import Study
-    from netdesign.study.row_to_check import CheckRun
 
 EXIT_CODES = {
     Verdict.PASS: 0,
@@ -135,12 +134,12 @@ def follow(
 
 
 def open_run(
-    site: Site, run: CheckRun, asked: Mapping[str, Any], profiles: int = 1
+    site: Site, asked: Mapping[str, Any]
 ) -> AbstractContextManager[tuple[Runner, RunProgress]]:
     """Workers, store and progress for the check of a site, open while it lasts."""
     from netdesign.study.cases import list_phases
 
-    return open_phases(list_phases(site, run, profiles), asked)
+    return open_phases(list_phases(site), asked)
 
 
 @contextmanager

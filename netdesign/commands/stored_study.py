@@ -108,7 +108,7 @@ def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study
 
     run = build_run(study, asked.get("jobs") or os.cpu_count() or 1)
     solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
-    with open_run(inputs.site, run, solving) as (runner, watch):
+    with open_run(inputs.site, solving) as (runner, watch):
         (again,) = check_site(inputs.site, [inputs.profile], run, runner, watch)
     if failed := print_faults(runner.faults):
         sys.exit(failed)

@@ -41,20 +41,14 @@ class Phase:
         Its name, for people.
     cases : int
         About so many solves.
-    cost : float
-        Time of one over that of a steady case in one process [-].
     pieces : int
         Net rows; 0 where cases are all there is.
-    seconds : float
-        What it takes besides solves [s].
     """
 
     key: str
     words: Message | str
     cases: int
-    cost: float = 1.0
     pieces: int = 0
-    seconds: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,7 +24,6 @@ from netdesign.words.message import Message, group_reasons, say
 # takes one for each other creep law.
 _SEARCH, _BESIDE = 55, len(CREEP_LAWS) - 1
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
-_REPORTS_S = 1.5  # time that the reports of one profile take
 CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
 _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each more
 
@@ -41,31 +40,16 @@ def _count_row(ranges: Ranges) -> int:
     return max(_SEARCH, len(list_first_design(len(ranges.axes))) + _BEYOND_FIRST)
 
 
-def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
+def list_phases(site: Site) -> list[Phase]:
     """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
+    search, checks = count_cases(site), rows * _BESIDE
     phases = [
-        Phase(
-            key="envelope",
-            words=say("phase.search_cases"),
-            cases=count_cases(site),
-            cost=1.0 / run.jobs,
-        ),
-        Phase(
-            key="checks",
-            words=say("phase.checks"),
-            cases=rows * _BESIDE,
-            cost=1.0 / min(run.jobs, rows),
-            pieces=rows,
-        ),
-        Phase(
-            key="reports",
-            words=say("phase.reports"),
-            cases=0,
-            seconds=_REPORTS_S * profiles,
-        ),
+        Phase(key="envelope", words=say("phase.search_cases"), cases=search),
+        Phase(key="checks", words=say("phase.checks"), cases=checks, pieces=rows),
     ]
-    return [phase for phase in phases if phase.cases or phase.seconds]
+    reports = Phase(key="reports", words=say("phase.reports"), cases=0)
+    return [*(phase for phase in phases if phase.cases), reports]
 
 
 def search_site(

@@ -17,20 +17,18 @@ solve_once = lru_cache(maxsize=None)(solve_scene)
 
 COUNT = st.integers(0, 7)
 WAVES = st.lists(st.tuples(st.integers(1, 9), st.integers(0, 3)), max_size=4)
-PHASES = st.lists(
-    st.tuples(COUNT, st.floats(0.2, 150.0), COUNT, WAVES), min_size=1, max_size=4
-)
+PHASES = st.lists(st.tuples(COUNT, COUNT, WAVES), min_size=1, max_size=4)
 
 
 def run_made_up(drawn, show):
     """Solve waves of cases in each phase, of which some stick and are not solved."""
     phases = [
-        Phase(key=f"p{k}", words=f"phase {k}", cases=cases, cost=cost, pieces=pieces)
-        for k, (cases, cost, pieces, _) in enumerate(drawn)
+        Phase(key=f"p{k}", words=f"phase {k}", cases=cases, pieces=pieces)
+        for k, (cases, pieces, _) in enumerate(drawn)
     ]
-    last = Phase(key="reports", words="reports", cases=0, seconds=2.0)
+    last = Phase(key="reports", words="reports", cases=0)
     progress = RunProgress([*phases, last], show)
-    for phase, (_, _, pieces, waves) in zip(phases, drawn, strict=True):
+    for phase, (_, pieces, waves) in zip(phases, drawn, strict=True):
         progress.enter(phase.key)
         for asked, lost in waves:
             progress.ask(asked)

@@ -61,7 +61,7 @@ def test_ranges_of_one_value_each_are_one_case(standard):
     }
     site, runner = build_site(*ROWS, ranges=Ranges.of(**spans)), Runner()
     found, alone = search_site(site, RUN, runner), solve_site(site, RUN)
-    assert runner.counts.solved == list_phases(site, RUN)[0].cases == len(ROWS)
+    assert runner.counts.solved == list_phases(site)[0].cases == len(ROWS)
     for one, other in zip(found, alone, strict=True):
         assert one.gap is None
         for member, extreme in other.extremes.items():
@@ -152,7 +152,7 @@ def test_each_phase_solves_no_more_than_was_promised(standard, seed):
     """Never more than the upper figure; of a row that passes not even the usual."""
     site, runner, asked = draw_site(seed), Runner(), []
     runner.on_ask = asked.extend
-    promised = {one.key: one for one in list_phases(site, RUN)}
+    promised = {one.key: one for one in list_phases(site)}
     solved = search_site(site, RUN, runner)
     of_envelope = runner.counts.solved
     solver = CaseSolver(RUN.settings, RUN.creep_law, runner)
