@@ -21,6 +21,7 @@ from netdesign.site.cells.cells import (
     TextFormat,
     name_column,
 )
+from netdesign.site.cells.findings import refuse_file
 from netdesign.site.columns.all_tables import (
     IGNORE,
     SHEETS,
@@ -30,7 +31,7 @@ from netdesign.site.columns.all_tables import (
     list_unclear,
 )
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, split_heading
-from netdesign.site.columns.office import load_plan
+from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.lists.guess import guess
 from netdesign.site.lists.join import (
     find_list_unit,
@@ -61,6 +62,7 @@ _FIRST_LINES = 20  # in which headings stand
 _LEAST_TEXTS = 3  # in a line of headings
 _LEAST_KNOWN = 2  # of them, in a sheet that is read
 _EXAMPLES = 3
+_IGNORED = f'becomes = "{IGNORE}"'
 _OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
     ("rows", "net_types"), "Nets"
 )
@@ -116,7 +118,8 @@ def write_list_map(
     Raises
     ------
     SiteDataError
-        If the list cannot be read at all, or a file of answers beside it.
+        If the list cannot be read at all, or a file of answers beside it; if no sheet
+        has headings that are known.
     """
     given = read_list_map(path)
     if given and not text_format.decimal_mark:
@@ -125,10 +128,16 @@ def write_list_map(
     workbook = read_list(path, text_format)
     lines = [*_begin(path, given, language)]
     count = 0
+    is_known = False
     for sheet in workbook.sheets:
         more, missing = _write_sheet(sheet, given, language)
+        is_known = is_known or _IGNORED not in more
         lines += more
         count += missing
+    if not is_known:
+        names = (one.field.name for one in load_columns("rows")[:3])
+        accepted = say("list_map.headings", names=tuple(names))
+        raise refuse_file(path.name, say("list_map.no_list"), accepted)
     return "\n".join(lines) + "\n", count
 
 
@@ -217,7 +226,7 @@ def _write_sheet(
     place = f"tables.{_quote(sheet.name)}"
     lines = [f"[{place}]"]
     if not becomes or not line:
-        return [*lines, f'becomes = "{IGNORE}"', ""], 0
+        return [*lines, _IGNORED, ""], 0
     table = ListTable(name=sheet.name, becomes=becomes, line=line)
     guesses = list(guess_headings(sheet, table, language))
     old = known.headings if known else {}

@@ -208,6 +208,17 @@ def test_a_list_with_the_headings_of_the_template_and_other_sheets_is_mapped(tmp
     assert is_own_list(path, UNDECLARED)
 
 
+@pytest.mark.parametrize("cells", [[], ["row"], ["Datum", "Wetter", "Wind", "Ort"]])
+def test_a_workbook_without_known_headings_is_no_list(cells, tmp_path):
+    book = openpyxl.Workbook()
+    book.active.append(cells)
+    book.save(tmp_path / "site.xlsx")
+    with pytest.raises(SiteDataError) as refused:
+        write_list_map(tmp_path / "site.xlsx")
+    (finding,) = refused.value.findings
+    assert finding.rule.key == "list_map.no_list"
+
+
 def spoil(path, old, new):
     place = name_map(path)
     text = place.read_text(encoding="utf-8")
