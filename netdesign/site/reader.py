@@ -8,8 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
-from netdesign.checks import list_standards
-from netdesign.edge.input_files import is_there
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import (
@@ -40,7 +38,7 @@ from netdesign.site.lists.list_map import (
     read_list_map,
     require_answered,
 )
-from netdesign.site.model import NetRow, Project, ReplacedCell, Site
+from netdesign.site.model import NetRow, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
@@ -152,7 +150,7 @@ def _build_site(
     )
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(one.severity == "error" for one in findings):
-        raise _refuse(lines, findings)
+        raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(findings)
     asked = ask(lines, confirmed, findings)
     rows = (replace(row, questions=asked[row.id]) for row in net_rows)
@@ -191,12 +189,6 @@ def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
     return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
 
 
-def _refuse(lines: Lines, findings: list[Finding]) -> SiteDataError:
-    workbook, cells = lines.workbook, lines.project_cells
-    findings.extend(_list_unknown_profiles(workbook, lines.project, cells))
-    return SiteDataError(findings, fold_findings(findings, workbook.file))
-
-
 def _refuse_rows_elsewhere(
     path: Path, workbook: Workbook, text_format: TextFormat
 ) -> Iterator[Finding]:
@@ -216,27 +208,6 @@ def _refuse_rows_elsewhere(
         if sheet.name in names and count_known(sheet, plan) >= _LEAST_KNOWN:
             accepted = say("table.copy_accepted", name=plan.title)
             yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
-
-
-def _list_unknown_profiles(
-    workbook: Workbook, project: Project, cells: Mapping[str, str]
-) -> Iterator[Finding]:
-    """Profile that does not exist, beside other faults.
-
-    Without them it is no fault of the workbook: a command may name another profile.
-    """
-    named = project.standard
-    if not named or named in list_standards() or is_there(Path(named)):
-        return
-    sheet, _, cell = cells["standard"].rpartition("!")
-    yield Finding(
-        file=workbook.file,
-        sheet=sheet,
-        cell=cell,
-        text=named,
-        rule=say("cell.no_profile"),
-        accepted=say("accepted.words", words=list_standards()),
-    )
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:

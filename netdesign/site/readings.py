@@ -282,9 +282,6 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
         if reading.state != "given":
             continue
         field = reading.field
-        for other in (row[key] for key in field.not_beside):
-            if other.state == "given":
-                refuse_beside(reading, other, findings)
         for key, words in field.not_with.items():
             if row[key].word in words:
                 refuse_with(reading, row[key], words, findings)

@@ -285,7 +285,6 @@ def _note_oddities(
     findings: list[Finding],
 ) -> tuple[Message, ...]:
     """Remarks in the findings, and one of each kind for the page of the winter."""
-    notes: list[Message] = []
     gaps = [
         gap
         for gap in find_gaps(heights)
@@ -293,28 +292,27 @@ def _note_oddities(
         and not gap.is_between
         and any(heights[day] > 0 for day in (gap.before, gap.after))
     ]
+    filled = [day for gap in gaps for day in gap.days]
+    lines = list(days.values())
+    odd: list[tuple[Message, Reading]] = []
     if gaps:
-        listed = _list_days([day for gap in gaps for day in gap.days])
-        notes.append(say("winter_sheet.filled", days=listed))
-        reading = days[gaps[0].after]["date"]
-        refuse(reading, notes[-1], "", findings, severity="note")
-    if spikes := find_spikes(series):
-        notes.append(say("winter_sheet.spike", days=_list_days(spikes)))
-        reading = days.get(spikes[0], next(iter(days.values())))["snow_height"]
-        refuse(reading, notes[-1], "", findings, severity="note")
-    if stills := find_stills(series):
-        notes.append(say("winter_sheet.still", days=_list_days(stills)))
-        reading = days.get(stills[0], next(iter(days.values())))["snow_height"]
-        refuse(reading, notes[-1], "", findings, severity="note")
+        told = say("winter_sheet.filled", days=_list_days(filled))
+        odd.append((told, days[gaps[0].after]["date"]))
+    for key, at in (
+        ("winter_sheet.spike", find_spikes(series)),
+        ("winter_sheet.still", find_stills(series)),
+    ):
+        if at:
+            line = days.get(at[0], lines[0])
+            odd.append((say(key, days=_list_days(at)), line["snow_height"]))
     if series.cut:
-        notes.append(say("winter_sheet.cut", winters=series.cut))
-        last = list(days.values())[-1]["snow_height"]
-        refuse(last, notes[-1], "", findings, severity="note")
+        told = say("winter_sheet.cut", winters=series.cut)
+        odd.append((told, lines[-1]["snow_height"]))
     if series.starts_in_snow:
-        notes.append(say("winter_sheet.starts_in_snow"))
-        first = next(iter(days.values()))["snow_height"]
-        refuse(first, notes[-1], "", findings, severity="note")
-    return tuple(notes)
+        odd.append((say("winter_sheet.starts_in_snow"), lines[0]["snow_height"]))
+    for note, reading in odd:
+        refuse(reading, note, "", findings, severity="note")
+    return tuple(note for note, _ in odd)
 
 
 def _read_factors(

@@ -7,7 +7,6 @@ Tests, the chain of links behind it those of sheet Links.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -20,7 +19,7 @@ from netdesign.resistance.steel import Link
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.lines import Types, refuse_unknown_ids
-from netdesign.site.readings import Reading, Row, refuse, work_out
+from netdesign.site.readings import Reading, Row, refuse, refuse_beside, work_out
 from netdesign.site.type_resistances import TEST_COLUMNS
 from netdesign.words.message import Message, say
 
@@ -191,19 +190,14 @@ def _count(
     return [_fill_in(line, tests, tests[0]["ground"]) for tests in tested]
 
 
-_ROUNDED = 0.005  # by which a number typed beside single tests may differ from theirs
+_OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that say what tests say
 
 
 def _refuse_others(line: Row, tests: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse tests beside a number of tests, least or mean that is not theirs."""
-    for key, number in zip(TEST_COLUMNS, _sum_up(tests), strict=True):
-        typed = line[key]
-        is_given = typed.state == "given"
-        if is_given and not math.isclose(typed.number, number, rel_tol=_ROUNDED):
-            rule = say("tests.other", number=number, name=typed.field.name)
-            beside = say("tests.beside", place=typed.place, text=quote(typed.text))
-            refuse(tests[0]["force"], rule, beside, findings)
-            return
+    """Refuse tests beside a number that a type has of its own."""
+    typed = (line[key] for key in _OF_TESTS if line[key].state == "given")
+    for reading in typed:
+        refuse_beside(tests[0]["force"], reading, findings)
 
 
 def _sum_up(tests: Sequence[Row]) -> tuple[float, float, float]:

@@ -171,8 +171,6 @@ class Field:
         Quantities of a product that its number must agree with.
     required : bool
         Whether the heading and every cell below it must be there.
-    not_beside : tuple of str
-        Keys of columns that say the same, or the contrary.
     not_with : mapping of str to sequence of str
         Words of other columns with which it means nothing.
     needs : tuple of str
@@ -209,7 +207,6 @@ class Field:
     scatters: bool = False
     of_product: tuple[str, ...] = ()
     required: bool = False
-    not_beside: tuple[str, ...] = ()
     not_with: Mapping[str, Sequence[str]] = field(default_factory=dict)
     needs: tuple[str, ...] = ()
     words: tuple[str, ...] = ()

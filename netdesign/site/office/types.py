@@ -117,13 +117,13 @@ def _fill_in_steel(row: Row, findings: list[Finding]) -> Row:
     if row["kind"].word == "rope anchor" or "faulty" in (force.state, diameter.state):
         return row
     product = find_bar(row["id"].word)
-    is_open = all(row[key].state == "blank" for key in _STEEL)
-    if product is not None and (is_open or force.state != "given"):
+    is_whole = diameter.state == force.state == "given"
+    if product is not None and not is_whole:
         keys = [key for key in _STEEL if row[key].state != "given"]
         how = say("derivation.named_bar", product=product.id, sources=product.sources)
         steel = name_values(row, keys, product, ("inner_diameter",), how)
         return compute_tendon({**row, **steel}, findings)
-    if diameter.state == force.state == "given":
+    if is_whole:
         area = 0.25 * math.pi * diameter.si**2
         strength, field = from_si(force.si / area, "MPa"), row["bar_strength"].field
         how = say("office.strength_of_force", place=force.place)

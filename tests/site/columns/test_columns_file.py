@@ -47,7 +47,7 @@ def test_what_a_column_names_is_there():
         assert keys.issuperset(plan.one_of)
         for one in plan.fields:
             beside = [key for usual in one.beside for key in usual.powers]
-            named = {*beside, *one.not_beside, *one.not_with, *one.needs}
+            named = {*beside, *one.not_with, *one.needs}
             assert named <= keys
             assert one.kind in get_args(Kind)
             assert one.refers_to in ("", *TABLES)
