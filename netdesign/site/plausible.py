@@ -155,14 +155,13 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
             alone[key] = told
     for key, reading in typed.items():
         told = alone.get(key) or _doubt_beside(reading, line, alone)
-        told = told or _doubt_tested(reading, key, line)
         if told:
             alone[key] = told
             yield reading, told
     meant = {key: one for key, one in typed.items() if key not in alone}
     yield from _list_eccentric(meant, line)
     for key in _TESTED if _TESTED[0] in line else ():
-        if key not in alone and (told := _doubt_pulled(line[key], key, line)):
+        if key not in alone and (told := _doubt_pulled(key, line)):
             yield line[key], told
 
 
@@ -230,10 +229,8 @@ def _doubt_beside(
     return None
 
 
-def _doubt_tested(reading: Reading, key: str, line: Row) -> Message | None:
+def _doubt_tested(reading: Reading, line: Row) -> Message | None:
     """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
-    if key != "test_mean":
-        return None
     limit = find_proof_limit(line, has_loop=False)
     if limit is None or reading.si <= limit * (1.0 + 1e-9):
         return None
@@ -254,10 +251,12 @@ def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
         yield reading, say("plausible.eccentric", number=number, unit=unit)
 
 
-def _doubt_pulled(reading: Reading, key: str, line: Row) -> Message | None:
+def _doubt_pulled(key: str, line: Row) -> Message | None:
     """Doubt about a pull-out force, also about the mean of the lines of sheet Tests."""
-    is_counted = key == "test_mean" and reading.derivation is not None
-    told = _doubt_tested(reading, key, line) if is_counted else None
+    reading = line[key]
+    if reading.state != "given":
+        return None
+    told = _doubt_tested(reading, line) if key == "test_mean" else None
     return told or _doubt_bond(reading, key, line)
 
 
@@ -266,8 +265,6 @@ def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
 
     One from a test may lie further beyond the catalogue than one that is worked out.
     """
-    if reading.state != "given":
-        return None
     bond = find_bond(line, reading.si)
     if bond is None:
         return None
