@@ -62,10 +62,9 @@ def solve(scene_file: Path, **asked: Any) -> None:
     start = time.perf_counter()
     solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
-    bound = None if failed else _bound_refused(scene, settings, solution)
     support = _resolve_support(solution, given)
     document = write_solution_document(
-        solution, settings, elapsed, bound, asked["language"], support
+        solution, settings, elapsed, asked["language"], support
     )
     if out is not None:
         write_outputs(out, _render(document, solution), asked)
@@ -114,30 +113,9 @@ def _render(document: dict[str, Any], solution: Solved) -> dict[str, bytes]:
     return files
 
 
-def _bound_refused(
-    scene: Scene, settings: Settings, solution: object
-) -> Solution | None:
-    """Bound on the pulls of a net without a steady state; None if it has one."""
-    from netdesign.coupling.scene import SolverSettings
-    from netdesign.coupling.solution import FailedSolution
-    from netdesign.coupling.steady.solve import bound_by_less_slack
-
-    if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
-        return bound_by_less_slack(scene, settings)
-    return None
-
-
 def _show_refusal(solution: Solved, document: dict[str, Any]) -> None:
     message = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
     tell(message)
-    if bound := document.get("upper_bound"):
-        limit = say(
-            "solve.bound",
-            slack=bound["slack"],
-            foot=bound["foot_kN_per_m"],
-            head=bound["head_kN_per_m"],
-        )
-        tell(limit)
 
 
 def _show_solution(document: dict[str, Any]) -> None:

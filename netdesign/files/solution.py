@@ -33,21 +33,19 @@ def write_solution_document(
     solution: Solution | FailedSolution,
     settings: Settings,
     wall_s: float,
-    bound: Solution | None = None,
     language: Language = "en",
     support: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Solution as plain values in the form ``netdesign.solution/1``.
 
-    ``bound`` is that of a failed solution, ``support`` what `cases.write_support` says
-    of a net's, where there is one; reasons and remarks are in ``language``.
+    ``support`` is what `cases.write_support` says of a net's, where there is one;
+    reasons and remarks are in ``language``.
     """
     if isinstance(solution, FailedSolution):
         return {
             "schema": SOLUTION_SCHEMA,
             "outcome": solution.outcome.value,
             "reason": render(solution.reason, language),
-            **({} if bound is None else {"upper_bound": _write_bound(bound)}),
         }
     history = getattr(solution, "history", None)
     return {
@@ -68,18 +66,6 @@ def write_solution_document(
             "clock": _write_clock(solution.scene),
             "element": solution.scene.flow_problem.element,
             "settings": settings.describe(),
-        },
-    }
-
-
-def _write_bound(bound: Solution) -> dict[str, float]:
-    """Pulls that a refused net stays below: those of the same net with this slack."""
-    ends = {"foot": bound.foot, "head": bound.head}
-    return {
-        "slack": bound.scene.net.slack,
-        **{
-            f"{end}_kN_per_m": kilonewton_from_newton(pull.size + pull.error)
-            for end, pull in ends.items()
         },
     }
 

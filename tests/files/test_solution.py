@@ -2,12 +2,9 @@
 
 import json
 
-import pytest
-
 from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.solve import bound_by_less_slack
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import ModelError
 from netdesign.solving.solve import solve_scene
@@ -50,17 +47,10 @@ def test_ground_without_pressure_gives_numbers():
 TOUCHING = draw_scene(3, 560)
 
 
-def test_refused_net_says_what_to_change_and_what_it_stays_below():
+def test_refused_net_says_what_to_change():
     scene = build_tables(TOUCHING)
     refused = solve_scene(scene, ROUGH)
     assert isinstance(refused, FailedSolution)
     assert "less slack, less inclination or a stiffer net is needed" in str(
         refused.reason
-    )
-    bound = bound_by_less_slack(scene, ROUGH)
-    assert bound is not None
-    written = write_solution_document(refused, ROUGH, 0.0, bound)["upper_bound"]
-    assert 0.0 < written["slack"] < scene.net.slack
-    assert written["foot_kN_per_m"] == pytest.approx(
-        (bound.foot.size + bound.foot.error) / 1e3, rel=1e-12
     )

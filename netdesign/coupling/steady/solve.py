@@ -52,8 +52,6 @@ from netdesign.words.message import say
 _HOPELESS_SUCTION = 2.0
 # Triangles of layered snow with pressures of their own: 0.3 s and 0.2 GB a mesh.
 MOST_MIXED_TRIANGLES = 1500
-# Shares of a refused net's slack that are tried in turn.
-_SLACK_SHARES = (0.75, 0.5, 0.25, 0.0)
 
 
 def solve_steady(
@@ -197,7 +195,8 @@ def _require_affordable(scene: Scene, problem: SteadyProblem) -> None:
         If the mesh is larger; coarser ones that were solved then count.
     """
     count = problem.template.triangles.shape[1]
-    if _keeps_volume(problem) and count > MOST_MIXED_TRIANGLES:
+    keeps_volume = problem.is_layered and problem.snow.element == "mixed"
+    if keeps_volume and count > MOST_MIXED_TRIANGLES:
         densest = max(layer.density for layer in scene.layers)
         what = say(
             "steady.too_much_work",
@@ -206,11 +205,6 @@ def _require_affordable(scene: Scene, problem: SteadyProblem) -> None:
             most=MOST_MIXED_TRIANGLES,
         )
         raise SolveError(Outcome.MAX_ITERATIONS, what)
-
-
-def _keeps_volume(problem: SteadyProblem) -> bool:
-    """Layered snow with one so dense that pressures are unknowns of their own."""
-    return problem.is_layered and problem.snow.element == "mixed"
 
 
 def _require_pressure(end: CoupledState) -> None:
@@ -298,38 +292,3 @@ def _build_solution(
             skipped=list_skipped(scene, mesh),
         ),
     )
-
-
-def bound_by_less_slack(scene: Scene, settings: SolverSettings) -> Solution | None:
-    """A refused scene with the most slack that is solved: its own pulls are smaller.
-
-    Less slack is less sag, and a flatter net pulls more: coupling/THEORY.md, section 2.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    settings : SolverSettings
-        Accuracy and tolerances.
-
-    Returns
-    -------
-    Solution or None
-        None if the net has no slack, none of the tautened nets is solved, or a layer is
-        so dense that each of them is much work.
-
-    Verified by
-    -----------
-    tests/coupling/steady/test_bound.py
-    """
-    net = scene.net
-    if net.slack == 0.0:
-        return None
-    if _keeps_volume(_build_problem(scene, settings.levels[0])):
-        return None
-    for share in _SLACK_SHARES:
-        tauter = replace(net, slack=share * net.slack)
-        solution = solve_steady(replace(scene, net=tauter), settings)
-        if isinstance(solution, Solution):
-            return solution
-    return None

@@ -1,10 +1,9 @@
-"""Less slack pulls more: over random scenes, and the ladder of tautened nets."""
+"""Less slack pulls more, over random scenes; layers of ice and their work."""
 
 import re
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings
@@ -12,10 +11,9 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
 from netdesign.coupling.steady.solve import (
     MOST_MIXED_TRIANGLES,
-    bound_by_less_slack,
     solve_steady,
 )
-from netdesign.outcome import ModelError, Outcome
+from netdesign.outcome import ModelError
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.coupling.drawn_scenes import draw_scene as draw_untidy
 from tests.each import each
@@ -43,40 +41,6 @@ def test_less_slack_pulls_more():
         assert more.foot.size > own.foot.size
         compared += 1
     assert compared > 8
-
-
-def test_the_most_slack_that_is_solved_is_taken(monkeypatch, a_scene, solved):
-    tried = []
-
-    def solve(scene, _settings):
-        tried.append(scene.net.slack)
-        if scene.net.slack > 0.3 * slack:
-            return FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason="folds")
-        return replace(solved(), scene=scene)
-
-    scene = a_scene()
-    slack = 0.0731
-    scene = replace(scene, net=replace(scene.net, slack=slack))
-    monkeypatch.setattr(steady_solve, "solve_steady", solve)
-    found = bound_by_less_slack(scene, ROUGH)
-    assert found is not None
-    assert found.scene.net.slack == 0.25 * slack
-    assert tried == [0.75 * slack, 0.5 * slack, 0.25 * slack]
-
-
-def test_nothing_bounds_a_taut_net(a_scene):
-    scene = a_scene()
-    taut = replace(scene, net=replace(scene.net, slack=0.0))
-    assert bound_by_less_slack(taut, ROUGH) is None
-
-
-@pytest.mark.parametrize("slack", [0.0731])
-def test_nothing_bounds_what_fails_taut_too(monkeypatch, a_scene, slack):
-    failed = FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason="folds")
-    monkeypatch.setattr(steady_solve, "solve_steady", lambda *_: failed)
-    scene = a_scene()
-    scene = replace(scene, net=replace(scene.net, slack=slack))
-    assert bound_by_less_slack(scene, ROUGH) is None
 
 
 # --- fault 18: layers of ice between light ones cost no more than is said -----------
@@ -111,7 +75,6 @@ def test_layers_of_ice_end_within_the_work_that_is_allowed(seed):
     else:
         assert solved.cost.elements <= MOST_MIXED_TRIANGLES
         assert solved.cost.linear_solves < 400
-    assert bound_by_less_slack(scene, ROUGH) is None
 
 
 def test_a_mesh_beyond_the_work_is_refused_with_the_layer(monkeypatch):
