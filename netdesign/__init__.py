@@ -1,7 +1,9 @@
 """Checks the anchors of snow nets by a coupled snowpack-net calculation."""
 
 import os
+import re
 from functools import lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -14,48 +16,6 @@ if TYPE_CHECKING:
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
-# Names for use from Python. ``public.py`` says where each one lives.
-__all__ = [
-    "AnchorForces",
-    "FailedPanel",
-    "FailedSolution",
-    "FailedSupport",
-    "GroundLaw",
-    "Interval",
-    "Layer",
-    "Net",
-    "NetDesignError",
-    "Panel",
-    "PanelSolution",
-    "Ranges",
-    "Rope",
-    "RowEnvelope",
-    "Scene",
-    "Scope",
-    "Site",
-    "Snowpack",
-    "Solution",
-    "SolveError",
-    "SolverSettings",
-    "Standard",
-    "Study",
-    "SupportLayout",
-    "build_ground_from_glide_factor",
-    "build_layered_snowpack",
-    "check",
-    "find_anchor_forces",
-    "find_envelope",
-    "find_guideline_load",
-    "load_standard",
-    "read_scene",
-    "read_site",
-    "read_study",
-    "solve_panel",
-    "solve_steady",
-    "write_reports",
-    "write_site_workbook",
-]
-
 
 @lru_cache
 def _read_version() -> str:
@@ -64,13 +24,22 @@ def _read_version() -> str:
     return version("netdesign")
 
 
+@lru_cache
+def _list_names() -> list[str]:
+    """Names for use from Python, of ``public.py`` as it is written: not imported."""
+    text = Path(__file__).with_name("public.py").read_text(encoding="utf-8")
+    return sorted(re.findall(r" as (\w+),?$", text, re.M))
+
+
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         """Public name, loaded when it is first asked for: help needs no solver."""
         if name == "__version__":
             return _read_version()
-        if name not in __all__:
+        if name == "__all__":
+            return _list_names()
+        if name not in _list_names():
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         from netdesign import public
 
@@ -79,4 +48,4 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     """Names of the module, those not loaded yet included."""
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *_list_names()})

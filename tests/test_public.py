@@ -1,27 +1,12 @@
 """The names that ``from netdesign import ...`` gives."""
 
-import ast
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 import netdesign
 from tests.each import each
-
-PUBLIC = Path(netdesign.__file__).with_name("public.py")
-
-
-def test_the_list_of_names_is_that_of_the_module_that_imports_them():
-    imported = {
-        alias.asname
-        for node in ast.walk(ast.parse(PUBLIC.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-    }
-    assert imported == set(netdesign.__all__)
-    assert sorted(netdesign.__all__) == list(netdesign.__all__)
 
 
 @each("name", netdesign.__all__)
