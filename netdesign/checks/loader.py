@@ -27,6 +27,7 @@ from netdesign.checks.schema import (
     TableEntry,
     TablesFile,
     check_table,
+    find_bounds,
 )
 from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
@@ -61,8 +62,8 @@ class StandardValue:
         Such as "deg", "m" or "-".
     status : str
         "read" in the document, from a "secondary" source, "assumed", or "user".
-    reason_below_one, reason_beyond : str
-        Why a factor may lie below 1, a value beyond what any document has; else "".
+    reason_beyond : str
+        Why it may lie beyond what any document has, as a factor below 1; else "".
     """
 
     id: str
@@ -72,17 +73,7 @@ class StandardValue:
     unit: str
     status: str
     source: str
-    reason_below_one: str = ""
     reason_beyond: str = ""
-
-    @property
-    def reasons(self) -> dict[str, str]:
-        """Reasons of the profile for an odd value, by the text that names them."""
-        reasons = {
-            "note.below_one": self.reason_below_one,
-            "note.beyond": self.reason_beyond,
-        }
-        return {key: reason for key, reason in reasons.items() if reason}
 
     @property
     def value_si(self) -> float:
@@ -96,7 +87,7 @@ class StandardTable:
 
     Attributes
     ----------
-    id, clause, text, status, source, reason_below_one, reason_beyond : str
+    id, clause, text, status, source, reason_beyond : str
         As for a `StandardValue`.
     over : str
         What is counted: "tests".
@@ -111,7 +102,6 @@ class StandardTable:
     status: str
     source: str
     rows: tuple[tuple[int, float, float], ...]
-    reason_below_one: str = ""
     reason_beyond: str = ""
 
     def find(self, count: int) -> float | None:
@@ -123,6 +113,7 @@ class StandardTable:
     @property
     def values(self) -> tuple[StandardValue, ...]:
         """Each row as a value of its own, for lists: ``id[from]``."""
+        least, most = find_bounds(self.id)
         return tuple(
             StandardValue(
                 id=f"{self.id}[{low}]",
@@ -134,8 +125,7 @@ class StandardTable:
                 unit="-",
                 status=self.status,
                 source=self.source,
-                reason_below_one=self.reason_below_one if value < 1.0 else "",
-                reason_beyond=self.reason_beyond,
+                reason_beyond="" if least <= value <= most else self.reason_beyond,
             )
             for low, high, value in self.rows
         )

@@ -169,7 +169,7 @@ class Entry(_Table):
     unit: Text
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
-    reason_beyond: str = ""  # of a value beyond what any document has
+    reason_beyond: str = ""  # of a value beyond what any document has, or below 1
 
 
 class LimitEntry(Entry):
@@ -189,12 +189,10 @@ class FactorEntry(Entry):
 
     id: Annotated[str, _is_one_of(FACTOR_IDS)]
     unit: Literal["-"]
-    reason_below_one: str = ""
 
     @model_validator(mode="after")
     def _check(self) -> FactorEntry:
-        _require_reason(self.id, self.value, self.reason_below_one)
-        _require_bounds(self.id, max(self.value, 1.0), self.reason_beyond)
+        _require_bounds(self.id, self.value, self.reason_beyond)
         return self
 
 
@@ -225,7 +223,6 @@ class TableRow(_Table):
 class TableEntry(_Table):
     """Values by a count: rows in order, without overlap and without a gap.
 
-    A value below 1 needs a reason, as that of a factor does.
     Counts below those of the first row have no value.
     """
 
@@ -236,16 +233,13 @@ class TableEntry(_Table):
     unit: Literal["-"]
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
-    reason_below_one: str = ""
     reason_beyond: str = ""
     rows: Annotated[list[TableRow], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _check(self) -> TableEntry:
-        least = min(row.value for row in self.rows)
-        _require_reason(self.id, least, self.reason_below_one)
         for row in self.rows:
-            _require_bounds(self.id, max(row.value, 1.0), self.reason_beyond)
+            _require_bounds(self.id, row.value, self.reason_beyond)
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
@@ -347,13 +341,6 @@ def _require_unit(entry: Entry, unit: str) -> None:
         raise ContentError(
             say("standard.unit", unit=entry.unit, needed=unit, id=entry.id)
         )
-
-
-def _require_reason(name: str, value: float, reason: str) -> None:
-    """Refuse a factor that makes a check milder than none, unless it says why."""
-    if value < 1.0 and not reason:
-        key = "reason_below_one"
-        raise ContentError(say("standard.below_one", id=name, value=value, key=key))
 
 
 def find_bounds(name: str) -> tuple[float, float]:

@@ -73,8 +73,9 @@ def show_profile(name: str, *, language: Language) -> None:
             say("standard.clause", clause=entry.clause, source=source), language
         )
         click.echo(f"    {show_own(words, entry.text)}\n    {clause}")
-        for key, reason in entry.reasons.items():
-            click.echo(f"    {render(say(key, reason=reason), language)}")
+        if entry.reason_beyond:
+            note = say("note.beyond", reason=entry.reason_beyond)
+            click.echo(f"    {render(note, language)}")
 
 
 @standards.command("validate")

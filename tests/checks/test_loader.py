@@ -239,10 +239,10 @@ def test_reason_of_a_factor_below_1_stands_beside_its_value(folder):
     factors, why = folder / "factors.toml", "Measured on nine nets of this type."
     text = factors.read_text("utf-8").replace("value = 1.5\n", "value = 0.87\n", 1)
     factors.write_text(text, "utf-8")
-    with pytest.raises(StandardError, match=r"action\.snow = 0\.87 is below 1"):
+    with pytest.raises(StandardError, match=r"action\.snow = 0\.87 lies beyond 1"):
         load_standard(folder)
-    edit(factors, "value = 0.87\n", f'value = 0.87\nreason_below_one = "{why}"\n')
+    edit(factors, "value = 0.87\n", f'value = 0.87\nreason_beyond = "{why}"\n')
     values = {value.id: value for value in load_standard(folder).listed}
-    assert values["action.snow"].reason_below_one == why
-    others = {v.reason_below_one for k, v in values.items() if k != "action.snow"}
+    assert values["action.snow"].reason_beyond == why
+    others = {v.reason_beyond for k, v in values.items() if k != "action.snow"}
     assert others == {""}

@@ -160,10 +160,10 @@ def list_odd_values(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
             "show.label",
             label=f"{show_own(words, value.text)} = "
             f"{words.show_quantity(value.value, value.unit)}",
-            text=words(key, reason=show_text(reason)),
+            text=words("note.beyond", reason=show_text(value.reason_beyond)),
         )
         for value in profile.values
-        for key, reason in value.reasons.items()
+        if value.reason_beyond
     )
 
 
