@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
@@ -15,7 +15,6 @@ from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Fault, Outcome, OutputError, SolveError
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
@@ -95,40 +94,6 @@ class Balance:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Skipped:
-    """Parts that a scene did not need.
-
-    Attributes
-    ----------
-    upslope_length : float
-        Snow beyond the net's reach, taken as a load [m].
-    pressure_unknowns : int
-        Of the mixed element, which only snow near ice needs.
-    """
-
-    upslope_length: float = 0.0
-    pressure_unknowns: int = 0
-
-
-def list_skipped(scene: Scene, mesh: PlacedMesh) -> Skipped:
-    """Parts of a scene that a steady solve on this mesh did without.
-
-    Parameters
-    ----------
-    scene : Scene
-        What was solved.
-    mesh : PlacedMesh
-        On which.
-    """
-    pack = scene.snowpack
-    is_mixed = mesh.n_dofs > mesh.n_velocities
-    return Skipped(
-        upslope_length=pack.upslope_length - scene.modelled_aspect * pack.thickness,
-        pressure_unknowns=0 if is_mixed else mesh.template.n_vertices,
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Cost:
     """Work that a solve took; no clock, so that equal solves are equal.
 
@@ -138,15 +103,12 @@ class Cost:
         Of all meshes.
     elements, degrees_of_freedom : int
         Of the finest mesh.
-    skipped : Skipped
-        What the scene did not need.
     """
 
     linear_solves: int
     rounds: int
     elements: int
     degrees_of_freedom: int
-    skipped: Skipped = field(default_factory=Skipped)
 
 
 class FollowedHistory(Protocol):

@@ -71,17 +71,13 @@ def write_solution_document(
 
 
 def _write_cost(cost: Cost, wall_s: float) -> dict[str, Any]:
-    """Work of the solve, and the parts that it did without."""
+    """Work of the solve."""
     return {
         "wall_s": wall_s,
         "linear_solves": cost.linear_solves,
         "rounds": cost.rounds,
         "elements": cost.elements,
         "degrees_of_freedom": cost.degrees_of_freedom,
-        "skipped": {
-            "upslope_length_m": cost.skipped.upslope_length,
-            "pressure_unknowns": cost.skipped.pressure_unknowns,
-        },
     }
 
 

@@ -37,7 +37,6 @@ from netdesign.coupling.solution import (
     OnFailure,
     Solution,
     end_solve,
-    list_skipped,
     triangle_density,
 )
 from netdesign.coupling.steady.net import NetEquilibrium, SteadyProblem, hang_net
@@ -289,6 +288,5 @@ def _build_solution(
             rounds=sum(state.rounds for state in states),
             elements=mesh.template.triangles.shape[1],
             degrees_of_freedom=mesh.n_dofs,
-            skipped=list_skipped(scene, mesh),
         ),
     )
