@@ -54,30 +54,6 @@ class RopeForces:
     tensions: Floats
 
 
-@dataclass(frozen=True, slots=True)
-class PanelBalance:
-    """Forces and moments that are missing, over the load (and the chord).
-
-    Attributes
-    ----------
-    force : float
-        Of the load on feet and heads [-].
-    moment_in_section : float
-        Of the strips about the foot's line [-].
-    moment_along_row : float
-        Of half the panel about the post's section [-].
-    """
-
-    force: float
-    moment_in_section: float
-    moment_along_row: float
-
-    @property
-    def largest(self) -> float:
-        """Largest of the three [-]."""
-        return max(self.force, self.moment_in_section, self.moment_along_row)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PanelSolution:
     """A panel between equal ones, at rest; its balance was checked. SI units.
@@ -95,8 +71,8 @@ class PanelSolution:
         z of the strips: those that were solved for, and mid-panel [m].
     curves : ndarray, shape (K + 1, 2, 2 n + 1)
         Their nodes in the axes of the section [m].
-    balance : PanelBalance
-        What is missing in it.
+    balance : float
+        Largest force or moment that is missing, (P6), over load (and chord) [-].
     steps : int
         Of Newton's method.
     """
@@ -109,7 +85,7 @@ class PanelSolution:
     upper: RopeForces
     stations: Floats
     curves: Floats
-    balance: PanelBalance
+    balance: float
     steps: int
 
     @property
@@ -185,7 +161,7 @@ class SolvedPanels:
             upper=upper,
             stations=self.stations[place],
             curves=self.curves[place],
-            balance=PanelBalance(*self.balance[place].tolist()),
+            balance=float(self.balance[place]),
             steps=int(self.steps[place]),
         )
 
@@ -422,17 +398,17 @@ def _refuse(
     problem: PanelProblem, curves: Floats, balance: Floats
 ) -> dict[int, FailedPanel]:
     """Panels that lie on the ground, or are not in balance."""
-    depths, missing = -curves[:, :, 1].min(axis=(1, 2)), balance.max(axis=1)
+    depths = -curves[:, :, 1].min(axis=(1, 2))
     lies: Mask = depths > _ON_GROUND * problem.strip.chord
     refused = {}
-    for k in np.flatnonzero(lies | ~(missing <= _BALANCED)).tolist():
+    for k in np.flatnonzero(lies | ~(balance <= _BALANCED)).tolist():
         if lies[k]:
             outcome, reason = (
                 Outcome.OUT_OF_VALIDITY,
                 say("panel.lies_on_ground", depth=float(depths[k])),
             )
         else:
-            amount = float(missing[k])
+            amount = float(balance[k])
             outcome, reason = (
                 Outcome.BALANCE_VIOLATED,
                 say("panel.out_of_balance", missing=amount, accepted=_BALANCED),
@@ -447,7 +423,11 @@ def _measure_balance(
     curves: Floats,
     supports: tuple[Floats, ...],
 ) -> Floats:
-    """Missing forces and moments (n, 3), from curves and supports as they are (P6)."""
+    """Largest missing force or moment (n,), of curves and supports as they are (P6).
+
+    Of the load on feet and heads; of the strips about the foot's line; of half the
+    panel about the post's section.
+    """
     strip, half = problem.strip, problem.half
     load, weights = strip.load, problem.alike.stations.weights
     size, chord = problem.load_size, strip.chord
@@ -464,7 +444,7 @@ def _measure_balance(
         np.abs(turned - held)[:, :-1] @ weights / (size * chord),
         np.hypot(lever[:, 0], lever[:, 1]) / (half * size * chord),
     )
-    return np.stack(parts, axis=1)
+    return np.asarray(np.max(parts, axis=0))
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

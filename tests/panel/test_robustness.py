@@ -81,7 +81,7 @@ def end_rows(seed, count):
 
 def name_end(ended):
     if not isinstance(ended, FailedPanel):
-        return "solved" if ended.balance.largest <= 1e-8 else "out of balance"
+        return "solved" if ended.balance <= 1e-8 else "out of balance"
     return ended.reason.key
 
 
