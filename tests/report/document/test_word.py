@@ -14,6 +14,7 @@ docx = pytest.importorskip("docx")
 
 from netdesign.report.document.word import render_document  # noqa: E402
 from netdesign.report.page.html import render_html  # noqa: E402
+from netdesign.words.catalogue import load_texts  # noqa: E402
 from tests.hostile.test_texts_in_outputs import ATTACKS, spoilt_study  # noqa: E402
 from tests.programs import REQUIRED, convert  # noqa: E402
 from tests.report.build_study import build_study  # noqa: E402
@@ -57,6 +58,19 @@ def test_every_cell_of_the_page_is_in_the_document(has_annexes, language):
     numbers = {cell for cell in of_page if re.fullmatch(r"[-+]?\d[\d.,]*", cell)}
     assert len(numbers) > 15
     assert numbers - cells == set()
+    whole = [read_cells(table, language) for table in list_tables(shown)]
+    for section, (first, *others) in filter(lambda one: one[1], page.tables.items()):
+        if section != "annex-checks":  # a line of its own for each step there
+            for table in (first, *(others if section != "decision" else ())):
+                assert read_cells(filter(any, table), language) in whole, section
+
+
+def read_cells(table, language):
+    """Cells of a table but the words of verdicts, which the document has not."""
+    texts = load_texts(language).items()
+    verdicts = [squeeze(text) for key, text in texts if key.startswith("verdict.")]
+    word = "|".join(map(re.escape, sorted(verdicts, key=len, reverse=True)))
+    return [[re.sub(word, "", squeeze(cell), count=1) for cell in x] for x in table]
 
 
 def test_every_picture_is_a_drawing_with_a_fallback_and_words(content):
