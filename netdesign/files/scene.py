@@ -1,7 +1,7 @@
 """The scene file (TOML): one scene, its support, and how it is to be solved.
 
-The fields of ``[support]`` and ``[panel]`` are those of sheet Nets (site/columns); none
-of sag and cut has a default.
+The fields of ``[support]`` and ``[panel]`` are those of the input workbook
+(site/columns); none of sag and cut has a default.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ _PLACE = re.compile(r"(?P<sheet>.+?)[!.](?P<column>[A-Za-z]{1,3})(?P<row>[1-9]\d
 
 
 def split_replacement(text: str) -> tuple[str, str] | None:
-    """Place and text of ``Nets.P8=A40``, the place as ``Nets!P8``; None of others."""
+    """Place and text of ``Rows.P8=A40``, the place as ``Rows!P8``; None of others."""
     place, sign, value = text.partition("=")
     found = _PLACE.fullmatch(place.strip())
     if not sign or found is None or not value.strip():
@@ -62,7 +62,7 @@ def replace_cells(
     workbook : Workbook
         As stored.
     instead : mapping of str to str
-        Texts by place, such as ``Nets!P8``.
+        Texts by place, such as ``Rows!P8``.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -29,7 +29,7 @@ from netdesign.site.titles import (
 from netdesign.words.message import say
 
 _HEADING_ROWS = 20  # from the first filled one: a title block may stand above them
-_LEAST_TEXTS = 3  # in a row of headings of which none is known
+_LEAST_KNOWN = 2  # headings, to be a row of them
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _EXAMPLES = 3  # cells that show how a column is written
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
@@ -109,8 +109,8 @@ def find_headings(
     Table or None
         Without its lines; None if there is no row of headings, which is a finding.
     """
-    row = _find_row(sheet, plan)
-    if row is None:
+    row, known = find_best_row(sheet, plan, _list_first_rows(sheet))
+    if known < _LEAST_KNOWN:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
         findings.append(sheet.finding(say("heading.no_row"), accepted))
@@ -140,38 +140,22 @@ def find_headings(
 
 def count_known(sheet: Sheet, plan: SheetPlan) -> int:
     """Most headings of a plan that one row of a sheet holds, whatever its name."""
-    return max(_count_known(sheet, plan).values(), default=0)
+    return find_best_row(sheet, plan, _list_first_rows(sheet))[1]
 
 
-def _find_row(sheet: Sheet, plan: SheetPlan) -> int | None:
-    """Row with the most known headings, else with the most texts."""
-    for counts, least in (
-        (_count_known(sheet, plan), 2),
-        (_count_texts(sheet), _LEAST_TEXTS),  # of a list whose names nobody knows
-    ):
-        best = max(counts, key=lambda row: counts[row], default=0)
-        if best and counts[best] >= least:
-            return best
-    return None
-
-
-def _count_known(sheet: Sheet, plan: SheetPlan) -> dict[int, int]:
-    return {
+def find_best_row(
+    sheet: Sheet, plan: SheetPlan, rows: Iterable[int]
+) -> tuple[int, int]:
+    """Row that holds the most headings of a plan, and how many; 0 without any."""
+    counts = {
         row: sum(
             isinstance(x.value, str) and plan.find(x.value) is not None
             for x in sheet.row(row)
         )
-        for row in _list_first_rows(sheet)
+        for row in rows
     }
-
-
-def _count_texts(sheet: Sheet) -> dict[int, int]:
-    """Number of texts by row; none of a row that holds anything else."""
-    return {
-        row: len(sheet.row(row))
-        for row in _list_first_rows(sheet)
-        if all(isinstance(one.value, str) for one in sheet.row(row))
-    }
+    best = max(counts, key=lambda row: counts[row], default=0)
+    return best, counts.get(best, 0)
 
 
 def _list_first_rows(sheet: Sheet) -> range:

@@ -52,7 +52,7 @@ class InputEcho:
     unit: str
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above
-    cell: str  # "Nets!C5", or "default"
+    cell: str  # "Rows!C5", or "default"
     derivation: Text | None = None  # how it follows from what was typed
 
 
@@ -60,7 +60,7 @@ class InputEcho:
 class ReplacedCell:
     """A cell that is read as if another text were typed there: a what-if."""
 
-    cell: str  # "Nets!P8"
+    cell: str  # "Rows!P8"
     was: str  # as typed in the workbook, "" where nothing is
     now: str
 
@@ -282,7 +282,7 @@ class StationWinter:
         Parameters
         ----------
         row_id : str
-            As in sheet Nets.
+            As in sheet Rows.
         """
         return self.row_factors.get(row_id, self.height_factor)
 

@@ -75,7 +75,7 @@ class Reading:
 
     @property
     def place(self) -> str:
-        """Cell such as ``Nets!C5``; empty where the sheet has no such column."""
+        """Cell such as ``Rows!C5``; empty where the sheet has no such column."""
         return self.cell.place if self.cell else ""
 
     @property

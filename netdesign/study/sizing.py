@@ -54,7 +54,7 @@ class SizedCell:
     open_rows : tuple of str
         Net rows in which some check does not pass.
     column, cell, was : str
-        Member whose column it is; ``Nets!P8``, "" without such a cell; the type that is
+        Member whose column it is; ``Rows!P8``, "" without such a cell; the type that is
         there.
     types : tuple of str
         Others of its sheet, in the ground of the row.

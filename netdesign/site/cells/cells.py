@@ -91,7 +91,7 @@ class Cell:
 
     @property
     def place(self) -> str:
-        """Address in its workbook: ``Nets!C14``."""
+        """Address in its workbook: ``Rows!C14``."""
         return f"{self.sheet}!{self.address}"
 
     @property

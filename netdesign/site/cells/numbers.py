@@ -341,7 +341,7 @@ def compute_formula(formula: str, find: Callable[[str, str], object]) -> float |
     Parameters
     ----------
     formula : str
-        As an xlsx file stores it: ``=B2*COS(RADIANS(Nets!C2))``.
+        As an xlsx file stores it: ``=B2*COS(RADIANS(Rows!C2))``.
     find : callable
         Content of a cell, by its sheet ("" for the same) and its address.
     """

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import FURTHER, load_old_plans
-from netdesign.site.columns.fields import SheetPlan, normalise, split_heading
+from netdesign.site.columns.fields import normalise, split_heading
 from netdesign.site.columns.office import (
     PARTS,
     TABLES,
@@ -17,13 +17,12 @@ from netdesign.site.columns.office import (
     list_texts,
     load_plan,
 )
-from netdesign.site.headings import Table
+from netdesign.site.headings import Table, find_best_row
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
 from netdesign.site.titles import list_meant
 
 _FIRST_ROWS = 25  # in which headings and their units stand
-_LEAST_KNOWN = 2  # headings, to be a row of them
 _IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
 SHEETS_ALONE = tuple(one for one in TABLES if one not in PARTS)
 _LEAST_OLD = 4  # headings of a sheet Nets
@@ -59,8 +58,7 @@ def is_old(workbook: Workbook) -> bool:
     template = {split_heading(name)[0] for names in named for name in names}
     is_found = False
     for sheet in workbook.sheets:
-        start = _find_start(sheet, nets)
-        headings = _list_headings(sheet, start)
+        headings = _list_headings(sheet, find_best_row(sheet, nets, sheet.rows)[0])
         if rows.matches(sheet.name) and not own.isdisjoint(headings):
             return False
         known = sum(one in template for one in headings)
@@ -72,11 +70,6 @@ def is_old(workbook: Workbook) -> bool:
 def _list_headings(sheet: Sheet, number: int) -> list[str]:
     cells = sheet.row(number)
     return [split_heading(one.value)[0] for one in cells if isinstance(one.value, str)]
-
-
-def _count_known(headings: Sequence[str], plan: SheetPlan) -> int:
-    names = frozenset[str]().union(*(one.names for one in plan.fields))
-    return sum(one in names for one in headings)
 
 
 def find_office_tables(
@@ -167,11 +160,12 @@ def _find_parts(
     """Blocks of sheet Parts, one below the other, each with headings of its own."""
     plan = load_plan(PARTS[0])
     sheet = next((one for one in workbook.sheets if plan.matches(one.name)), None)
-    starts = {
-        name: start
+    best = {
+        name: find_best_row(sheet, load_plan(name), sheet.rows)
         for name in PARTS
-        if sheet and (start := _find_start(sheet, load_plan(name)))
+        if sheet
     }
+    starts = {name: row for name, (row, known) in best.items() if known > 1}
     ends = sorted(starts.values())[1:]
     for name in PARTS:
         if sheet is None or name not in starts:
@@ -183,13 +177,6 @@ def _find_parts(
             name,
             find_table(replace(workbook, sheets=(block,)), load_plan(name), findings),
         )
-
-
-def _find_start(sheet: Sheet, plan: SheetPlan) -> int:
-    """Row with the most headings of a block; 0 where there is none."""
-    counts = {row: _count_known(_list_headings(sheet, row), plan) for row in sheet.rows}
-    best = max(counts, key=lambda row: counts[row], default=0)
-    return best if counts.get(best, 0) >= _LEAST_KNOWN else 0
 
 
 def _cut(sheet: Sheet, start: int, end: int) -> Sheet:
