@@ -170,8 +170,6 @@ class Solution:
         Where the snow slips on the net.
     mesh_nodes : ndarray, shape (2, n_nodes)
         [m].
-    mesh_edges : ndarray, shape (2, n_edges)
-        Node numbers of the triangles' edges.
     mesh_triangles : ndarray, shape (3, n_triangles)
         Node numbers of the triangles' corners.
     mesh_density : ndarray, shape (n_triangles,)
@@ -199,7 +197,6 @@ class Solution:
     net_forces: Floats
     net_slides: Mask
     mesh_nodes: Floats
-    mesh_edges: Ints
     mesh_triangles: Ints
     mesh_density: Floats
     mesh_velocity: Floats

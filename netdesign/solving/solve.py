@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
@@ -78,8 +77,6 @@ _SHAPE_ARRAYS = (
     ("net_curve", "<f8"),
     ("net_forces", "<f8"),
     ("net_slides", "|b1"),
-    ("mesh_nodes", "<f8"),
-    ("mesh_edges", "<u4"),
 )
 
 
@@ -99,7 +96,7 @@ class SolvedState:
         Tests that it passed.
     elements, linear_solves : int
         What it took.
-    net_curve, net_forces, net_slides, mesh_nodes, mesh_edges, is_released
+    net_curve, net_forces, net_slides, is_released
         As in ``Solution``.
     """
 
@@ -113,8 +110,6 @@ class SolvedState:
     net_curve: Floats
     net_forces: Floats
     net_slides: Mask
-    mesh_nodes: Floats
-    mesh_edges: NDArray[np.uint32]
     is_released: bool = False
 
     @property
@@ -155,7 +150,7 @@ class SolvedState:
             for key in part.__dataclass_fields__
         )
         numbers = [self.tension_max, *(part for part in parts if part is not None)]
-        shape = (self.net_curve, self.net_forces, self.mesh_nodes)
+        shape = (self.net_curve, self.net_forces)
         return (
             all(math.isfinite(number) for number in numbers)
             and all(bool(np.isfinite(array).all()) for array in shape)
@@ -184,8 +179,6 @@ def keep_state(solution: Solution) -> SolvedState:
         net_curve=np.asarray(solution.net_curve, dtype="<f8"),
         net_forces=np.asarray(solution.net_forces, dtype="<f8"),
         net_slides=np.asarray(solution.net_slides, dtype="|b1"),
-        mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
-        mesh_edges=np.asarray(solution.mesh_edges, dtype="<u4"),
         is_released=solution.is_released,
     )
 

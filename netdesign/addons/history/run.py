@@ -224,7 +224,6 @@ def build_solution(
         net_forces=_list_forces(run) * scene.force_scale,
         net_slides=_find_slides(run),
         mesh_nodes=nodes * thickness,
-        mesh_edges=template.edges,
         mesh_triangles=body.topology.triangles.T,
         mesh_density=body.density * scene.snowpack.density,
         mesh_velocity=run.instant.velocity * scene.velocity_scale,

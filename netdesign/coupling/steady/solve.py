@@ -278,7 +278,6 @@ def _build_solution(
         net_forces=forces.on_net * scale,
         net_slides=np.append(False, state.contact.sign != 0),
         mesh_nodes=mesh.nodes * thickness,
-        mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
         mesh_velocity=mesh.to_slope_axes(state.unknowns) * scene.velocity_scale,
