@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import combinations, product
 from typing import Literal
 
@@ -304,6 +305,7 @@ def _flatten(bore: Bore) -> Bore:
     return Bore(start=(x, y, 0.0), direction=direction, length=length)
 
 
+@lru_cache(maxsize=4096)
 def measure_distance(first: Bore, second: Bore) -> float:
     """Least distance of two anchors, each a straight line of its length [m].
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
@@ -117,12 +117,14 @@ class _Option:
 class _BestEnds:
     """Check of a member at other values of what is assumed of its row.
 
-    ``forces_at`` keeps the forces at each of them, for all checks of the row.
+    ``forces_at`` keeps the forces at each of them, for all checks of the row; ``rates``
+    the upper ends of the utilisation by these, each with its place in memory.
     """
 
     task: RowToCheck
     forces_at: dict[object, RowForces | None]
     judged: MemberCheck
+    rates: dict[int, float] = field(default_factory=dict)
 
     @property
     def searched(self) -> list[Assumed]:
@@ -222,6 +224,11 @@ class _BestEnds:
             return None
         return self.judged.again(forces).check
 
+    def _rate(self, forces: RowForces | None) -> float:
+        if id(forces) not in self.rates:
+            self.rates[id(forces)] = _rate(self._judge(forces))
+        return self.rates[id(forces)]
+
     def _tell(self) -> Message | None:
         """Name the assumed value that lowers the utilisation most, if one does."""
         worst = _rate(self.judged.check)
@@ -270,11 +277,11 @@ class _BestEnds:
                 values["guy_splay"] = splay.high
         row, force = place_variant(self.task.row, values), self.judged.force
         if share == 1.0:
-            return _rate(self._judge(self.forces_at.get(_name(row))))
+            return self._rate(self.forces_at.get(_name(row)))
         if key == "guy_count" or force is None:
             return math.inf
         here, there = (
-            _rate(self._judge(self._find_alone(at, force))) for at in (self.row, row)
+            self._rate(self._find_alone(at, force)) for at in (self.row, row)
         )
         return _scale(self.judged.check, here, there)
 
@@ -296,7 +303,7 @@ class _BestEnds:
     ) -> float:
         """Utilisation at another value, in proportion to that of the governing case."""
         here, there = (
-            _rate(self._judge(self._find_at(self.row, {key: value})))
+            self._rate(self._find_at(self.row, {key: value}))
             for value in (worst, worst + share * (other - worst))
         )
         return _scale(self.judged.check, here, there)

@@ -57,7 +57,7 @@ class MemberCheck:
 
     ``force`` is None where no case gives it. ``forces`` are those of the variant on
     which the check is worst, ``best`` those of the variant on which it is least used.
-    ``again`` judges the same member on another variant, by its numbers alone.
+    ``again`` judges the same member on another variant.
     """
 
     forces: RowForces
@@ -87,16 +87,9 @@ class MemberCheck:
 
 
 def judge_member(
-    forces: RowForces,
-    resistance: Resistance,
-    width: LoadedWidth,
-    *,
-    is_size: bool = False,
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberCheck:
-    """Check of a member of one support, on one variant of the row.
-
-    With ``is_size`` the check has its numbers alone: its steps begin at E_k.
-    """
+    """Check of a member of one support, on one variant of the row."""
     open_end = forces.effects.open_end
     if resistance.member in ROPE_OF and open_end:  # whatever else is missing
         points = [Open(kind=OpenKind.UNSOLVED, message=open_end)]
@@ -106,7 +99,7 @@ def judge_member(
         return MemberCheck(
             forces=forces, resistance=resistance, width=width, check=check
         )
-    force = find_force(forces, resistance, width, is_size=is_size)
+    force = find_force(forces, resistance, width)
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, points = _resist_and_ask(forces, resistance, width, force)
     check = judge_force(forces, resistance, force, width, points)

@@ -7,7 +7,6 @@ forces, the guideline's, cells of the workbook, values of the profile.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.checks import Standard
@@ -91,40 +90,17 @@ def solve_for(record: LargestForce, symbol: str) -> Quantity:
 
 
 def find_force(
-    forces: RowForces,
-    resistance: Resistance,
-    width: LoadedWidth,
-    *,
-    is_size: bool = False,
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
 ) -> MemberForce | None:
     """Force on a member of the support of that width; None without a solved case.
 
-    It has its way, or its numbers alone where ``is_size`` asks for them; each is
-    calculated once.
+    Each is calculated once.
     """
     mode = resistance.mode if resistance.mode in OWN_FORCES else ""
     key = (resistance.member, mode, width)
     if key not in forces.worked_out:
-        force = _work_out(forces, resistance, width)
-        numbers = force and replace(force, on=_take_numbers(force.on))
-        forces.worked_out[key] = (force, numbers)
-    return forces.worked_out[key][is_size]
-
-
-def _take_numbers(on: SupportForce) -> SupportForce:
-    return SupportForce(
-        action=_begin_at("E_k", on.action),
-        coupled=_begin_at("E_c", on.coupled),
-        support=on.support,
-        pressing=on.pressing and _begin_at("N", on.pressing),
-    )
-
-
-def _begin_at(symbol: str, force: Quantity) -> Quantity:
-    """Make a force a leaf [kN]; a missing force stays as it is."""
-    if force.low is None or force.high is None:
-        return force
-    return leaf(symbol, force.value, "kN", "", band=(force.low, force.high))
+        forces.worked_out[key] = _work_out(forces, resistance, width)
+    return forces.worked_out[key]
 
 
 def _calculate(forces: RowForces, leaves: Sequence[Quantity]) -> SupportForce:

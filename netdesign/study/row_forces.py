@@ -57,10 +57,10 @@ class RowForces(Basis):
     pulls: tuple[PullRecord, ...] = ()
     open_cases: Message | None = None
     open_panel: Message | None = None
-    # forces that were asked for: with their way, and by their numbers alone
-    worked_out: dict[
-        tuple[str, str, LoadedWidth], tuple[MemberForce | None, MemberForce | None]
-    ] = field(default_factory=dict, init=False, compare=False, repr=False)
+    # forces that were asked for
+    worked_out: dict[tuple[str, str, LoadedWidth], MemberForce | None] = field(
+        default_factory=dict, init=False, compare=False, repr=False
+    )
 
     @property
     def along_row(self) -> HeldSidewaysRecord | None:

@@ -1,7 +1,6 @@
 """Checks of all supports of a row, each on the variant of it on which it is worst.
 
-A variant is a corner of what is assumed of the row's statics. Which of them a check is
-worst on is found by its force and resistance alone; there its calculation is made.
+A variant is a corner of what is assumed of the row's statics.
 """
 
 from __future__ import annotations
@@ -103,7 +102,6 @@ def list_apart(
     return [*apart.values()]
 
 
-_Judge = Callable[[RowForces], MemberCheck]
 _Find = Callable[[RowForces, Resistance, LoadedWidth], Resistance]
 
 
@@ -119,28 +117,23 @@ def _judge_worst(
 ) -> MemberCheck:
     """Judge a member where it is worst; ``find`` gives its resistance."""
 
-    def judge(forces: RowForces, *, is_size: bool = False) -> MemberCheck:
-        used = find(forces, resistance, width)
-        return judge_member(forces, used, width, is_size=is_size)
+    def judge(forces: RowForces) -> MemberCheck:
+        return judge_member(forces, find(forces, resistance, width), width)
 
-    size = partial(judge, is_size=True)
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
-        return replace(judge(apart[0]), again=size)
-    return replace(_compare(list(map(size, apart)), judge), again=size)
+        return replace(judge(apart[0]), again=judge)
+    return replace(_compare(list(map(judge, apart))), again=judge)
 
 
-def _compare(judged: Sequence[MemberCheck], judge: _Judge) -> MemberCheck:
+def _compare(judged: Sequence[MemberCheck]) -> MemberCheck:
     """Worst of a member's checks on several variants, eased to the best of them."""
     best = min(judged, key=lambda each: _find_least(each.check))
     least = _find_least(best.check)
     eased = [replace(each, check=each.check.ease(least)) for each in judged]
-    worst = judge(take_worst(eased).forces)
-    check = replace(
-        worst.check.ease(least),
-        assumed=describe_variant(worst.forces.row),
-    )
-    return replace(worst, check=check, best=best.forces, again=judge)
+    worst = take_worst(eased)
+    check = replace(worst.check, assumed=describe_variant(worst.forces.row))
+    return replace(worst, check=check, best=best.forces)
 
 
 def _find_least(check: Check) -> float:
@@ -170,27 +163,22 @@ def _judge_directions(
     """Checks of the angles of rope anchors of one support, and of blocks that hold."""
     members = []
     for resistance in resistances:
-        if resistance.mode == "direction":
-
-            def judge(
-                forces: RowForces, resistance: Resistance = resistance
-            ) -> MemberCheck:
-                return _judge_direction(forces, resistance, width, open_cases)
-
-            apart = list_apart(variants, resistance.member, width)
-            judged = [judge(forces) for forces in apart]
-            if may_bend(resistance):  # where its block does not hold, it bends
-                judged = [x for x in judged if x.check.verdict is Verdict.PASS]
-            if judged:
-                members.append(_compare(judged, judge))
+        if resistance.mode != "direction":
+            continue
+        judge = partial(_judge_direction, resistance, width, open_cases)
+        judged = list(map(judge, list_apart(variants, resistance.member, width)))
+        if may_bend(resistance):  # where its block does not hold, it bends
+            judged = [x for x in judged if x.check.verdict is Verdict.PASS]
+        if judged:
+            members.append(replace(_compare(judged), again=judge))
     return members
 
 
 def _judge_direction(
-    forces: RowForces,
     resistance: Resistance,
     width: LoadedWidth,
     open_cases: Message | None,
+    forces: RowForces,
 ) -> MemberCheck:
     """Check a rope anchor's angle; beyond the limit, or of no type, check its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
