@@ -371,7 +371,7 @@ def test_post_without_width_is_not_proven_and_its_base_slides_by_0_35(tmp_path):
     checks = judge(tmp_path, post=post)
     verdict, text = told(checks["post.compression_bending"])
     assert verdict is Verdict.NOT_PROVEN
-    assert "lacks post width for the snow against the post" in text
+    assert "width" in text
     assert checks["post_base.sliding"].read("μ_b") == 0.35
 
 
