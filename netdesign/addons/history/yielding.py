@@ -203,8 +203,7 @@ def settle_net(
     if not nodes.forces.any():
         net = _place_net(problem, guess.place, guess.slides)
         guess = replace(guess, place=_take_up(problem, net, guess.slides).place)
-    settle = _settle if find_core() is None else _settle_compiled
-    end, lengths, tensions = settle(problem, guess)
+    end, lengths, tensions = _settle(problem, guess)
     points = join_points(end.place, head)
     # what has slid is exactly 0 where the net sticks
     signs = np.sign(end.slides).astype(np.int8)
@@ -215,11 +214,13 @@ def settle_net(
 _Settled = tuple[NetGuess, Floats, Floats]
 
 
-def _settle(problem: _Problem, guess: NetGuess) -> _Settled:
+def _settle(problem: _Problem, guess: NetGuess, *, may_push: bool = False) -> _Settled:
+    """Equilibrium of net and nodes; ``may_push``: segments, at the start."""
+    if find_core() is not None:
+        return _settle_compiled(problem, guess, may_push=may_push)
     net = _place_net(problem, guess.place, guess.slides)
-    if net.tensions.min() < 0.0:
-        guess = _loosen(problem, guess)
-        net = _place_net(problem, guess.place, guess.slides)
+    if net.tensions.min() < 0.0 and not may_push:
+        return _settle(problem, _loosen(problem, guess), may_push=True)
     slides, signs = guess.slides, guess.slide_signs
     chord = float(np.hypot(*problem.head))
     for _ in range(_MOST_ITERATIONS):
@@ -236,11 +237,10 @@ def _settle(problem: _Problem, guess: NetGuess) -> _Settled:
     raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
-def _settle_compiled(problem: _Problem, guess: NetGuess) -> _Settled:
-    """Equilibrium of net and nodes by the compiled core."""
-    code, end = _call_core(problem, guess, may_push=False)
+def _settle_compiled(problem: _Problem, guess: NetGuess, *, may_push: bool) -> _Settled:
+    code, end = _call_core(problem, guess, may_push=may_push)
     if code == _LOOSE:
-        code, end = _call_core(problem, _loosen(problem, guess), may_push=True)
+        return _settle(problem, _loosen(problem, guess), may_push=True)
     if code in _FAULTS:
         outcome, key = _FAULTS[code]
         raise SolveError(outcome, say(key))
@@ -277,9 +277,9 @@ def _call_core(
 
 
 def _loosen(problem: _Problem, guess: NetGuess) -> NetGuess:
-    """The net under one strain, where a segment would push: of each part its own.
+    """The net as it slides on nodes that stay, where a segment would push.
 
-    Parts end where nothing can slide.
+    It starts under one strain in each part, between nodes where nothing can slide.
     """
     net, old = _place_net(problem, guess.place, guess.slides), problem.old_lengths
     parts = _number_parts(net.share)
@@ -287,7 +287,15 @@ def _loosen(problem: _Problem, guess: NetGuess) -> NetGuess:
     slides = np.cumsum(net.arcs * shrunk[parts] - old)[:-1]
     slides[net.share == 0.0] = 0.0
     signs = np.sign(slides).astype(np.int8)
-    return replace(guess, slides=slides, slide_signs=signs)
+    even = replace(guess, slides=slides, slide_signs=signs)
+    nothing = np.zeros_like(guess.place)
+    stiff = YieldingNodes(
+        positions=guess.place,
+        forces=nothing,
+        compliance=np.zeros((nothing.size, nothing.size)),
+    )
+    end, _, _ = _settle(problem._replace(nodes=stiff), even, may_push=True)
+    return replace(guess, slides=end.slides, slide_signs=end.slide_signs)
 
 
 def _place_net(problem: _Problem, place: Floats, slides: Floats) -> _Net:
