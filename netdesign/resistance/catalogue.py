@@ -59,17 +59,18 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
     Of all grounds together where it is not said, or the catalogue has none of it.
     """
     grounds = load_catalogue()["bond"]["ground"]
-    listed = [grounds[ground]] if ground in grounds else list(grounds.values())
-    spans = [span for table in listed for key, span in table.items() if key != "text"]
+    spans = [grounds[ground]] if ground in grounds else list(grounds.values())
     return float(min(low for low, _ in spans)), float(max(high for _, high in spans))
 
 
-def find_rope_factor(construction: str, factor: str) -> Datum:
-    """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
+SPIRAL = "1x"  # how the name of a spiral rope's construction begins
+
+
+def find_rope_factor(construction: str) -> Datum:
+    """Factor K of the breaking force of a rope [-]."""
     constructions = load_catalogue()["rope"]["construction"]
-    factors = pick(say("catalogue.rope_construction"), construction, constructions)
-    value = pick(say("catalogue.rope_factor"), factor, factors)
-    if "is_spiral" in factors:
+    value = pick(say("catalogue.rope_construction"), construction, constructions)
+    if construction.startswith(SPIRAL):
         source = say("resistance_source.spiral")
         return Datum(value=value, status="assumed", source=source)
     return quote("rope", value)
@@ -77,19 +78,14 @@ def find_rope_factor(construction: str, factor: str) -> Datum:
 
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
-    losses = list_terminations()
+    table = load_catalogue()["termination"]
+    losses = {name: loss for name, loss in table.items() if isinstance(loss, float)}
     return quote("termination", pick(say("catalogue.termination"), kind, losses))
 
 
 def find_loop_efficiency() -> Datum:
     """Least loss factor k_e of a rope anchor's loop [-]."""
     return quote("loop", load_catalogue()["loop"]["least"])
-
-
-def list_terminations() -> dict[str, float]:
-    """Loss factor by kind of termination [-]."""
-    table = load_catalogue()["termination"]
-    return {name: value for name, value in table.items() if isinstance(value, float)}
 
 
 def find_imperfection(curve: str) -> Datum:
@@ -354,11 +350,10 @@ def make_rope(construction: str, diameter: float, grades: list[float]) -> Produc
     grades : list of float
         Strengths of wires [N/mm2].
     """
-    area, breaking = (find_rope_factor(construction, factor) for factor in ("C", "K"))
+    breaking = find_rope_factor(construction)
     force = breaking.value * diameter**2
     values = {
         "rope_diameter": _span(diameter, 1e-3),
-        "metallic_area": _span(area.value * diameter**2, 1e-6),
         "grade": (min(grades) * 1e6, max(grades) * 1e6),
         "breaking_force": (force * min(grades), force * max(grades)),
     }

@@ -93,34 +93,6 @@ class BentBar:
     value: float
 
 
-def compute_bar_resistance(
-    diameter: float, strength: float, inner: float = 0.0
-) -> float:
-    """Tension resistance of a steel bar or tube; resistance/THEORY.md, eq. (R3).
-
-    Parameters
-    ----------
-    diameter : float
-        Of the round area that carries, after any loss by corrosion [m].
-    strength : float
-        Characteristic 0.2 % proof strength or yield strength [Pa].
-    inner : float
-        Inner diameter of a tube [m]; 0 for a bar.
-
-    Returns
-    -------
-    float
-        A f [N].
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
-    """
-    section = RoundSection(outer=diameter, inner=inner, strength=strength)
-    return section.axial_resistance
-
-
 def compute_bent_bar_resistance(
     section: RoundSection, *, angle: float, lever: float
 ) -> BentBar:

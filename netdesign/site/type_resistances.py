@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
+    SPIRAL,
     Datum,
     find_imperfection,
     find_loop_efficiency,
@@ -23,7 +24,7 @@ from netdesign.resistance.post import (
     compute_buckling_resistance,
 )
 from netdesign.resistance.products import find_product
-from netdesign.resistance.steel import compute_bar_resistance
+from netdesign.resistance.steel import RoundSection
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.units import kilonewton_from_newton
@@ -32,7 +33,6 @@ from netdesign.words.names import name
 
 _DEFAULT_TERMINATION, _DEFAULT_CURVE = "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given
-_SPIRAL = "1x"  # how the name of a spiral rope's construction begins
 _SOLID = "bar"
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
@@ -142,7 +142,7 @@ def check_ends(row: Row, findings: list[Finding]) -> None:
     """Refuse U-bolt grips on a spiral rope: EN 13411-5 is not for these."""
     product = find_product(row["id"].word)
     rope = product.id if product else ""
-    if row["termination"].word == "clips" and rope.startswith(_SPIRAL):
+    if row["termination"].word == "clips" and rope.startswith(SPIRAL):
         rule = say("type.clips_on_spiral", rope=rope)
         refuse(row["termination"], rule, say("type.other_end"), findings)
 
@@ -167,7 +167,10 @@ def _describe_origin(datum: Datum) -> Message:
 
 def _bar(row: Row) -> tuple[float, Message]:
     diameter, strength = row["bar_diameter"], row["bar_strength"]
-    value = compute_bar_resistance(diameter.si, strength.si, read_inner(row))
+    section = RoundSection(
+        outer=diameter.si, inner=read_inner(row), strength=strength.si
+    )
+    value = section.axial_resistance
     inner = row["inner_diameter"]
     if inner.state == "given":
         return value, say(

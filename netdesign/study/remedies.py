@@ -23,7 +23,7 @@ from netdesign.resistance.catalogue import (
 )
 from netdesign.resistance.post import compute_buckling_resistance
 from netdesign.resistance.products import find_product
-from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
+from netdesign.resistance.steel import RoundSection, compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
@@ -287,7 +287,7 @@ def find_size(resistance: Resistance, needed: float) -> Size | None:
 
 
 def _list_ropes(_: Resistance) -> Iterator[Size]:
-    factor = find_rope_factor(_CONSTRUCTION, "K")
+    factor = find_rope_factor(_CONSTRUCTION)
     loss = find_termination(_TERMINATION)
     for diameter in _ROPES_MM:
         value = compute_rope_resistance(
@@ -313,9 +313,9 @@ def _list_bars(resistance: Resistance) -> Iterator[Size]:
     strength = _take(how, "strength") if how else _BAR_STRENGTH
     every = (product["diameters"] for product in load_products()["bar"])
     for diameter in sorted({size for sizes in every for size in sizes}):
-        value = compute_bar_resistance(diameter / 1e3, strength * 1e6, 0.0)
+        section = RoundSection(outer=diameter / 1e3, strength=strength * 1e6)
         part = say("change.bar", diameter=float(diameter), strength=strength)
-        yield part, kilonewton_from_newton(value)
+        yield part, kilonewton_from_newton(section.axial_resistance)
 
 
 def _list_sections(resistance: Resistance) -> Iterator[Size]:

@@ -16,8 +16,7 @@ from tests.each import each
 @each(
     "find, given, told",
     [
-        (find_rope_factor, ("6x91", "K"), "rope construction = '6x91': must be "),
-        (find_rope_factor, ("6x19-FC", "Q"), "rope factor = 'Q': must be one of "),
+        (find_rope_factor, ("6x91",), "rope construction = '6x91': must be "),
         (find_termination, ("spelters",), "termination = 'spelters': must be one of "),
         (find_imperfection, ("x",), "buckling curve = 'x': must be one of "),
     ],
@@ -31,20 +30,20 @@ def test_an_unknown_name_is_refused_by_what_it_names(find, given, told):
 def test_a_refusal_names_the_two_nearest_or_none():
     known = {"alpha1": 1, "alpha2": 2, "alpha3": 3}
     with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.rope_factor"), "alpha4", known)
+        pick(say("catalogue.termination"), "alpha4", known)
     message = refused.value.message
     nearest = message.arguments["nearest"]
     assert nearest.arguments["near"] == ("alpha3", "alpha2")
     assert message.arguments["accepted"] == tuple(known)
     with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.rope_factor"), "zzz", known)
+        pick(say("catalogue.termination"), "zzz", known)
     assert refused.value.message.arguments["nearest"] == ""
 
 
 @pytest.mark.parametrize(
     ("find", "given", "source"),
     [
-        (find_rope_factor, ("6x19-FC", "K"), "rope"),
+        (find_rope_factor, ("6x19-FC",), "rope"),
         (find_termination, ("spelter",), "termination"),
         (find_imperfection, ("b",), "buckling"),
     ],

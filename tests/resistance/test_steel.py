@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import (
-    compute_bar_resistance,
+    RoundSection,
     compute_rope_resistance,
 )
 from tests.each import each
@@ -29,7 +29,7 @@ def test_breaking_force_of_ropes(diameter_mm, construction, grade, published_kN)
     found = compute_rope_resistance(
         diameter=diameter_mm / 1e3,
         grade=grade * 1e6,
-        breaking_factor=find_rope_factor(construction, "K").value,
+        breaking_factor=find_rope_factor(construction).value,
         termination=find_termination("spelter").value,
     )
     assert found / 1e3 == pytest.approx(published_kN, rel=5e-3)
@@ -41,13 +41,6 @@ def test_ends_take_their_share(kind, share):
     assert (termination.value, termination.status) == (share, "assumed")
 
 
-@pytest.mark.parametrize(("diameter_mm", "area_mm2"), [(12, 66.2), (22, 222.6)])
-def test_metallic_area(diameter_mm, area_mm2):
-    factor = find_rope_factor("6x36-IWRC", "C").value
-    assert factor * diameter_mm**2 == pytest.approx(area_mm2, abs=0.05)
-
-
 def test_bar_of_28_mm_and_500_mpa():
-    assert compute_bar_resistance(0.028, 500e6) == pytest.approx(
-        math.pi * 14.0**2 * 500.0, rel=1e-15
-    )
+    bar = RoundSection(outer=0.028, strength=500e6)
+    assert bar.axial_resistance == pytest.approx(math.pi * 14.0**2 * 500.0, rel=1e-15)
