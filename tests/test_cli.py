@@ -319,7 +319,7 @@ def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path, monkeypatch):
 
     for module in ("check_site", "side_by_side"):
         monkeypatch.setattr(f"netdesign.study.{module}.search_site", search)
-    command = ("check", home / "site.xlsx", *QUICK)
+    command = ("check", home / "site.xlsx", "--no-cache", *QUICK)
     result = call_program(*command, cwd=tmp_path)
     assert result.code == 5
     assert "internal error, please report it: ZeroDivisionError: spoilt" in result.err

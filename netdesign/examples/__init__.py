@@ -1,1 +1,1 @@
-"""Nine programs to start from: ``python -m netdesign.examples.one_net``."""
+"""Three programs to start from: ``python -m netdesign.examples.one_net``."""
