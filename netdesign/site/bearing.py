@@ -32,7 +32,6 @@ class Resistance(GivenResistance):
     open: Message | None = None
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
     is_basis_assumed: bool = False  # nobody says how it is known: as computed
-    may_be_sleeved: bool = False  # a bond of which nobody says that it has no sleeve
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,6 +11,7 @@ from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, Row
 from netdesign.words.message import say
 
+DOCUMENTS = ("snow_document", "glide_document", "ground_document")
 QUANTITIES = ("density", "friction_angle", "inclination")
 
 
@@ -39,6 +40,8 @@ class SiteRanges:
 def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
     """Ranges of the three quantities; the assumed ones where a line is empty.
 
+    Behind them stand the documents that snow, glide factors and ground are from.
+
     Parameters
     ----------
     lines : mapping of str to Reading
@@ -48,13 +51,16 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
     if any(one.state == "faulty" for one in given):
         return SiteRanges()
     ends = [_split(one) for one in given if one.state == "given"]
+    documents = [lines[key] for key in DOCUMENTS if lines[key].state == "given"]
     assumed = tuple(assume(x.field.key) for x in given if x.state != "given")
     return SiteRanges(
         ranges=Ranges.of(
             **{one.key: Interval(low=one.low, high=one.high) for one in assumed},
             **{low.field.key: Interval(low=low.si, high=high.si) for low, high in ends},
         ),
-        inputs=tuple(end.echo() for both in ends for end in both),
+        inputs=tuple(
+            one.echo() for one in (*(end for both in ends for end in both), *documents)
+        ),
         assumed=assumed,
         lines=tuple({end.field.key: end} for both in ends for end in both),
     )

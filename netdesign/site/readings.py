@@ -318,24 +318,6 @@ def refuse_stored(cell: Cell) -> Refusal | None:
     return None
 
 
-def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
-    """Read a cell without a usable unit; refuse only what no unit could mend."""
-    if cell.is_blank:
-        refusal = _refuse_blank(field)
-    else:
-        # a percentage is a number, whether or not it can be one in this column
-        value = cell.value
-        own = normalise_unit(cell.own_unit)
-        if isinstance(value, str) and own in KNOWN_UNITS and own != "%":
-            value = split_unit(value)[0]
-        plain = replace(cell, shown_unit="", value=value)
-        number = refuse_stored(cell) or _take_number(plain, "%")
-        refusal = number if isinstance(number, Refusal) else None
-    if refusal:
-        findings.append(cell.finding(*refusal, field.name))
-    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
-
-
 def _refuse_blank(field: Field) -> Refusal | None:
     if not field.required:
         return None

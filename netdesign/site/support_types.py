@@ -212,7 +212,6 @@ def _describe_type(
         wear=_read_wear(kind, mode),
         factored_as=("tendon", "rope") if is_rope else (),
         proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
-        may_be_sleeved=is_pulled and not tests,
         is_basis_assumed=is_pulled and is_given and kind["proven"].word != "calculated",
     )
 

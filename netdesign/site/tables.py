@@ -16,7 +16,6 @@ from netdesign.site.readings import (
     Row,
     read_cell,
     read_nothing,
-    read_without_unit,
     refuse,
 )
 from netdesign.site.titles import find_near, list_meant, list_near
@@ -82,7 +81,7 @@ def _read_field(
         return read_nothing(field, None)
     cell = table.sheet.cell(row, column.number)
     if column.unit is None:  # so is the unit
-        return read_without_unit(cell, field, findings)
+        return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     return read_answered(table.sheet, cell, field, column.unit, findings)
 
 

@@ -135,7 +135,7 @@ def _list_of_types(forces: RowForces) -> Iterator[Condition]:
                 yield _state("ground")
             if resistance.is_basis_assumed:
                 yield _state("basis")
-            if resistance.may_be_sleeved and resistance.basis != "tested":
+            if not resistance.tests:
                 yield _state("sleeve")
     if row.find_assumed("panel_system"):
         yield _state("rectangular")

@@ -16,7 +16,7 @@ from netdesign.site.lines import (
     settle_ids,
 )
 from netdesign.site.office.library import Library, add_lines
-from netdesign.site.office.project import build_project, build_site_ranges, read_lines
+from netdesign.site.office.project import build_project, read_lines
 from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
 from netdesign.site.office.sheets import OfficeTables, find_further, find_office_tables
 from netdesign.site.office.types import (
@@ -26,6 +26,7 @@ from netdesign.site.office.types import (
     join_posts,
     list_end_types,
 )
+from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row
 from netdesign.site.snow_sheets import order_layers
 from netdesign.site.statements import TYPES as SUPPORT
@@ -141,7 +142,7 @@ def _join(
         types={x: _index(of, findings) if found[x] else {} for x, of in types.items()},
         absent=[x for x in TYPES if not found[x] and x not in tables.unread],
         unreadable=[x for x in TYPES if not (of := found[x]) or "id" not in of.columns],
-        ranges=build_site_ranges(project),
+        ranges=build_ranges(project),
         links=join_links(typed["links"]),
         tests=tests,
         declared=typed["declared"],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding
@@ -11,13 +10,12 @@ from netdesign.site.columns.fields import Field, normalise_unit
 from netdesign.site.columns.office import load_plan
 from netdesign.site.headings import Table
 from netdesign.site.model import Project
-from netdesign.site.ranges import SiteRanges, build_ranges
+from netdesign.site.ranges import DOCUMENTS
 from netdesign.site.readings import Reading, Row, explain_unit, read_nothing, refuse
 from netdesign.site.tables import match_item, read_answered
 from netdesign.words.message import say
 
 _TEXTS = ("name", "number", "author", "checker", "standard")
-_DOCUMENTS = ("snow_document", "glide_document", "ground_document")
 
 
 def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -> Row:
@@ -71,15 +69,7 @@ def _read_value(
 def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
     """Project of the site, and the cells of its lines."""
     given = {
-        key: lines[key] for key in (*_TEXTS, *_DOCUMENTS) if lines[key].state == "given"
+        key: lines[key] for key in (*_TEXTS, *DOCUMENTS) if lines[key].state == "given"
     }
     values = {key: one.word for key, one in given.items()}
     return Project(**values), {key: one.place for key, one in given.items()}
-
-
-def build_site_ranges(lines: Row) -> SiteRanges:
-    """Ranges of the site, with the documents that they are from."""
-    ranges = build_ranges(lines)
-    documents = (lines[key] for key in _DOCUMENTS if lines[key].state == "given")
-    echoes = tuple(one.echo() for one in documents)
-    return replace(ranges, inputs=(*ranges.inputs, *echoes))
