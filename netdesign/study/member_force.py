@@ -354,7 +354,9 @@ def _list_guy_angle(row: NetRow) -> list[Quantity]:
     angle = row.row_end.guy_angle if row.row_end else None
     if angle is None:
         return []
-    cell = find_cell(row, "end_guy_angle")
+    assumed = row.find_assumed("end_guy_angle")
+    is_given = assumed is None or assumed.is_typed
+    cell = find_cell(row, "end_guy_angle") if is_given else ""
     return [leaf("γ", degree_from_radian(angle), "deg", cell)]
 
 
