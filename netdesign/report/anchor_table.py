@@ -62,36 +62,39 @@ def list_table_lines(
     for row in rows:
         name = show_text(row.id)
         for place, positions in _PLACES.items():
-            found = [row.find(anchor, *positions) for anchor in _SHOWN]
-            if not any(found):
+            anchors = [row.find(anchor, *positions) for anchor in _SHOWN]
+            if not any(anchors):
                 continue
-            forces = [_show_force(one, words) for one in found]
+            forces = [_show_force(anchor, words) for anchor in anchors]
             yield name, words(place), words("table.guideline"), *forces
             name = ""
-            if any(one is not None and one.coupled_kN is not None for one in found):
-                coupled = [_show_coupled(one, words) for one in found]
+            if any(
+                anchor is not None and anchor.coupled_kN is not None
+                for anchor in anchors
+            ):
+                coupled = [_show_coupled(anchor, words) for anchor in anchors]
                 yield "", "", words("table.coupled"), *coupled
 
 
-def _show_force(one: AnchorForce | None, words: Words) -> str:
-    return words.show_number("guideline_kN", one.guideline_kN if one else None)
+def _show_force(anchor: AnchorForce | None, words: Words) -> str:
+    return words.show_number("guideline_kN", anchor.guideline_kN if anchor else None)
 
 
-def _show_coupled(one: AnchorForce | None, words: Words) -> str:
+def _show_coupled(anchor: AnchorForce | None, words: Words) -> str:
     """Coupled force, and in brackets its ratio to the guideline's."""
-    if one is None or one.coupled_kN is None:
+    if anchor is None or anchor.coupled_kN is None:
         return MISSING
-    force = words.show_number("coupled_kN", one.coupled_kN)
-    ratio = words.show_fixed(one.ratio, 2)
-    return force if one.ratio is None else f"{force} ({ratio})"
+    force = words.show_number("coupled_kN", anchor.coupled_kN)
+    ratio = words.show_fixed(anchor.ratio, 2)
+    return force if anchor.ratio is None else f"{force} ({ratio})"
 
 
 def _list_remarks(rows: Sequence[RowAnchors], words: Words) -> Iterator[str]:
     """Remarks on rows, each once for all of them, and on the table."""
     by_remark: dict[str, list[str]] = {}
     for row in rows:
-        for one in (*([row.reason] if row.reason else []), *row.notes):
-            by_remark.setdefault(words.show(one), []).append(show_text(row.id))
+        for note in (*([row.reason] if row.reason else []), *row.notes):
+            by_remark.setdefault(words.show(note), []).append(show_text(row.id))
     for remark, ids in by_remark.items():
         yield words("show.label", label=", ".join(ids), text=remark)
     forces = [anchor for row in rows for anchor in row.anchors]
@@ -124,11 +127,11 @@ def write_anchor_table(rows: Sequence[RowAnchors], words: Words) -> dict[str, An
     }
 
 
-def _write_anchor(one: AnchorForce) -> dict[str, Any]:
+def _write_anchor(anchor: AnchorForce) -> dict[str, Any]:
     return {
-        "anchor": one.anchor,
-        "position": one.position,
-        "guideline_kN": one.guideline_kN,
-        "coupled_kN": one.coupled_kN,
-        "ratio": one.ratio,
+        "anchor": anchor.anchor,
+        "position": anchor.position,
+        "guideline_kN": anchor.guideline_kN,
+        "coupled_kN": anchor.coupled_kN,
+        "ratio": anchor.ratio,
     }

@@ -61,9 +61,9 @@ def write_plain(text: Text) -> str:
     if isinstance(text, str):
         return text
     parts = [
-        one.text if isinstance(one, Piece) else one.verdict.symbol
-        for one in text
-        if not isinstance(one, Sketch)
+        piece.text if isinstance(piece, Piece) else piece.verdict.symbol
+        for piece in text
+        if not isinstance(piece, Sketch)
     ]
     return " ".join(" ".join(parts).split(" ")).strip()
 

@@ -109,19 +109,19 @@ class Change:
         """The change on one line, in a language; of all rows that share it."""
         words = Words(language)
         pairs = zip(self.names, (self.old, self.new), strict=True)
-        old, new = (words.show(name) if name else one for name, one in pairs)
+        old, new = (words.show(name) if name else side for name, side in pairs)
         before, after = _show(old, new, words)
-        told = {"what": self.name(words), "old": before, "new": after}
+        parts = {"what": self.name(words), "old": before, "new": after}
         names = ", ".join(rows or (self.row,))
         if self.area == "other":
-            label = {"label": names, "text": told["what"]}
+            label = {"label": names, "text": parts["what"]}
             return make_printable(
                 words("show.label", **label) if names else label["text"]
             )
         if self.row:
-            sentence = words("diff.change_of_row", row=names, **told)
+            sentence = words("diff.change_of_row", row=names, **parts)
         else:
-            sentence = words("diff.change", **told)
+            sentence = words("diff.change", **parts)
         return make_printable(sentence.replace("\n", " "))
 
     def name(self, words: Words) -> str:
@@ -144,7 +144,7 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     rows_new = {row.id: row for row in new.rows}
     ids = list(dict.fromkeys((*rows_old, *rows_new)))
     pairs = [(name, rows_old.get(name), rows_new.get(name)) for name in ids]
-    both = [(name, one, other) for name, one, other in pairs if one and other]
+    both = [(name, was, now) for name, was, now in pairs if was and now]
 
     def compare(area: str, describe: Callable[[Study], Named]) -> Iterator[Change]:
         return _compare(area, "", describe(old), describe(new))
@@ -152,8 +152,8 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     def compare_rows(
         area: str, describe: Callable[[RowStudy], Named]
     ) -> Iterator[Change]:
-        for row, one, other in both:
-            yield from _compare(area, row, describe(one), describe(other))
+        for row, was, now in both:
+            yield from _compare(area, row, describe(was), describe(now))
 
     verdicts = [
         *compare("verdict", _name_verdict),
@@ -227,7 +227,7 @@ def _rank(change: Change) -> int:
         return 0
     if change.new is None:
         return 3
-    ranks = [_RANKS.get(str(one), _WORST) for one in (change.old, change.new)]
+    ranks = [_RANKS.get(str(side), _WORST) for side in (change.old, change.new)]
     if change.is_turned and (change.old is None or ranks[1] > ranks[0]):
         return 1 if change.old in _PASSING else 2
     return 4
@@ -335,23 +335,23 @@ def _name_check(check: Check) -> Message:
 
 def _list_governing(row: RowStudy) -> Named:
     """Governing check with its numbers, and the largest force of each member."""
-    found: dict[Message, Any] = {}
+    values: dict[Message, Any] = {}
     check = find_governing(row.checks)
     if check is not None:
-        found[say("diff.governing_check")] = _Word(check.id, _name_check(check))
+        values[say("diff.governing_check")] = _Word(check.id, _name_check(check))
         for key in ("utilisation", "demand_kN", "resistance_kN"):
-            found[say(f"diff_check.{key}")] = _read_value(check, key)
+            values[say(f"diff_check.{key}")] = _read_value(check, key)
         point = check.case.values if check.case else {}
         for key, value in point.items():
             named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
-            found[say("diff.governing_case", key=named)] = value
+            values[say("diff.governing_case", key=named)] = value
     extremes = _name_all(
         (name_member(force.quantity), force) for force in row.member_forces
     )
-    for quantity, one in extremes.items():
-        found[say("diff.largest", quantity=quantity)] = one.value_kN
-        found[say("diff.upper_bound", quantity=quantity)] = one.bound_kN
-    return found
+    for quantity, extreme in extremes.items():
+        values[say("diff.largest", quantity=quantity)] = extreme.value_kN
+        values[say("diff.upper_bound", quantity=quantity)] = extreme.bound_kN
+    return values
 
 
 def _list_checks(row: RowStudy) -> Named:
@@ -429,15 +429,15 @@ def _list_profile(study: Study) -> Named:
 
 def _list_quantities(study: Study) -> Named:
     """Numbers of pieces by type, and the area of the nets, as far as they are known."""
-    found: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
-    for part in (one for row in study.rows for one in row.parts):
+    counts: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
+    for part in (piece for row in study.rows for piece in row.parts):
         if part.part == "net":
             what, more = say("diff.net_area"), part.size
         else:
             what, more = say("diff.pieces", type=part.type_id), part.count
         if more is not None:
-            found[what] = round(found.get(what, 0.0) + more, 1)
-    return found
+            counts[what] = round(counts.get(what, 0.0) + more, 1)
+    return counts
 
 
 def _list_replaced(study: Study) -> Named:

@@ -157,8 +157,8 @@ def _render_csv(study: Study, style: ReportStyle) -> bytes:
         for record in row.cases:
             fields = list_fields(record)
             point = list_fields(fields.pop("case"))
-            told = render(record.reason, style.language) if record.reason else ""
-            texts = {"outcome": fields["outcome"], "reason": told}
+            reason = render(record.reason, style.language) if record.reason else ""
+            texts = {"outcome": fields["outcome"], "reason": reason}
             fields |= {key: _disarm(text) for key, text in texts.items()}
             lines.append({"net_row": _disarm(row.id), **point, **fields})
     headings = list(dict.fromkeys(key for line in lines for key in line))

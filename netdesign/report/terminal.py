@@ -87,7 +87,7 @@ class Matrix:
     def print_head(self, title: str) -> None:
         """Print the title of the matrix, and its headings."""
         print_lines([title], self._console)
-        self._print([(one, "") for one in self._headings])
+        self._print([(heading, "") for heading in self._headings])
 
     def print_row(self, row: RowStudy) -> None:
         """Print the line of a net row."""
@@ -102,7 +102,7 @@ class Matrix:
         cells = [
             self._cut(show_text(row.id), self._widths[0], at_front=True),
             *(self._fit(content, width) for content, width in fitted),
-            str(max(one.assumed for one in scopes.values()) or ""),
+            str(max(scope.assumed for scope in scopes.values()) or ""),
             self._name_governing(row),
         ]
         styles = ["", *map(_find_style, contents), "", ""]
@@ -147,7 +147,7 @@ class Matrix:
 
     def _fit(self, content: Content, width: int) -> str:
         """Content in so many columns; what stands beside its number goes first."""
-        short = [one for one in content if not _is_beside(one)]
+        short = [piece for piece in content if not _is_beside(piece)]
         for parts in (content, short if len(short) > 1 else content):
             text = " ".join(self._spell(write_plain(tuple(parts))).split())
             if len(text) <= width:
@@ -165,7 +165,7 @@ class Matrix:
             words.show(name_check(check.member, check.mode)),
             show_member(words, check.member),
         )
-        fitting = (one for one in names if len(self._spell(one)) <= width)
+        fitting = (text for text in names if len(self._spell(text)) <= width)
         return next(fitting, self._cut(names[-1], width))
 
 
@@ -174,7 +174,7 @@ def _is_beside(piece: object) -> bool:
 
 
 def _find_style(content: Content) -> str:
-    badges = (one.verdict.style for one in content if isinstance(one, Badge))
+    badges = (badge.verdict.style for badge in content if isinstance(badge, Badge))
     return _STYLES[next(badges, "pass")]
 
 
@@ -238,7 +238,7 @@ def _list_scopes(study: Study, words: Words, asked: Collection[str]) -> Iterator
     """Anchors, structure and siting of all rows; numbers of checks and cases."""
     yield describe_study_scopes(study, words)
     if asked:
-        named = tuple(words(f"of_scope.{one}") for one in asked)
+        named = tuple(words(f"of_scope.{scope}") for scope in asked)
         verdict = words(f"verdict.{study.find_verdict(asked)}")
         yield words("scopes.asked", scopes=named, verdict=verdict)
     verdicts = [check.verdict for row in study.rows for check in row.checks]

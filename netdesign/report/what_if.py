@@ -73,7 +73,7 @@ def mark_title(study: Study | Site, title: str, words: Words) -> str:
     """Title behind the marks of a what-if and of a part of a site."""
     marks = [words("what_if.mark")] if study.what_if else []
     marks += [words("left_out.mark")] if study.left_out else []
-    return " · ".join(one for one in (*marks, title) if one)
+    return " · ".join(text for text in (*marks, title) if text)
 
 
 def name_kind(study: Study, words: Words, *, is_verified: bool) -> str:
@@ -98,25 +98,25 @@ def build_what_if(study: Study, words: Words) -> Table:
     )
 
 
-def describe_sized(one: SizedCell, words: Words) -> str:
+def describe_sized(cell: SizedCell, words: Words) -> str:
     """Line on the smallest type that was found, or that none was."""
-    place = {"row": show_text(one.row_id), "member": show_member(words, one.column)}
-    if not one.cell:
+    place = {"row": show_text(cell.row_id), "member": show_member(words, cell.column)}
+    if not cell.cell:
         return words("what_if.no_cell", **place)
-    if not one.now:
+    if not cell.now:
         text = words(
-            "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
+            "what_if.no_type", **place, cell=cell.cell, was=cell.was, count=cell.tried
         )
-        if not one.left_out:
+        if not cell.left_out:
             return text
-        left_out = words("what_if.other_ground", count=one.left_out)
+        left_out = words("what_if.other_ground", count=cell.left_out)
         return words.join((text, left_out))
-    used = words.show_number("utilisation", one.used)
+    used = words.show_number("utilisation", cell.used)
     return words(
         "what_if.type",
         **place,
-        cell=one.cell,
-        was=one.was or MISSING,
-        now=one.now,
+        cell=cell.cell,
+        was=cell.was or MISSING,
+        now=cell.now,
         used=used,
     )

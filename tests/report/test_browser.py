@@ -9,7 +9,6 @@ import pytest
 from netdesign.report.page.html import render_html
 from tests.programs import require_program
 from tests.report.build_study import build_study
-from tests.report.filled import list_sections
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 MINIMUM_PT = 595.0, 842.0  # A4
@@ -39,26 +38,29 @@ def run(browser, folder, *arguments):
     return done.stdout
 
 
-@pytest.mark.parametrize("language", ["en", "de"])
-def test_page_opens_without_complaint(browser, tmp_path, language):
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The page of nine rows as a file, with the profile of the one browser."""
+    place = tmp_path_factory.mktemp("browser")
     study = build_study()
-    page = render_html(study, language)
-    (tmp_path / "report.html").write_text(page, encoding="utf-8")
-    tree = run(browser, tmp_path, "--dump-dom")
-    for name in list_sections(study):
+    rows = [replace(study.rows[k % 2], id=f"N{k}") for k in range(9)]
+    page = render_html(replace(study, rows=rows), "de")
+    (place / "report.html").write_text(page, encoding="utf-8")
+    return place
+
+
+def test_page_opens_without_complaint(browser, folder):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    tree = run(browser, folder, "--dump-dom")
+    for name in re.findall(r'<section id="([^"]*)"', page):
         assert f'id="{name}"' in tree
-    assert tree.count("<svg") == page.count("<svg")
+    assert tree.count("<svg") == page.count("<svg") > 0
     assert "<script" not in tree
 
 
-@pytest.mark.parametrize("count", [2, 9])
-def test_page_prints_on_a4(browser, tmp_path, count):
-    study = build_study()
-    rows = [replace(study.rows[k % 2], id=f"N{k}") for k in range(count)]
-    page = render_html(replace(study, rows=rows))
-    (tmp_path / "report.html").write_text(page, encoding="utf-8")
-    target = tmp_path / "report.pdf"
-    run(browser, tmp_path, f"--print-to-pdf={target}", "--no-pdf-header-footer")
+def test_page_prints_on_a4(browser, folder):
+    target = folder / "report.pdf"
+    run(browser, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
     content = target.read_bytes()
     assert content.startswith(b"%PDF")
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)

@@ -3,20 +3,16 @@
 import pickle
 from pathlib import Path
 
-import pytest
-
 from netdesign.report.files import ReportStyle, render_files, render_kind
-from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 
 KINDS = (".html", ".xlsx", ".csv", ".json")
 STUDY = build_study(rows=1)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_another_process_can_make_each_file(language):
+def test_another_process_can_make_each_file():
     """From what was pickled comes what one process makes of all files together."""
-    style = ReportStyle(language=language)
+    style = ReportStyle(language="fr")
     paths = [Path(f"one{kind}") for kind in KINDS]
     together = render_files([STUDY], [paths], style)
     assert set(together) == set(paths)

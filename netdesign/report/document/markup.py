@@ -83,12 +83,12 @@ def write_runs(
 ) -> str:
     """Pieces as WordprocessingML; all of them are small, or none, if that is said."""
     written = ""
-    for one in runs:
-        look = "<w:b/>" if is_bold or one.look in _BOLD else ""
-        if is_small or (is_small is None and one.look in _SMALL_PIECES):
+    for piece in runs:
+        look = "<w:b/>" if is_bold or piece.look in _BOLD else ""
+        if is_small or (is_small is None and piece.look in _SMALL_PIECES):
             look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>'
         lowered = look + '<w:vertAlign w:val="subscript"/>'
-        parts = _SUBSCRIPT.split(one.text) if one.has_symbols else [one.text]
+        parts = _SUBSCRIPT.split(piece.text) if piece.has_symbols else [piece.text]
         written += "".join(
             _write_run(part, lowered if place % 2 else look)
             for place, part in enumerate(parts)
@@ -210,7 +210,7 @@ def _loosen(grid: Grid) -> Grid:
 
     def loosen(content: Runs) -> Runs:
         return tuple(
-            replace(one, text=one.text.replace("\u00a0", " ")) for one in content
+            replace(piece, text=piece.text.replace("\u00a0", " ")) for piece in content
         )
 
     lines = tuple(tuple(loosen(cell) for cell in line) for line in grid.lines)
@@ -228,7 +228,7 @@ def _list_words(texts: Iterable[str]) -> list[float]:
 
 
 def _list_lines(texts: Iterable[str]) -> list[int]:
-    return [min(len(one), _LONGEST) for text in texts for one in text.split("\n")]
+    return [min(len(line), _LONGEST) for text in texts for line in text.split("\n")]
 
 
 def _count(word: str) -> float:
@@ -257,8 +257,8 @@ def share_width(
     [10.0, 20.0]
     """
     if sum(least) >= width:
-        return [width * one / sum(least) for one in least]
+        return [width * column / sum(least) for column in least]
     if sum(wanted) <= width:
-        return [width * one / sum(wanted) for one in wanted]
+        return [width * column / sum(wanted) for column in wanted]
     share = (width - sum(least)) / (sum(wanted) - sum(least))
     return [low + share * (high - low) for low, high in zip(least, wanted, strict=True)]

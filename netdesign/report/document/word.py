@@ -176,9 +176,9 @@ class Writer:
         if block.fold:
             return
         self.begins_page = self.begins_page or _SHEET in block.look.split()
-        for one in block.blocks:
+        for inner in block.blocks:
             self.keeps = block.look in _KEPT or self.keeps
-            self._write_block(one)
+            self._write_block(inner)
         self.keeps = False
 
     def _write_items(self, block: Items) -> None:
@@ -213,28 +213,30 @@ class Writer:
             caption = list_runs(table.caption, has_symbols=of_headings)
             self._add_grid(caption, _list_cells(table))
         else:
-            told = table.empty
+            text = table.empty
             if table.symbols:
-                told = self.words("show.label", label=table.caption, text=told)
-            self._write_text(Paragraph(text=told, look="none"))
+                text = self.words("show.label", label=table.caption, text=text)
+            self._write_text(Paragraph(text=text, look="none"))
 
     def _write_figure(self, block: Figure) -> None:
         self._write_figures(Figures(figures=(block,)))
 
     def _write_figures(self, block: Figures) -> None:
         """Drawings in one line, smaller where that is too narrow; captions below."""
-        sizes = [read_size(one.svg) for one in block.figures]
+        sizes = [read_size(figure.svg) for figure in block.figures]
         room = self.width_pt - _BETWEEN * (len(sizes) - 1)
         share = min(1.0, room / sum(width for width, _ in sizes))
         runs = ""
-        for one, (width, _) in zip(block.figures, sizes, strict=True):
+        for figure, (width, _) in zip(block.figures, sizes, strict=True):
             self.pictures += 1
             most = (share * width, _HIGHEST * self.height_pt)
-            runs += write_picture(self.document, one.svg, self.pictures, most)
-        captions = [one.caption for one in block.figures if one.caption]
+            runs += write_picture(self.document, figure.svg, self.pictures, most)
+        captions = [figure.caption for figure in block.figures if figure.caption]
         look = KEEP if captions else ""
         self._add(write_paragraph(runs, self._ids[styles.TEXT], look))
-        texts = tuple(x for one in captions for x in (*list_runs(one), Piece(" ")))
+        texts = tuple(
+            x for figure in captions for x in (*list_runs(figure), Piece(" "))
+        )
         if texts:
             look = KEEP if self.keeps else ""
             self._add(write_paragraph(write_runs(texts), self._ids[styles.SMALL], look))
@@ -250,7 +252,7 @@ class Writer:
         """Table below its caption; tables never touch, or a reader would join them."""
         last = self.document.element.body.sectPr.getprevious()
         is_table = last is not None and last.tag.endswith("}tbl")
-        if is_table or any(one.text for one in caption):
+        if is_table or any(piece.text for piece in caption):
             self._add_paragraph(caption or (Piece("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
         self._add(write_table(grid, both, self.width_pt, keeps=self.keeps))
@@ -295,7 +297,7 @@ def _list_cell(cell: Cell, table: Table) -> Runs:
         return list_runs(cell.content)
     if table.symbols == "cells":
         return (Piece(cell.text, has_symbols=True),)
-    starts = tuple(f"{one} " for one in _VERDICTS)
+    starts = tuple(f"{sign} " for sign in _VERDICTS)
     is_verdict = cell.text in _VERDICTS or cell.text.startswith(starts)
     shown = cell.text.replace(" ", "\u00a0", int(is_verdict))
     return (Piece(shown, STRONG if is_verdict else ""),)

@@ -307,7 +307,7 @@ def list_loose_ticks(frame: Frame) -> list[float]:
     """Round numbers along the page, as many as stand apart; the first at least."""
     for most in (5, 4, 3, 2):
         ticks = list_ticks(frame.x_low, frame.x_high, most)
-        wide = max((measure_words(f"{one:g}", TEXT_PT) for one in ticks), default=0.0)
+        wide = max((measure_words(f"{tick:g}", TEXT_PT) for tick in ticks), default=0.0)
         gaps = [frame.x(b) - frame.x(a) for a, b in pairwise(ticks)]
         if not gaps or min(gaps) > wide + _APART:
             return ticks

@@ -126,7 +126,7 @@ def build_provenance(study: Study, words: Words) -> Table:
         caption=words("caption.provenance"),
         columns=key_columns(words, "heading.", ("item", "value")),
         rows=tuple(
-            (text_cell(one), text_cell(text)) for one, text in named.items() if text
+            (text_cell(label), text_cell(text)) for label, text in named.items() if text
         ),
     )
 
@@ -200,19 +200,19 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
 
 
 def _show_case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
-    return tuple(number_cell(words, *one) for one in case.values.items())
+    return tuple(number_cell(words, *value) for value in case.values.items())
 
 
 def _list_refused(study: Study, words: Words) -> Iterator[Block]:
     """Other creep laws that give no force, each reason once, with its net rows."""
     rows: dict[str, list[str]] = {}
     for row in study.rows:
-        for one in row.model_form.variants if row.model_form else ():
-            if one.ratio is None:
-                reason = words.show(one.reason)
-                named = words("spread.creep_law", law=one.creep_law)
-                told = reason if named in reason else f"{named}, {reason}"
-                rows.setdefault(told, []).append(row.id)
+        for variant in row.model_form.variants if row.model_form else ():
+            if variant.ratio is None:
+                reason = words.show(variant.reason)
+                named = words("spread.creep_law", law=variant.creep_law)
+                text = reason if named in reason else f"{named}, {reason}"
+                rows.setdefault(text, []).append(row.id)
     yield from _list_by_rows(rows, study, words)
 
 

@@ -34,7 +34,7 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
 
     Rows whose ranges differ share a line: least low end to largest high end.
     """
-    found: dict[str, dict[str, None]] = {}
+    values: dict[str, dict[str, None]] = {}
     ends: dict[str, list[float]] = {}
     rows: dict[str, dict[str, None]] = {}
     units: dict[str, str] = {}
@@ -42,7 +42,7 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
         for value in row.assumed:
             name = words.show(value.input)
             rows.setdefault(name, {})[row.id] = None
-            found.setdefault(name, {})[words.show(value.text)] = None
+            values.setdefault(name, {})[words.show(value.text)] = None
             if value.low is not None and value.high is not None:
                 ends.setdefault(name, []).extend((value.low, value.high))
                 units[name] = value.unit.removeprefix("-")
@@ -50,10 +50,10 @@ def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
             shown, name = _show_default(echo, words), words.show(echo.label)
             if shown and row.id not in rows.get(name, {}):
                 rows.setdefault(name, {})[row.id] = None
-                found.setdefault(name, {})[shown] = None
+                values.setdefault(name, {})[shown] = None
     yield from (x for x in _list_ranges(study, words) if x.name not in rows)
     for name, ids in rows.items():
-        texts = list(found[name])
+        texts = list(values[name])
         if name in ends and len(texts) > 1:
             texts = [_show_ends(ends[name], units[name], words)]
         some = () if len(ids) == len(study.rows) else tuple(ids)
@@ -86,7 +86,7 @@ def _list_ranges(study: Study, words: Words) -> Iterator[AssumedLine]:
             ends.setdefault(named.key, []).append(echo)
             names[named.key] = named
     for key, echoes in ends.items():
-        numbers = [one.value for one in echoes if isinstance(one.value, float)]
+        numbers = [echo.value for echo in echoes if isinstance(echo.value, float)]
         shown = _show_ends(numbers, echoes[0].unit, words)
         yield AssumedLine(name=words.show(names[key]), value=shown)
 

@@ -201,23 +201,23 @@ def _list_scope(study: Study, words: Words) -> Iterator[Pair]:
 
     What one of them has to check stands together.
     """
-    found: dict[str, list[str]] = {}
+    topics_of: dict[str, list[str]] = {}
     for key in (*study.profile.not_checked, *_SCOPE):
-        found.setdefault(words(f"scope.{key}_by"), []).append(words(f"scope.{key}"))
-    for who, topics in found.items():
+        topics_of.setdefault(words(f"scope.{key}_by"), []).append(words(f"scope.{key}"))
+    for who, topics in topics_of.items():
         yield Pair(name=who, text=words.join(topics))
 
 
 def _list_profile(study: Study, words: Words) -> Iterator[Pair]:
     """The limit profile in some lines, and the least load."""
     profile = study.profile
-    told = {
+    texts = {
         "limit_profile": name_profile(study, words),
         "profile_choice": _name_choice(profile, words),
         "floor": describe_floor(study, words),
         "odd_values": words.join(list_odd_values(profile, words)),
     }
-    for key, text in told.items():
+    for key, text in texts.items():
         if text:
             named = words(f"heading.{key}")
             yield Pair(name=named, text=symbols(show_text(text)))
@@ -256,14 +256,14 @@ def has_other_floor(study: Study) -> bool:
 
 def describe_floor(study: Study, words: Words) -> str:
     """Least load of the design forces, and how often it governs."""
-    told = _count_by_floor(study, words)
+    text = _count_by_floor(study, words)
     if study.profile.is_by_guideline:
-        told = words.join([words("floor.decides"), told])
+        text = words.join([words("floor.decides"), text])
     if not study.profile.has_maker_floor:
-        told = words.join([told, words("floor.no_maker")])
+        text = words.join([text, words("floor.no_maker")])
     if not study.profile.is_floor_overruled:
-        return told
-    return words.join([words("floor.overruled", profile=study.profile.id), told])
+        return text
+    return words.join([words("floor.overruled", profile=study.profile.id), text])
 
 
 def _count_by_floor(study: Study, words: Words) -> str:
@@ -357,8 +357,8 @@ def anchor_rows(study: Study) -> dict[str, str]:
     known: list[tuple[RowStudy, str]] = []
     for number, row in enumerate(study.rows, 1):
         plain = _leave_out_name(row)
-        found = (anchor for other, anchor in known if other == plain)
-        anchors[row.id] = next(found, f"row-{number}")
+        same = (anchor for other, anchor in known if other == plain)
+        anchors[row.id] = next(same, f"row-{number}")
         known.append((plain, anchors[row.id]))
     return anchors
 
@@ -374,8 +374,10 @@ def label_rows(
 ) -> list[str]:
     """Sentences, each behind the net rows of which it holds."""
     return [
-        words("show.label", label=show_text(name_rows(ids, study, words)), text=one)
-        for one, ids in rows.items()
+        words(
+            "show.label", label=show_text(name_rows(ids, study, words)), text=sentence
+        )
+        for sentence, ids in rows.items()
     ]
 
 

@@ -61,18 +61,18 @@ def describe_loads(check: Check, words: Words) -> str:
 
     Solved ones at most: with their error and what may hide between cases.
     """
-    found = {}
+    forces = {}
     letters = dict(zip(_LOADS, "cptgm", strict=True))
     for load, letter in letters.items():
         symbol = check.name_force(letter)
         _, force = check.read_band(symbol)
         if force is not None:
             shown = words.show_with_unit("max_kN", force)
-            found[load] = words(f"load_force.{load}", force=shown)
-    if len(found) < 2:
+            forces[load] = words(f"load_force.{load}", force=shown)
+    if len(forces) < 2:
         return ""
-    order = sorted(found, key=lambda load: load != check.governs)
-    return words.join(found[load] for load in order)
+    order = sorted(forces, key=lambda load: load != check.governs)
+    return words.join(forces[load] for load in order)
 
 
 def describe_briefly(row: RowStudy, words: Words) -> str:
@@ -90,15 +90,17 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
     return describe_cause(check, words)
 
 
-def _leave_out_cell(told: Message) -> Message:
+def _leave_out_cell(message: Message) -> Message:
     """The same without the cells that it names."""
-    if told.key == "check.of_cell" and isinstance(told.arguments["what"], Message):
-        return _leave_out_cell(told.arguments["what"])
+    if message.key == "check.of_cell" and isinstance(
+        message.arguments["what"], Message
+    ):
+        return _leave_out_cell(message.arguments["what"])
     inner = {
-        name: _leave_out_cell(one) if isinstance(one, Message) else one
-        for name, one in told.arguments.items()
+        name: _leave_out_cell(argument) if isinstance(argument, Message) else argument
+        for name, argument in message.arguments.items()
     }
-    return say(told.key, **inner)
+    return say(message.key, **inner)
 
 
 def describe_cause(check: Check, words: Words) -> str:
@@ -120,7 +122,7 @@ def _show_apart(
     shown = [words.show_number(key, force) for key, force in forces.items()]
     if shown[0] == shown[1]:
         shown = [words.show_digits(force) for force in forces.values()]
-    first, second = (append_unit(one, "kN") for one in shown)
+    first, second = (append_unit(text, "kN") for text in shown)
     return first, second
 
 
@@ -153,7 +155,9 @@ def list_flips(check: Check, words: Words) -> tuple[str, ...]:
     ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
     """
     useful = filter(is_useful, check.changes)
-    return tuple(_add_note(_compare_now(one, words), one, words) for one in useful)
+    return tuple(
+        _add_note(_compare_now(change, words), change, words) for change in useful
+    )
 
 
 def is_useful(change: Change) -> bool:
@@ -204,7 +208,7 @@ def _explain_change(change: Change, words: Words) -> str:
 
 def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
     """Lines of what turns each check, by net row; else why there is nothing."""
-    found = [
+    lines = [
         show_text(
             words(
                 "show.label",
@@ -221,7 +225,7 @@ def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
         for change in check.changes
         if is_useful(change)
     ]
-    if found:
-        return found
+    if lines:
+        return lines
     is_far = all(is_far_from_limit(check) for _, check in rows)
     return [words("show.no_change" if is_far else "show.no_change_alone")]

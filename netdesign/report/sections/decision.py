@@ -104,7 +104,7 @@ def _show_title(study: Study, words: Words, *, is_verified: bool) -> Iterator[Bl
         study.profile.id,
     ]
     head = (Paragraph(text=kind, look="kind"), Heading(text=title, level=1))
-    meta = "\n".join(show_text(one) for one in facts if one)
+    meta = "\n".join(show_text(fact) for fact in facts if fact)
     yield Part(
         kind="header",
         look="head",
@@ -127,7 +127,7 @@ def _name_rows_by_state(study: Study, words: Words) -> Content:
             named = show_text(name_rows(ids, study, words))
             state = words("show.label", label=words(f"verdict.{verdict}"), text="")
             texts.append((sign(verdict, words), Piece(state), *strong(named)))
-    return tuple(one for content in texts for one in (*content, Piece("   ")))
+    return tuple(piece for content in texts for piece in (*content, Piece("   ")))
 
 
 def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
@@ -141,9 +141,9 @@ def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
         draw_bar(*_SHOWN),
         Piece(f" {words.show_fixed(_SHOWN[1], 2)} {words('matrix.by_guideline')} · "),
         *(
-            one
+            piece
             for verdict in (*SEVERITY[::-1],)
-            for one in (
+            for piece in (
                 sign(verdict, words),
                 Piece(f"{words(f'verdict.{verdict}').lower()} "),
             )
@@ -234,8 +234,8 @@ def _compare(check: Check, words: Words) -> str:
         return words.join((text, needed or describe_cause(check, words)))
     relation = ">" if demand > resistance else "≤"
     text = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
-    told = (text, describe_eased(check, words), show_need(check, words))
-    return words.join(filter(None, told))
+    texts = (text, describe_eased(check, words), show_need(check, words))
+    return words.join(filter(None, texts))
 
 
 def _show_to_do(study: Study, words: Words) -> Iterator[Block]:
@@ -275,12 +275,12 @@ def _show_conditions(study: Study, words: Words) -> Iterator[Block]:
 def _show_assumed(study: Study, words: Words) -> Part:
     """Ranges and values that hold for the study; whoever signs confirms them."""
     rows = []
-    for one in list_assumed(study, words):
-        value: list[Piece] = [Piece(one.value)]
-        if one.rows:
-            named = show_text(name_rows(list(one.rows), study, words))
+    for line in list_assumed(study, words):
+        value: list[Piece] = [Piece(line.value)]
+        if line.rows:
+            named = show_text(name_rows(list(line.rows), study, words))
             value.append(Piece(f" ({named})", "beside"))
-        rows.append((text_cell(one.name), Cell(content=tuple(value))))
+        rows.append((text_cell(line.name), Cell(content=tuple(value))))
     table = Table(
         caption="",
         columns=key_columns(words, "assumed_range.", ("name", "value")),
@@ -301,7 +301,7 @@ def _sign(study: Study, words: Words) -> Part:
         "approved": "",
     }
     room = words("decision.room")
-    names = (show_text(one) if one.strip() else "" for one in people.values())
+    names = (show_text(person) if person.strip() else "" for person in people.values())
     table = Table(
         caption=words("decision.signing"),
         columns=key_columns(words, "heading.", tuple(people)),

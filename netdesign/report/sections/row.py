@@ -178,7 +178,7 @@ class RowPage:
 
     def _list_forces(self) -> dict[str, tuple[float, str]]:
         """Largest design force of each drawn member, with its utilisation."""
-        found = {}
+        forces = {}
         for member in _DRAWN:
             known = list_anchor if member in ANCHOR_MEMBERS else list_part
             checks = known(self.row, (member,))
@@ -188,8 +188,8 @@ class RowPage:
                 used = self.words.show_number("utilisation", rated.used)
                 if rated.used is None or rated.verdict is Verdict.DECLARED:
                     used = show_verdict(rated.verdict, self.words).symbol
-                found[member] = (force, f"{shown} · {used}")
-        return found
+                forces[member] = (force, f"{shown} · {used}")
+        return forces
 
     def _tell_loads(self) -> str:
         """Load along the slope by the model and by the guideline, per metre."""
@@ -218,22 +218,22 @@ class RowPage:
         if whole is None:
             groups += [(links, ""), *((list_part(row, (x,)), x) for x in PARTS)]
         rated = [
-            (member, one)
+            (member, shown)
             for checks, member in groups
-            if (one := rate([x for x in checks if x.is_of_force]))
+            if (shown := rate([x for x in checks if x.is_of_force]))
         ]
-        if whole is not None and (one := rate([whole])):
-            rated.append((whole.member, one))
+        if whole is not None and (shown := rate([whole])):
+            rated.append((whole.member, shown))
         if rated:
             yield self._tabulate(rated)
-        told = {one.check.id for _, one in rated if _says_all(one.check)}
-        others = [check for check in row.checks if check.id not in told]
+        known = {shown.check.id for _, shown in rated if _says_all(shown.check)}
+        others = [check for check in row.checks if check.id not in known]
         if whole is not None and whole.declared:  # what it proves is information
             others = [other for other in others if not is_of_structure(other)]
         within = [x for x in others if x.mode == "approval" and x.finding is not None]
         yield from self._show_others(others, within)
         if not row.checks:
-            reasons = tuple(t.show(one) for one in row.reasons)
+            reasons = tuple(t.show(reason) for reason in row.reasons)
             yield Items(items=reasons or (t("heading.no_check"),), look="reasons")
 
     def _tabulate(self, rated: Sequence[tuple[str, Rated]]) -> Table:
@@ -241,8 +241,8 @@ class RowPage:
         numbers = ("demand", "resistance")
         keys = ("member", "mode", "type", "place", *numbers, "used")
         lines = []
-        for member, one in rated:
-            check = one.check
+        for member, shown in rated:
+            check = shown.check
             place = "at_end" if check.position == "edge" else "inside"
             if check.position == "second":
                 place = "second"
@@ -257,7 +257,7 @@ class RowPage:
                     text_cell(t(f"row_page.{place}")),
                     force_cell(t, check.demand_kN),
                     force_cell(t, check.resistance_kN),
-                    Cell(content=show_answer(one, t)),
+                    Cell(content=show_answer(shown, t)),
                 )
             )
         return Table(

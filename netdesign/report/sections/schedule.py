@@ -126,14 +126,14 @@ def _build_line(
 
 def _find_proof(pulled: Sequence[Check], factor: float | None) -> float | None:
     """Load of the test: the profile's factor on the upper end of the design force."""
-    ends = [x for one in pulled if (x := one.read_band("E_d")[1]) is not None]
+    ends = [x for check in pulled if (x := check.read_band("E_d")[1]) is not None]
     return None if factor is None or not ends else factor * max(ends)
 
 
 def _find_weak(row: RowStudy) -> set[str]:
     """Types whose tendon bears less than the ground holds."""
     weak = (note for note in row.notes if note.key == "row.weak_tendon")
-    return {str(one.arguments["type"]) for one in weak}
+    return {str(note.arguments["type"]) for note in weak}
 
 
 def _list_notes(
@@ -146,7 +146,7 @@ def _list_notes(
         yield "leans"
     if rated.verdict is Verdict.FAIL:
         yield "fails"
-    elif any(one.resistance_kN is None for one in pulled):
+    elif any(check.resistance_kN is None for check in pulled):
         yield "untested"
 
 
@@ -331,39 +331,39 @@ def _list_lines(study: Study, words: Words) -> Iterator[tuple[Cell, ...]]:
                 of_type.setdefault(check.resistance_type, []).append(check)
     for checks in of_type.values():
         tests = checks[0].tests
-        ends = [one.read_band("E_d")[1] for one in checks]
+        ends = [check.read_band("E_d")[1] for check in checks]
         known = [end for end in ends if end is not None]
         whole = tests is not None and len(known) == len(ends)
         factor = tests.proof_factor if tests and whole else None
         wanted = None if factor is None else factor * max(known)
-        for one in tests.singles if tests else ():
-            yield _show_single(checks, one, wanted, words)
+        for test in tests.singles if tests else ():
+            yield _show_single(checks, test, wanted, words)
 
 
 def _show_single(
-    checks: Sequence[Check], one: SingleTest, wanted: float | None, words: Words
+    checks: Sequence[Check], test: SingleTest, wanted: float | None, words: Words
 ) -> tuple[Cell, ...]:
     limits = [x.proof_limit_kN for x in checks if x.proof_limit_kN is not None]
     return (
         text_cell(checks[0].resistance_type),
-        text_cell(one.cell),
-        force_cell(words, one.load_kN),
-        force_cell(words, one.proof_load_kN),
-        text_cell(words.show_fixed(one.displacement_mm, 1)),
-        text_cell(words(f"tests.{_OUTCOMES[one.is_held]}")),
+        text_cell(test.cell),
+        force_cell(words, test.load_kN),
+        force_cell(words, test.proof_load_kN),
+        text_cell(words.show_fixed(test.displacement_mm, 1)),
+        text_cell(words(f"tests.{_OUTCOMES[test.is_held]}")),
         cap_proof_load(wanted, min(limits, default=None), words),
-        text_cell(words(f"tests.{_judge(one, wanted)}")),
+        text_cell(words(f"tests.{_judge(test, wanted)}")),
     )
 
 
-def _judge(one: SingleTest, wanted: float | None) -> str:
+def _judge(test: SingleTest, wanted: float | None) -> str:
     """Acceptance of an anchor by its test: yes, no, or open."""
-    if one.is_held is False:
+    if test.is_held is False:
         return "no"
-    loads = [load for load in (wanted, one.proof_load_kN) if load is not None]
-    if loads and one.load_kN < max(loads):
+    loads = [load for load in (wanted, test.proof_load_kN) if load is not None]
+    if loads and test.load_kN < max(loads):
         return "no"
-    return "yes" if one.is_held and wanted is not None else "open"
+    return "yes" if test.is_held and wanted is not None else "open"
 
 
 def cap_proof_load(load: float | None, limit: float | None, words: Words) -> Cell:

@@ -74,17 +74,17 @@ def show_extent(record: ScopeRecord, check: Check | None, words: Words) -> str:
 
 def list_exceeding(study: Study, words: Words) -> Iterator[str]:
     """Checks whose coupled force exceeds the resistance, though it does not decide."""
-    found: dict[str, list[str]] = {}
+    rows: dict[str, list[str]] = {}
     for row in study.rows:
         beyond = [check for check in row.checks if check.exceeds_by_model]
         if not beyond:
             continue
-        worst = max(beyond, key=lambda one: one.utilisation_by_model or 0.0)
+        worst = max(beyond, key=lambda check: check.utilisation_by_model or 0.0)
         text = words(
             "scopes.exceeds",
             check=show_check(words, worst),
             times=words.show_number("utilisation", worst.utilisation_by_model),
             count=len(beyond),
         )
-        found.setdefault(text, []).append(row.id)
-    yield from label_rows(found, study, words)
+        rows.setdefault(text, []).append(row.id)
+    yield from label_rows(rows, study, words)

@@ -43,7 +43,11 @@ def build_report(
         *_list_rows(study, words),
         worked.show_governing(study, words),
         *further,
-        *(part for one in list_additions(study) for part in one.show(study, words)),
+        *(
+            part
+            for addition in list_additions(study)
+            for part in addition.show(study, words)
+        ),
     )
 
 
@@ -53,7 +57,7 @@ def _list_rows(study: Study, words: Words) -> Iterator[Block]:
     rows = {anchors[row.id]: row for row in reversed(study.rows)}
     for anchor in dict.fromkeys(anchors.values()):
         row = rows[anchor]
-        ids = [name for name, one in anchors.items() if one == anchor]
+        ids = [name for name, place in anchors.items() if place == anchor]
         notes = dict.fromkeys(basis.list_row_notes(row, study, words))
         own = tuple(note for note in notes if note not in shared)
         yield RowPage(row, ids, anchor, words, own).build()

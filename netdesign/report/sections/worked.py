@@ -58,7 +58,7 @@ def work_out(check: Check, words: Words) -> Table:
 
     Of loads that do not govern the result stands alone.
     """
-    lines = [_work_step(one, check, words) for one in _list_shown(check)]
+    lines = [_work_step(step, check, words) for step in _list_shown(check)]
     return Table(
         caption="",
         columns=key_columns(
@@ -103,7 +103,7 @@ def _list_shown(check: Check) -> list[Step]:
 
 def _work_step(step: Step, check: Check, words: Words) -> tuple[Cell, ...]:
     """Line of a step; what is left to resist nothing has no numbers."""
-    known = {one.symbol: _show_digits(one.value, words) for one in check.steps}
+    known = {each.symbol: _show_digits(each.value, words) for each in check.steps}
     formula = words.write_formula(translate(step.formula, PRINTED))
     numbers = words.write_formula(
         translate(step.formula, PRINTED, lambda symbol, _: known[symbol])
@@ -189,9 +189,9 @@ def _describe_check(check: Check, words: Words) -> Content:
     mark = show_verdict(check.verdict, words).symbol
     label = words("show.label", label=f"{mark} {show_check(words, check)}", text="")
     known = (step for step in check.steps if step.value is not None)
-    texts = [_describe_step(one, check, words) for one in known]
+    texts = [_describe_step(each, check, words) for each in known]
     beside = [describe_resistance(check, words), name_case(check, words)]
-    beside += [one for one in [describe_eased(check, words)] if one]
+    beside += [text for text in [describe_eased(check, words)] if text]
     if check.is_unbounded:
         beside.append(words.show(check.reason))
     return (

@@ -133,7 +133,7 @@ def _tell_reason(check: Check, words: Words) -> str:
         check.clause,
         name_case(check, words),
     )
-    return words.join(one for one in texts if one not in ("", MISSING))
+    return words.join(text for text in texts if text not in ("", MISSING))
 
 
 def _write_reason(
@@ -249,7 +249,7 @@ def _write_formula(step: Step, end: int, cells: Cells, none: str) -> str:
     formula = translate(
         step.formula, SPREADSHEET, lambda symbol, of: _find(cells, symbol, of), end
     )
-    used = dict.fromkeys(_find(cells, *one) for one in read)
+    used = dict.fromkeys(_find(cells, *place) for place in read)
     counted = f"COUNT({','.join(used)})={len(used)}"
     sign = f"_xlfn.UNICHAR({ord(none)})"
     return f"=IFERROR(IF({counted},{formula},{sign}),{sign})"

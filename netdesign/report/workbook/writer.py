@@ -128,7 +128,9 @@ def choose_paper(widths: Sequence[float]) -> tuple[int, int, bool]:
 
 
 def _find_scale(widths: Sequence[float], paper_pt: float, pages: int) -> float:
-    wide, named = (sum(one) + _EDGE * len(one) for one in (widths, widths[:NAMING]))
+    wide, named = (
+        sum(columns) + _EDGE * len(columns) for columns in (widths, widths[:NAMING])
+    )
     shown = _CHARACTER_PT * (wide + (pages - 1) * named)
     return min(1.0, pages * paper_pt / shown)
 
@@ -355,12 +357,12 @@ def _find_look(quantity: str, text: str) -> dict[str, Any]:
     """Format of a number: that of its quantity, or with digits and unit of its text."""
     if quantity:
         return {"num_format": QUANTITIES[quantity].number_format}
-    found = _DECIMAL.fullmatch(text)
-    if found is None:
+    parts = _DECIMAL.fullmatch(text)
+    if parts is None:
         return {}
-    digits = f"0.{'0' * len(found[2] or '')}".rstrip(".")
-    shown = f'{digits}"{found[3]}"' if found[3] else digits
-    return {"num_format": f"+{shown};-{shown};{shown}" if found[1] == "+" else shown}
+    digits = f"0.{'0' * len(parts[2] or '')}".rstrip(".")
+    shown = f'{digits}"{parts[3]}"' if parts[3] else digits
+    return {"num_format": f"+{shown};-{shown};{shown}" if parts[1] == "+" else shown}
 
 
 def _align(column: Column) -> dict[str, Any]:
