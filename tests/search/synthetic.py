@@ -11,7 +11,7 @@ import numpy as np
 from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings, Values
 from netdesign.search.surrogate import Point
 
-Response = Callable[[np.ndarray], np.ndarray]
+Response = Callable[[np.ndarray], np.ndarray]  # of one place (d,) or of many (d, n)
 
 
 def drive(response: Response, dimension: int, **settings: float) -> Maxima:
@@ -50,10 +50,15 @@ def answer(response: Response, point: Point) -> Values | None:
 
 
 def true_maxima(response: Response, dimension: int, samples: int = 21) -> np.ndarray:
-    """Largest values on a dense grid."""
+    """Largest values on a dense grid, all of it asked at once."""
     axis = np.linspace(0.0, 1.0, samples)
-    grid = itertools.product(axis, repeat=dimension)
-    return np.max([response(np.array(place)) for place in grid], axis=0)
+    grid = np.array(list(itertools.product(axis, repeat=dimension)))
+    return response(grid.T).max(axis=1)
+
+
+def add(numbers: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """A number added to each quantity, at one place or at many: (q,) or (q, n)."""
+    return (numbers + values.T).T
 
 
 def smooth(seed: int) -> Response:
@@ -62,7 +67,10 @@ def smooth(seed: int) -> Response:
     slope, bend = rng.normal(size=(3, 3)), rng.normal(size=(3, 3, 3))
     wave, phase = rng.uniform(0.5, 3.0, (3, 3)), rng.uniform(0.0, 6.0, 3)
     return lambda u: (
-        10.0 + 2.5 * slope @ u + 1.2 * (bend @ u) @ u + 1.5 * np.sin(wave @ u + phase)
+        10.0
+        + 2.5 * slope @ u
+        + 1.2 * np.einsum("ijk,k...,j...->i...", bend, u, u)
+        + 1.5 * np.sin(add(phase, wave @ u))
     )
 
 
@@ -70,7 +78,7 @@ def valley(seed: int) -> Response:
     """The larger of two planes: a kink that the maximum does not lie on."""
     rng = np.random.default_rng(seed)
     slopes, base = rng.normal(size=(2, 3, 3)), 0.3 * rng.normal(size=(2, 3))
-    return lambda u: 10.0 + 3.0 * np.maximum(slopes[0] @ u + base[0], slopes[1] @ u)
+    return lambda u: 10.0 + 3.0 * np.maximum(add(base[0], slopes[0] @ u), slopes[1] @ u)
 
 
 def ridge(seed: int) -> Response:
@@ -80,7 +88,7 @@ def ridge(seed: int) -> Response:
     """
     rng = np.random.default_rng(seed)
     slopes, base = rng.normal(size=(2, 2, 3)), 0.3 * rng.normal(size=(2, 2))
-    return lambda u: 10.0 + np.minimum(slopes[0] @ u + base[0], slopes[1] @ u)
+    return lambda u: 10.0 + np.minimum(add(base[0], slopes[0] @ u), slopes[1] @ u)
 
 
 def peak(seed: int, width: float) -> Response:
@@ -91,5 +99,10 @@ def peak(seed: int, width: float) -> Response:
     return lambda u: (
         10.0
         + slope @ u
-        + height * np.exp(-np.sum((u - top) ** 2, axis=1) / (2.0 * sigma**2))
+        + (height * np.exp(-measure_apart(u, top) / (2.0 * sigma**2))).T
     )
+
+
+def measure_apart(u: np.ndarray, tops: np.ndarray) -> np.ndarray:
+    """Squares of the distances of one place, or of many, from some tops."""
+    return np.sum((u.T[..., None, :] - tops) ** 2, axis=-1)
