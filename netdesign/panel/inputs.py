@@ -78,28 +78,25 @@ OF_BREAKING = (25.0, 160.0)
 
 Ends = tuple[float, float]  # least and largest value; equal where it is given
 
-# Cut; which end of the sag of ridge rope and lower rope, of their EA; mid-anchors.
-_WORST: tuple[tuple[Cut, int, int, int, int, bool], ...] = (
+# Cut; which end of the sag of ridge rope and lower rope, and of their EA.
+_WORST: tuple[tuple[Cut, int, int, int, int], ...] = (
     # for the uphill guy
-    ("uniform", 0, 0, 1, 0, False),
-    ("uniform", 0, 1, 0, 0, False),
-    ("uniform", 0, 1, 1, 0, False),
-    ("uniform", 0, 1, 1, 1, False),
-    ("uniform", 1, 1, 0, 0, False),
-    ("uniform", 1, 1, 1, 0, False),
-    ("upper", 0, 0, 1, 0, False),
-    ("upper", 0, 1, 0, 0, False),
-    ("upper", 0, 1, 1, 0, False),
-    ("upper", 0, 1, 1, 1, False),
-    ("fitted", 0, 1, 1, 0, False),
+    ("uniform", 0, 0, 1, 0),
+    ("uniform", 0, 1, 0, 0),
+    ("uniform", 0, 1, 1, 0),
+    ("uniform", 0, 1, 1, 1),
+    ("uniform", 1, 1, 0, 0),
+    ("uniform", 1, 1, 1, 0),
+    ("upper", 0, 0, 1, 0),
+    ("upper", 0, 1, 0, 0),
+    ("upper", 0, 1, 1, 0),
+    ("upper", 0, 1, 1, 1),
+    ("fitted", 0, 1, 1, 0),
     # for lower rope and ridge rope along the row
-    ("fitted", 1, 0, 1, 1, False),
-    ("fitted", 0, 1, 1, 1, False),
-    ("fitted", 0, 1, 1, 1, True),
+    ("fitted", 1, 0, 1, 1),
+    ("fitted", 0, 1, 1, 1),
     # for foot anchor, post and downhill guy
-    ("fitted", 1, 0, 1, 1, True),
-    ("fitted", 1, 1, 1, 1, False),
-    ("fitted", 1, 1, 1, 1, True),
+    ("fitted", 1, 1, 1, 1),
 )
 
 
@@ -123,45 +120,32 @@ def find_stiffness(stiffness: float | None, breaking: float | None) -> Ends:
 def list_panels(
     post_spacing: float,
     *,
-    cut: Cut | None,
     sags: tuple[float | None, float | None],
     stiffnesses: tuple[Ends, Ends],
-    has_mid_anchors: bool | None,
+    has_mid_anchors: bool,
 ) -> tuple[Panel, ...]:
-    """Panels of which the worst counts; one where everything is given.
+    """Panels of which the worst counts, since no input gives the cut of the net.
 
     Parameters
     ----------
     post_spacing : float
         a [m].
-    cut : str or None
-        Of the net; None where it is not given.
     sags : tuple of float or None, shape (2,)
         Of ridge rope and lower rope, as built, over the span [-].
     stiffnesses : tuple of tuple of float, shape (2, 2)
         Least and largest EA of ridge rope and lower rope [N].
-    has_mid_anchors : bool or None
-        Of the lower rope. Not given beside anything that is given, both count.
+    has_mid_anchors : bool
+        Of the lower rope.
     """
-    is_all_assumed = cut is None and sags == (None, None)
     of_sags = [(sag, sag) if sag is not None else SAGS for sag in sags]
     panels = {
         Panel(
             post_spacing=post_spacing,
             upper=Rope(stiffness=stiffnesses[0][stiff], sag=of_sags[0][ridge]),
             lower=Rope(stiffness=stiffnesses[1][soft], sag=of_sags[1][lower]),
-            cut=cut or worst,
-            has_mid_anchors=mid,
+            cut=cut,
+            has_mid_anchors=has_mid_anchors,
         ): None
-        for worst, ridge, lower, stiff, soft, own in _WORST
-        for mid in _list_mids(own, has_mid_anchors, is_all_assumed=is_all_assumed)
+        for cut, ridge, lower, stiff, soft in _WORST
     }
     return tuple(panels)
-
-
-def _list_mids(
-    own: bool, stated: bool | None, *, is_all_assumed: bool
-) -> tuple[bool, ...]:
-    if stated is not None:
-        return (stated,)
-    return (own,) if is_all_assumed else (False, True)

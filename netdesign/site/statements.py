@@ -59,7 +59,6 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
     ridge, lower = (ropes.get(row[key].word) for key in _ROPES)
     return list_panels(
         row["post_spacing"].si,
-        cut=None,
         sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
         stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
         has_mid_anchors=row["mid_anchors"].word == "yes",

@@ -22,10 +22,9 @@ from tests.solving.small_scene import COARSE, PANEL, build_scene
 SPACING = PANEL.post_spacing
 PANELS = list_panels(
     SPACING,
-    cut=None,
     sags=(None, None),
     stiffnesses=((3e6, 40e6), (3e6, 40e6)),
-    has_mid_anchors=None,
+    has_mid_anchors=False,
 )
 LAYOUTS = tuple(
     SupportLayout(
