@@ -101,7 +101,7 @@ def read_site(
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
     if found:
-        used = say("map.used", file=found.answers.file, sha256=found.answers.sha256)
+        used = say("map.used", file=found.answers.file)
         findings.append(note_file(workbook.file, used))
         workbook = join_list(workbook, found, findings)
         workbook, changed = change_values(workbook, change, is_list=True)
