@@ -431,11 +431,6 @@ def require_cells(file: str, sheet: str, count: int) -> None:
         raise refuse_file(file, rule, say("book.most_cells", most=MAX_CELLS), sheet)
 
 
-def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:
-    """Refuse a sheet that is filled far to the right."""
-    require_width(file, sheet, max((cell.column for cell in cells), default=0))
-
-
 def require_width(file: str, sheet: str, last_column: int) -> None:
     """Refuse a last column far to the right."""
     if last_column > MAX_COLUMNS:

@@ -19,8 +19,8 @@ from netdesign.site.cells.cells import (
     Sheet,
     group_by_row,
     guard_archive,
-    require_columns,
     require_rows,
+    require_width,
 )
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.cells.numbers import (
@@ -153,7 +153,7 @@ def _read_sheet(
     for cell in _filled_cells(stored, layout.last_row):
         place = (cell.row, cell.column)
         cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
-    require_columns(file, stored.title, cells.values())
+    require_width(file, stored.title, max((one for _, one in cells), default=0))
     return Sheet(
         file=file,
         name=stored.title,

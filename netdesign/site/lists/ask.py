@@ -95,11 +95,6 @@ class HeadingGuess:
     ranked: str = ""
     cells: str = ""
 
-    @property
-    def is_known(self) -> bool:
-        """A column is taken for it."""
-        return self.target is not None
-
 
 def write_list_map(
     path: Path, text_format: TextFormat = UNDECLARED, language: Language = "en"
@@ -256,7 +251,9 @@ def _find_kind(sheet: Sheet, line: int) -> str:
     counts = {}
     for table in GROUPS:
         of = ListTable(name=sheet.name, becomes=table, line=line)
-        counts[table] = sum(x.is_known for x in guess_headings(sheet, of, "en"))
+        counts[table] = sum(
+            x.target is not None for x in guess_headings(sheet, of, "en")
+        )
     best = max(counts, key=lambda one: counts[one])
     return best if line and counts[best] >= _LEAST_KNOWN else ""
 
@@ -433,17 +430,14 @@ def _ask_always(
     language: Language,
 ) -> list[str]:
     """What stands in every line though no heading says it: how a pull-out is proven."""
-    given = dict(known.always) if known else {}
+    given, about = dict(known.always) if known else {}, ""
     keys = {one.target.key for one in guesses if one.target}
     if "pull_out" in keys and "proven" not in keys and not given:
         target = next(x for x in list_targets(becomes) if x.key == "proven")
         given[target.label(language)] = UNANSWERED
         words = tuple(map(target.field.name_word, target.field.words))
-        about = render(say("accepted.words", words=words), language)
-        return [
-            f"{_quote(one)} = {_quote(text)}  # {about}" for one, text in given.items()
-        ]
-    return [f"{_quote(one)} = {_quote(text)}" for one, text in given.items()]
+        about = f"  # {render(say('accepted.words', words=words), language)}"
+    return [f"{_quote(one)} = {_quote(text)}{about}" for one, text in given.items()]
 
 
 def _show(one: HeadingGuess, language: Language) -> str:
