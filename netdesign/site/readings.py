@@ -430,10 +430,6 @@ def knows_word(field: Field, text: str) -> bool:
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:
     spellings = {normalise(name): word for name, word in field.spellings.items()}
     word = spellings.get(normalise(str(cell.value)))
-    if word is None:  # perhaps in two languages: "ruvido / rauh"
-        parts = re.split(r"[/\n|]", str(cell.value))
-        words = {spellings.get(normalise(part)) for part in parts}
-        word = words.pop() if len(words) == 1 else None
     if word is None:
         accepted = add_nearest(
             field.accepted, str(cell.value), dict.fromkeys(field.spellings, "")

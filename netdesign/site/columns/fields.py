@@ -124,8 +124,6 @@ def from_si(value: float, unit: str) -> float:
 
 Kind = Literal["number", "count", "word", "id", "date", "text"]
 LONGEST_HEADING = 100
-_NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
-_BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,15 +286,8 @@ class SheetPlan:
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
 
     def matches(self, sheet_name: str) -> bool:
-        """A workbook's sheet is the planned one: numbered perhaps, in two languages."""
-        known = frozenset(map(normalise, self.raw_names))
-        plain = _NUMBERING.sub("", sheet_name)
-        parts = [normalise(one) for one in _BETWEEN_NAMES.split(plain)]
-        return (
-            normalise(sheet_name) in known
-            or normalise(plain) in known
-            or (all(parts) and known.issuperset(parts))
-        )
+        """A workbook's sheet is the planned one."""
+        return normalise(sheet_name) in set(map(normalise, self.raw_names))
 
     def find(self, heading: str) -> Field | None:
         """Column of that name, which may have a unit in brackets behind it.
