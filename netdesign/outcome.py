@@ -45,11 +45,6 @@ class Outcome(StrEnum):
         """Its name, before a reason."""
         return say(f"ended.{self.value}")
 
-    @property
-    def sentence(self) -> str:
-        """Meaning of the outcome, in English."""
-        return str(self.message)
-
 
 class Verdict(StrEnum):
     """Conclusion of a check, of a net row or of a whole study."""
