@@ -32,7 +32,7 @@ from tests.study.test_member_force import RANGES as LIGHT_RANGES
 from tests.study.test_member_force import ROW as LIGHT_ROW
 
 STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
-DRAWS = 14
+DRAWS = 24
 # Cells that no echo of a row names: types, a declaration, the project.
 BESIDE = [
     find_cell(table, key, line, tables=load_rows())
