@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import load_standard
 from netdesign.checks.check import OpenKind
 from netdesign.outcome import Verdict
 from netdesign.study.conditions import Condition, merge_conditions
@@ -152,28 +151,6 @@ def test_a_reason_more_never_makes_a_verdict_better(solved, seed):
         worse = check.with_open(kind, say("check.no_case_solved"))
         assert WORST.index(worse.verdict) <= WORST.index(check.verdict)
         assert WORST.index(worse.verdict) <= WORST.index(Verdict.NOT_PROVEN)
-
-
-@pytest.mark.parametrize("profile", ["nf-p-95-304-style", "eurocode"])
-def test_a_pull_out_of_which_nobody_says_how_it_was_found_is_the_worse(solved, profile):
-    standard, row = load_standard(profile), solved[0].rows[0]
-
-    def use(basis):
-        value = {"value": 900e3, "tests": None, "basis": basis}
-        found = tuple(
-            replace(x, **value)
-            if (x.member, x.mode) == ("foot_anchor", "pull_out")
-            else x
-            for x in row.resistances
-        )
-        return judge(solved, standard, resistances=found)[1]["foot_anchor.pull_out"]
-
-    unsaid, computed = use(""), use("computed")
-    assert unsaid.utilisation is not None
-    if computed.utilisation is not None:
-        assert unsaid.utilisation >= computed.utilisation
-    else:
-        assert unsaid.verdict is not Verdict.PASS
 
 
 def test_what_is_open_of_a_row_says_the_resistance_that_is_needed(solved):

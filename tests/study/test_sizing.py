@@ -7,13 +7,10 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import SiteDataError, Verdict
-from netdesign.report.what_if import describe_sized
-from netdesign.report.words import Words
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
 from netdesign.study.sizing import size_site
-from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.make import find_cell, load_rows, write_rows, write_site
 from tests.small_site import RUN
@@ -150,15 +147,6 @@ def test_a_type_is_found_for_the_ground_of_the_row_alone(
     (found,) = [one for one in cells if one.column == "foot_anchor"]
     assert (found.now, found.left_out) == (now, left_out)
     assert found.tried == 7 - left_out
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_types_of_another_ground_are_told_as_not_tried(example, language):
-    _, cells, _ = size(example, **{A57: "", A63: ""})
-    of_foot = [one for one in cells if one.column == "foot_anchor"]
-    (line,) = (describe_sized(one, Words(language)) for one in of_foot)
-    ends = {"en": "not tried: 2", "fr": "écartés\u00a0: 2", "de": "untersucht: 2"}
-    assert line.endswith(ends[language])
 
 
 def test_a_type_of_a_cell_of_two_rows_passes_in_both_of_them(tmp_path):
