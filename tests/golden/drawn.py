@@ -12,7 +12,6 @@ from pathlib import Path
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
@@ -43,7 +42,7 @@ def read_drawn(path, drawn):
 
 def solve_and_judge(site, profiles):
     """Documents of a site's studies, solved once."""
-    solved = solve_site(site, RUN, Runner())
+    solved = solve_site(site, RUN)
     for profile in profiles:
         study = judge_site(site, solved, load_standard(profile), RUN)
         yield json.loads(write_document(study))

@@ -13,7 +13,6 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.site.statements import find_lacking, list_missing
-from netdesign.solving.runner import Runner
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
@@ -40,7 +39,7 @@ def check_list(office, folder, rows):
     site = read_site(path)
     site = replace(site, rows=site.rows[rows])
     standard = load_standard(PROFILE)
-    return site, judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
+    return site, judge_site(site, solve_site(site, RUN), standard, RUN)
 
 
 def list_given(row):

@@ -15,7 +15,6 @@ from netdesign.outcome import Verdict
 from netdesign.site import reader
 from netdesign.site.reader import read_site
 from netdesign.solving import workers
-from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
 from netdesign.study.judge import judge_site
 from tests.grid import solve_site
@@ -65,7 +64,7 @@ def test_few_slips_are_read_without_a_word(measure):
 def judge(site):
     """Rows of the study by their ids."""
     standard = load_standard("nf-p-95-304-style")
-    study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
+    study = judge_site(site, solve_site(site, RUN), standard, RUN)
     return {row.id: row for row in study.rows}
 
 

@@ -9,7 +9,6 @@ from netdesign.checks import OpenKind, load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
 from netdesign.structure.members import NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
@@ -68,7 +67,7 @@ def judge_tables(path, tables):
     site = replace(site, rows=site.rows[:2])
     named = site.project.standard
     standard = replace(load_standard(named or DEFAULT), is_default=not named)
-    study = judge_site(site, solve_site(site, RUN, Runner()), standard, RUN)
+    study = judge_site(site, solve_site(site, RUN), standard, RUN)
     return study, site, standard
 
 

@@ -9,7 +9,6 @@ from netdesign.checks import load_standard
 from netdesign.checks.schema import ScopeTable
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
 from netdesign.study.judge import judge_site
 from tests.grid import solve_site
 from tests.make import write_site
@@ -33,7 +32,7 @@ def test_a_topic_more_never_makes_anything_better(tmp_path, seed):
     give_strength(random.Random(f"ground {seed}"), tables)
     write_site(tmp_path / "site.xlsx", tables)
     site = read_site(tmp_path / "site.xlsx")
-    solved = solve_site(site, RUN, Runner())
+    solved = solve_site(site, RUN)
     standard = load_standard(site.project.standard or DEFAULT)
     draw = random.Random(f"topics {seed}")
     everything = judge_site(site, solved, standard, RUN)
