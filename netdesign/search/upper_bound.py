@@ -114,13 +114,11 @@ def bound_quantities(
     """
     asked = list(watched)
     around = np.array([model.places[np.argmax(column)] for column in values.T])
-    nearby = np.concatenate([*map(_surround, np.unique(around, axis=0))])
-    distinct, place = find_distinct(nearby)  # at the walls many are one
-    every = np.append(np.arange(len(lattice)), len(lattice) + place)
-    looked_at = np.concatenate([lattice, nearby])
+    distinct, every = _list_places(lattice, around)
+    looked_at = distinct[every]
 
     reach = _build_reach(model, asked, tolerance, certainty, inflations)
-    allowed = reach(np.concatenate([lattice, distinct]))[every]
+    allowed = reach(distinct)[every]
     upper = allowed.max(axis=0)
     order = {q: _list_highest(allowed[:, q]) for q in asked}
     starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
@@ -200,6 +198,17 @@ def _inflate(at: Floats, inflations: Sequence[Inflation], asked: list[int]) -> F
         wider = 1.0 + share * (inflation.ratio[asked] - 1.0)
         np.maximum(factor, wider, out=factor)
     return factor
+
+
+def _list_places(lattice: Floats, around: Floats) -> tuple[Floats, Ints]:
+    """Lattice and surroundings of some places; which of these each looked at is.
+
+    At the walls of the box many are one.
+    """
+    nearby = np.concatenate([*map(_surround, np.unique(around, axis=0))])
+    distinct, number = find_distinct(nearby)
+    every = np.append(np.arange(len(lattice)), len(lattice) + number)
+    return np.concatenate([lattice, distinct]), every
 
 
 def _surround(place: Floats) -> Floats:
