@@ -75,22 +75,6 @@ class NetRanges:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LoadedNet:
-    """One net that the ranges of a row allow.
-
-    Attributes
-    ----------
-    net : NetGeometry
-        With its own inclination, snow, stiffness and slack.
-    glide_factor : float
-        N [-].
-    """
-
-    net: NetGeometry[float]
-    glide_factor: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class FloorForce:
     """Largest force of one member under the guideline's load.
 
@@ -100,8 +84,8 @@ class FloorForce:
         Key of the member.
     force : float
         Characteristic, on a support inside the row [N].
-    at : LoadedNet
-        Net, inclination and glide factor at which it is largest.
+    net : NetGeometry
+        That it is largest on, with its own inclination, snow, stiffness and slack.
     case : LoadCase
         That brings it.
     load, pull : SnowLoad, NetPull
@@ -110,7 +94,7 @@ class FloorForce:
 
     member: str
     force: float
-    at: LoadedNet
+    net: NetGeometry[float]
     case: LoadCase[float]
     load: SnowLoad[float]
     pull: NetPull[float]
@@ -235,7 +219,8 @@ def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
     )
 
 
-_LoadOne = Callable[[tuple[float, ...], int, int], tuple[LoadedNet, GuidelineResult]]
+_Loaded = tuple[NetGeometry[float], GuidelineResult]
+_LoadOne = Callable[[tuple[float, ...], int, int], _Loaded]
 
 
 def _take_floor(
@@ -252,15 +237,15 @@ def _take_floor(
     for member, sizes in reached.items():
         case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
         point = tuple(map(float, points[:, number]))
-        at, result = hold(point, int(case), int(end))
+        net, result = hold(point, int(case), int(end))
         if result.solved is None:
-            return Floor(reason=_explain(at, result))
+            return Floor(reason=_explain(net, result))
         snow, pull, anchors = result.solved
         of_members = {**anchors.member_forces, NetPart.MESH: pull.largest_tension}
         force = FloorForce(
             member=member,
             force=of_members[member],
-            at=at,
+            net=net,
             case=result.case,
             load=snow,
             pull=pull,
@@ -421,9 +406,7 @@ class _Scan:
         points: Floats = least + share * (largest - least)
         return points
 
-    def load_one(
-        self, point: tuple[float, ...], case: int, end: int
-    ) -> tuple[LoadedNet, GuidelineResult]:
+    def load_one(self, point: tuple[float, ...], case: int, end: int) -> _Loaded:
         """One net under one load case as everywhere else, on the row's own layout."""
         inclination, thickness, share = point
         stiffness, slack = _list_ends(self.ranges)[end]
@@ -438,8 +421,7 @@ class _Scan:
         depth = thickness if snow.creep_factor is None else net.net_height
         glide = float(self._find_glide(np.array([depth]), np.array([share]))[0])
         net = replace(net, snow_thickness=depth)
-        at = LoadedNet(net=net, glide_factor=glide)
-        return at, load_net(self.model, net, snow, glide)
+        return net, load_net(self.model, net, snow, glide)
 
     def _find_failed(self, points: Floats) -> _FailedAtError:
         """First of the points at which a load case fails, and why."""
@@ -448,18 +430,18 @@ class _Scan:
         tried = product(points.T, range(count), ends, self.layouts)
         for point, case, end, layout in tried:
             loaded = self.load_one(tuple(map(float, point)), case, end)
-            at, result = _hold(*loaded, layout)
+            net, result = _hold(*loaded, layout)
             if result.anchors is None:
-                return _FailedAtError(_explain(at, result))
+                return _FailedAtError(_explain(net, result))
         raise AssertionError  # what fails for many fails for one of them
 
 
 def _hold(
-    at: LoadedNet, loaded: GuidelineResult, layout: SupportLayout
-) -> tuple[LoadedNet, GuidelineResult]:
+    net: NetGeometry[float], loaded: GuidelineResult, layout: SupportLayout
+) -> _Loaded:
     """A loaded net on a layout, and the forces there."""
-    at = replace(at, net=replace(at.net, layout=layout))
-    return at, hold_net(at.net, loaded)
+    net = replace(net, layout=layout)
+    return net, hold_net(net, loaded)
 
 
 class _FailedAtError(Exception):
@@ -477,10 +459,10 @@ def _list_ends(ranges: NetRanges) -> list[tuple[float, float]]:
     return ends if ends[0] != ends[1] else ends[:1]
 
 
-def _explain(at: LoadedNet, result: GuidelineResult) -> Message:
+def _explain(net: NetGeometry[float], result: GuidelineResult) -> Message:
     return say(
         "floor.not_available",
         case=say(f"load_case.{result.case.name}"),
-        inclination=math.degrees(at.net.inclination),
+        inclination=math.degrees(net.inclination),
         reason=result.reason or "",
     )

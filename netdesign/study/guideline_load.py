@@ -287,7 +287,7 @@ def record_floor(
 
 
 def _record_force(force: FloorForce) -> FloorForceRecord:
-    net, (along, across) = force.at.net, force.load.resultant
+    net, (along, across) = force.net, force.load.resultant
     return FloorForceRecord(
         member=force.member,
         force_kN=kilonewton_from_newton(force.force),

@@ -269,7 +269,7 @@ def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
         assert floor.reason is None
         fine = math.ceil(16.0 * (ends[1] - ends[0]) / SCAN_STEP)
         require_largest(floor, solve_dense(ranges, 1873.0, (fine + 1, 1, 1), 1), 1e-5)
-        places = {one.at.net.inclination for one in floor.forces if one.force > 0.0}
+        places = {one.net.inclination for one in floor.forces if one.force > 0.0}
         inside += len(places - set(ends))
     assert inside >= 15
 
@@ -287,7 +287,7 @@ def test_search_over_all_ranges_misses_less_than_a_hundred_thousandth():
         require_largest(floor, dense, 1e-5)
         require_reached(floor.head, dense, floor.find(Member.POST).force, 1e-4)
         for one in floor.forces:
-            d = one.at.net.snow_thickness
+            d = one.net.snow_thickness
             is_end = d in ranges.thicknesses
             inside |= set() if is_end or one.force == 0.0 else {one.member}
     assert tried >= 10
@@ -317,7 +317,7 @@ def test_inside_of_the_thicknesses_exceeds_all_corners():
         return find(replace(wide, thicknesses=(d, d))).find(DOWNHILL).force
 
     floor = find(wide).find(DOWNHILL)
-    at = floor.at.net.snow_thickness
+    at = floor.net.snow_thickness
     assert floor.force > 1.1 * max(find_at(d) for d in wide.thicknesses) > 0.0
     assert wide.thicknesses[0] < at < wide.thicknesses[1]
     assert find_at(at) == pytest.approx(floor.force, rel=1e-6)
@@ -334,10 +334,11 @@ def test_largest_force_is_that_of_its_own_case_inclination_and_net():
         members = {one.member for one in floor.forces}
         assert members == {*CARRYING_MEMBERS, NetPart.MESH}
         for one in floor.forces:
-            net = one.at.net
+            net = one.net
             cases = list_load_cases(MODEL, net, 2130.0)
             again = [
-                solve_load_case(MODEL, net, case, one.at.glide_factor) for case in cases
+                solve_load_case(MODEL, net, case, one.load.glide_factor)
+                for case in cases
             ]
             forces = [
                 {
@@ -355,7 +356,7 @@ def test_largest_force_is_that_of_its_own_case_inclination_and_net():
             assert net.slack in ranges.slacks
             assert net.stiffness in ranges.stiffnesses
             least, most = ranges.find_glide_factors(np.array(net.snow_thickness))
-            assert least - 1e-12 <= one.at.glide_factor <= most + 1e-12
+            assert least - 1e-12 <= one.load.glide_factor <= most + 1e-12
 
 
 def test_least_tension_is_none_where_either_guy_may_work():
@@ -374,7 +375,7 @@ def test_least_tension_is_none_where_either_guy_may_work():
     for one in ends:
         tensions = [
             guys[Member.UPHILL_GUY] + guys[DOWNHILL]
-            for at in [one.forces[0].at.net]
+            for at in [one.forces[0].net]
             for guys in solve(at, 1.9, 1742.0, lean)
         ]
         assert one.head.least_tension == pytest.approx(min(tensions), rel=1e-12)

@@ -117,7 +117,7 @@ def test_dimensioning_form_has_the_net_s_height_whatever_snow_is_tried(name):
     found, floor = find(row, WITH_FORM, (0.4 * row.net, 0.5 * row.net))
     require_digits(found, TABLE["dimensioning"][list(ROWS).index(name)])
     assert {
-        one.at.net.snow_thickness for one in floor.forces if one.case.creep_factor
+        one.net.snow_thickness for one in floor.forces if one.case.creep_factor
     } == {row.net}
 
 
@@ -175,7 +175,7 @@ def test_downhill_guy_is_largest_in_a_net_that_is_not_full():
     wide, _ = find(row, USUAL, (0.5 * row.net, row.net)), None
     downhill = wide[1].find(Member.DOWNHILL_GUY)
     assert downhill.force / 1e3 >= at_07
-    assert 0.6 < downhill.at.net.snow_thickness / row.net < 0.8
+    assert 0.6 < downhill.net.snow_thickness / row.net < 0.8
 
 
 def test_less_snow_in_the_workbook_lowers_no_force():

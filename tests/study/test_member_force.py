@@ -396,7 +396,7 @@ def test_floor_is_that_of_a_net_full_of_snow(typed):
         if one.member not in (Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR):
             assert force.force == pytest.approx(one.force, rel=1e-6)
             if force.force > 0.0:
-                assert force.at.net.snow_thickness == pytest.approx(4.0, rel=1e-9)
+                assert force.net.snow_thickness == pytest.approx(4.0, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -428,17 +428,17 @@ def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
         single["inclination"] = Interval(low=lean, high=lean)
         one = find_row_floor(row, widen_ranges(single), SWISS)
         for force in one.forces:
-            at = force.at
-            assert at.net.inclination == lean
-            assert (at.net.slack, at.net.stiffness) == (
+            net = force.net
+            assert net.inclination == lean
+            assert (net.slack, net.stiffness) == (
                 point["slack"],
                 point["net_stiffness"],
             )
             thickness = point["snow_height"] * math.cos(ROW.slope_angle)
-            assert thickness * (1.0 - 1e-12) <= at.net.snow_thickness <= ROW.net_height
+            assert thickness * (1.0 - 1e-12) <= net.snow_thickness <= ROW.net_height
             slip = GroundLaw(kind="sliding", slip_length=point["slip_length"])
-            glide = find_glide_factor(slip, at.net.snow_thickness, (1.2, 3.2))
-            assert at.glide_factor == pytest.approx(glide, rel=1e-12)
+            glide = find_glide_factor(slip, net.snow_thickness, (1.2, 3.2))
+            assert force.load.glide_factor == pytest.approx(glide, rel=1e-12)
             assert force.force <= wide.find(force.member).force * (1.0 + 1e-6)
             inside += force.force > 0.0
     assert inside > 150
@@ -447,8 +447,8 @@ def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
         widen_ranges({"glide_factor": Interval(low=1.1, high=2.9)}),
         SWISS,
     )
-    assert max(one.at.glide_factor for one in typed.forces) == 2.9
-    assert min(one.at.glide_factor for one in typed.forces) >= 1.2
+    assert max(one.load.glide_factor for one in typed.forces) == 2.9
+    assert min(one.load.glide_factor for one in typed.forces) >= 1.2
 
 
 def widen_ranges(further):
