@@ -146,7 +146,6 @@ def test_statics_that_decide_are_told_by_all_cases():
 
 PANELS = list_panels(
     3.5,
-    cut=None,
     sags=(None, None),
     stiffnesses=(STIFFNESSES, STIFFNESSES),
     has_mid_anchors=False,
