@@ -129,14 +129,13 @@ def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
     def tell(echo: InputEcho) -> InputEcho:
         if echo.cell not in was or echo.derivation is not None:
             return echo
-        return replace(echo, derivation=describe_replaced(was[echo.cell]))
+        text = was[echo.cell]
+        how = say("what_if.instead", was=text)
+        return replace(
+            echo, derivation=how if text else say("what_if.instead_of_nothing")
+        )
 
     return replace(row, inputs=tuple(map(tell, row.inputs)))
-
-
-def describe_replaced(was: str) -> Message:
-    """Text that a cell of the workbook holds, which a what-if replaced."""
-    return say("what_if.instead", was=was) if was else say("what_if.instead_of_nothing")
 
 
 # Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and

@@ -121,10 +121,11 @@ def build_row_end(at_end: Row, types: Types) -> RowEnd:
     anchors = read_anchors(at_end, END_ANCHORS, types)
     axes = dict(read_axes(at_end, END_ANCHORS, types))
     angle = at_end["end_guy_angle"].given_si
+    sliding = at_end["ropes_at_supports"].word
     return RowEnd(
         guy_angle=assume("end_guy_angle").high if angle is None else angle,
         stiffnesses=list_stiffnesses(at_end, types),
-        ropes_slide=_read_sliding(at_end["ropes_at_supports"].word),
+        ropes_slide=sliding == "slide" if sliding else None,
         lateral_axis=axes.get(EndMember.LATERAL_ANCHOR),
         resistances=(
             *(_find_resistance(at_end, mode, one, types) for one, mode in END_MODES),
@@ -132,10 +133,6 @@ def build_row_end(at_end: Row, types: Types) -> RowEnd:
         ),
         anchors=tuple(anchors.items()),
     )
-
-
-def _read_sliding(word: str) -> bool | None:
-    return word == "slide" if word else None
 
 
 def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:

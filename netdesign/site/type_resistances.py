@@ -184,17 +184,12 @@ def _bar(row: Row) -> tuple[float, Message]:
     )
 
 
-def name_termination(row: Row) -> str:
-    """Kind of a rope's ends; the one with the largest loss where none is given."""
-    return row["termination"].word or _DEFAULT_TERMINATION
-
-
 def reduce_breaking(row: Row) -> tuple[float, Message | None]:
     """Resistance of a rope by its breaking force and its ends [N], and how.
 
     A force that is said to include the ends stays as it is.
     """
-    kind, force = name_termination(row), row["rope"]
+    kind, force = row["termination"].word or _DEFAULT_TERMINATION, row["rope"]
     loss = find_termination(kind)
     if kind == _INCLUDED:
         return force.si, None

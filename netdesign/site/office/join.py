@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
+from netdesign.site.columns.all_tables import FURTHER
 from netdesign.site.lines import (
     TYPES,
     Lines,
@@ -18,7 +19,7 @@ from netdesign.site.lines import (
 from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import build_project, read_lines
 from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
-from netdesign.site.office.sheets import OfficeTables, find_further, find_office_tables
+from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.office.types import (
     complete_anchors,
     join_anchors,
@@ -30,6 +31,7 @@ from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row
 from netdesign.site.snow_sheets import order_layers
 from netdesign.site.statements import TYPES as SUPPORT
+from netdesign.site.tables import find_table
 from netdesign.site.type_lines import name_by_ground, place_in_ground
 from netdesign.site.type_resistances import check_ends
 from netdesign.words.message import say
@@ -108,19 +110,13 @@ def _join(
     findings: list[Finding],
 ) -> Lines:
     """Lines of net rows and their types, of the lines of all sheets."""
-    found, measures = tables.tables, tables.measures
-    nets = _index(typed["net_types"], findings)
-    places = {name: one["id"].place for name, one in nets.items()}
-    refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
-    snow = measures.get(("rows", "snow"), "")
-    rows = join_rows(typed["rows"], nets, project, snow, findings)
-    measure = measures.get(("layers", "thickness"), "")
+    found, tests = tables.tables, typed["tests"]
+    rows = _join_net_types(tables, typed, project, findings)
+    measure = tables.measures.get(("layers", "thickness"), "")
     layers = order_layers(measure_layers(typed["layers"], measure, findings), findings)
-    tests = typed["tests"]
     anchors = join_anchors(
         typed["anchor_types"], tests, typed["soils"], project, findings
     )
-    names = [row["id"].word for row in rows]
     placed = place_in_ground(rows, anchors, findings)
     ends = place_in_ground(_find_end_types(rows, typed), anchors, findings)
     for rope in typed["ropes"]:
@@ -137,7 +133,7 @@ def _join(
         project_cells=cells,
         table=found["rows"],
         rows=placed,
-        ends=dict(zip(names, ends, strict=True)),
+        ends={row["id"].word: end for row, end in zip(rows, ends, strict=True)},
         snow=layers,
         types={x: _index(of, findings) if found[x] else {} for x, of in types.items()},
         absent=[x for x in TYPES if not found[x] and x not in tables.unread],
@@ -146,12 +142,26 @@ def _join(
         links=join_links(typed["links"]),
         tests=tests,
         declared=typed["declared"],
-        further=find_further(workbook, findings),
+        further={x.name: find_table(workbook, x, findings) for x in FURTHER},
         typed={one: typed[one] for one in typed if one not in _NOT_OF_ROWS},
     )
-    for of_row in layers.values():
-        refuse_unknown_ids([of_row[0]["row"]], lines.places, findings)
+    named_rows = (of_row[0]["row"] for of_row in layers.values())
+    refuse_unknown_ids(named_rows, lines.places, findings)
     return lines
+
+
+def _join_net_types(
+    tables: OfficeTables,
+    typed: Mapping[str, Sequence[Row]],
+    project: Row,
+    findings: list[Finding],
+) -> list[Row]:
+    """Rows with their net types; one that is not there is refused."""
+    nets = _index(typed["net_types"], findings)
+    places = {name: one["id"].place for name, one in nets.items()}
+    refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
+    measure = tables.measures.get(("rows", "snow"), "")
+    return join_rows(typed["rows"], nets, project, measure, findings)
 
 
 def _index(lines: Sequence[Row], findings: list[Finding]) -> dict[str, Row]:

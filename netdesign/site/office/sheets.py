@@ -116,13 +116,6 @@ def find_office_tables(
     )
 
 
-def find_further(
-    workbook: Workbook, findings: list[Finding]
-) -> Mapping[str, Table | None]:
-    """Tables of the sheets of add-ons, by name; faults go to ``findings``."""
-    return {one.name: find_table(workbook, one, findings) for one in FURTHER}
-
-
 def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
     """Sheet whose unit cells hold units alone, and what they measure by column."""
     measures: dict[int, str] = {}
