@@ -124,17 +124,7 @@ def _work_step(step: Step, check: Check, words: Words) -> tuple[Cell, ...]:
 
 
 def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
-    """Utilisation by the guideline, and the resistance that is needed."""
-    by_guideline = check.utilisation_by_guideline
-    known = {step.symbol: _show_digits(step.value, words) for step in check.steps}
-    if by_guideline is not None and "E_g" in known:
-        yield (
-            text_cell(words("worked.by_guideline")),
-            Cell(content=symbols("μ_g = γ_E · E_g / R_d")),
-            text_cell(f"= {known['γ_E']} · {known['E_g']} / {known['R_d']}"),
-            text_cell(words.show_number("utilisation", by_guideline)),
-            text_cell(words("worked.compared")),
-        )
+    """Least resistance with which a check without one passes."""
     needed = find_needed(check)
     if needed is not None and check.resistance_kN is None:
         upper = words.show_digits(check.read_band("E_d")[1])
