@@ -201,9 +201,6 @@ class Quantity:
     def __sub__(self, other: Operand) -> Quantity:
         return apply("-", self, other)
 
-    def __rsub__(self, other: float) -> Quantity:
-        return apply("-", other, self)
-
     def __mul__(self, other: Operand) -> Quantity:
         return apply("*", self, other)
 

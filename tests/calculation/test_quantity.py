@@ -192,7 +192,7 @@ UNFIT = [
     lambda a, b: largest(a, b),
     lambda a, b: smallest(b, a),
     lambda a, _: a + 1.0,
-    lambda a, _: 1.0 - a,
+    lambda a, _: a - 1.0,
     lambda a, _: sqrt(a),
     lambda a, _: cos(a),
     lambda a, b: (a * b).named("F", "kN"),
