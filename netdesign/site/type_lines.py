@@ -336,4 +336,5 @@ def _read_link(line: Row) -> Link:
         count=line["count"].given_count or 1,
         angle=line["angle"].given_si,
         source=force.place,
+        is_of_whole=line["chain"].word == "complete",
     )

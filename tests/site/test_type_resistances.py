@@ -289,8 +289,10 @@ def test_links_of_a_type_make_its_chain_in_their_order(tmp_path):
         },
     ]
     tables["links"][2]["count"] = 2
-    tables["links"][3]["angle"] = 12
+    tables["links"][3] |= {"angle": 12, "chain": "complete"}
     site = read(tmp_path, tables)
+    assert [link.is_of_whole for link in site.links["A1"]] == [False, True]
+    assert not any(link.is_of_whole for link in site.links["G1"])
     thimble, shackle = site.links["G1"]
     assert (thimble.kind, thimble.breaking, thimble.limit) == ("thimble", 213.5e3, None)
     assert (shackle.limit, shackle.count, shackle.angle) == (64.2e3, 2, None)
