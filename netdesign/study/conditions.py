@@ -24,9 +24,27 @@ from netdesign.units import given_degree_from_radian
 from netdesign.words.message import Text, say
 
 Who = Literal["office", "supplier", "ground", "site"]
+Key = Literal[
+    "snow_height",
+    "glide_factor",
+    "ground",
+    "cover",
+    "natural_ground",
+    "protected",
+    "basis",
+    "sleeve",
+    "rectangular",
+    "hangs_free",
+    "one_construction",
+    "axes",
+    "edge",
+    "apart",
+    "row_above",
+    "gap",
+]
 
 # Who sees to each condition, in the order of the reports.
-_WHO: Mapping[str, Who] = {
+_WHO: Mapping[Key, Who] = {
     "snow_height": "office",
     "glide_factor": "office",
     "ground": "ground",
@@ -68,7 +86,7 @@ class Condition:
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("value",)
 
-    key: str
+    key: Key
     who: Who
     message: Text
     value: float | None = None
@@ -102,7 +120,7 @@ def _is_worse(condition: Condition, other: Condition) -> bool:
     return is_less if condition.key in _LEAST_COUNTS else condition.value > other.value
 
 
-def _state(key: str, value: float | None = None) -> Condition:
+def _state(key: Key, value: float | None = None) -> Condition:
     text = say(f"condition.{key}")
     if value is not None:
         text = say(f"condition.{key}_of", value=value)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.addons.reliability.check_by_case import _find_rise
 from netdesign.checks import load_standard
 from netdesign.checks.forces import load_guy, load_post
 from netdesign.checks.schema import LATERAL_SHARE
@@ -58,7 +59,8 @@ def add(held, member):
         held=held,
         tilt=0.0,
     )
-    leaves, rise = _list_load_leaves(forces, member, forces.effects.supports[0])
+    leaves = _list_load_leaves(forces, member, forces.effects.supports[0])
+    rise = _find_rise(forces, member)
     if not leaves:
         return 0.0, rise
     load = load_guy if leaves[0].symbol == "c" else load_post
