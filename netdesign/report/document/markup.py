@@ -26,7 +26,9 @@ SMALLEST_PT = 7.5
 _CELL_PT = 7.5
 _MARGIN_PT = 3.0  # left and right of the text of a cell
 _TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
-_SIGN = 0.57  # width of a sign in sizes of the font
+_SIGN = 0.51  # width of a sign in sizes of the font
+_BOLD_SIGN = 1.06  # of a heading against another
+_LINE = 0.95  # of a whole line: not all of its signs are wide
 _LONGEST = 80  # signs of a cell that count for the width of its column
 _LONGEST_WORD = 22
 _CAPITAL = 0.35  # more than the width of another sign
@@ -192,8 +194,16 @@ def _measure_columns(
     lines = [line for line in (grid.headings, *grid.lines) if len(line) > 1]
     texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
     first = bool(grid.headings)
-    least = [_measure(_list_words(column), is_tight) for column in texts]
-    wanted = [_measure(_list_lines(column[first:]), is_tight) for column in texts]
+    least = [
+        max(
+            _BOLD_SIGN * _measure(_list_words(column[:first]), is_tight),
+            _measure(_list_words(column[first:]), is_tight),
+        )
+        for column in texts
+    ]
+    wanted = [
+        _LINE * _measure(_list_lines(column[first:]), is_tight) for column in texts
+    ]
     return least, [max(pair) for pair in zip(least, wanted, strict=True)]
 
 
