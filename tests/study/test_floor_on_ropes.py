@@ -23,7 +23,7 @@ LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
 def make_floor(foot, head):
     """Floor that pulls so much on foot and head [N]."""
     force = FloorForce(
-        member=Member.FOOT_ANCHOR, force=foot, at=None, case=None, load=None, pull=None
+        member=Member.FOOT_ANCHOR, force=foot, net=None, case=None, load=None, pull=None
     )
     span = HeadSpan(pull=head, least_tension=0.0, foot_least=0.0, foot_largest=0.0)
     return Floor(forces=(force,), head=span)
@@ -58,7 +58,7 @@ def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed):
     """
     draw = random.Random(seed)
     solve, _, spacing = draw_case(seed)
-    panels = assume_all(spacing)
+    panels = [one for mid in (False, True) for one in assume_all(spacing, mid)]
     results = [solve(panels, draw.uniform(0.6, 1.3)) for _ in range(3)]
     if len(list_panels(results)) < len(results):
         pytest.skip("a case without panels")
@@ -85,10 +85,13 @@ def test_raised_ropes_pull_no_less_than_any_panel_under_that_load(seed):
     """All 96 ends of what is built, each under the load that reaches the floor."""
     draw = random.Random(seed)
     solve, net, spacing = draw_case(seed)
-    result = solve(assume_all(spacing))
+    panels = [one for mid in (False, True) for one in assume_all(spacing, mid)]
+    result = solve(panels)
     state = result.solution
     strip = build_strip(net, state.net_curve, state.net_forces, state.foot)
-    solved = solve_strips(strip, list(list_ends(spacing)))
+    solved = solve_strips(
+        strip, [one for mid in (False, True) for one in list_ends(spacing, mid)]
+    )
     panels = [
         solved.describe(place)
         for place in range(len(solved.panels))
