@@ -1,11 +1,7 @@
 """Base laws and the table from glide factor to slip length."""
 
-from itertools import product
-
 import pytest
 
-from netdesign.addons.evidence.verification.rigid import measure_glide_factor
-from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     GroundLaw,
@@ -46,24 +42,6 @@ def test_slip_length_between_entries():
     assert compute_slip_length(halfway, 1.0) == pytest.approx(
         table.slip_ratios[0] / 2, rel=1e-12
     )
-
-
-@pytest.mark.long
-@each("law, ratio", [*product(load_glide_tables(), (0.025, 1.0, 31.5))][::2])
-def test_recipe_gives_the_stored_table(law, ratio):
-    table = load_glide_tables()[law]
-    place = table.slip_ratios.index(ratio)
-    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
-    assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
-
-
-@pytest.mark.long
-@each("law, ratio", [*product(load_glide_tables(), (0.0281, 3.58, 14.1))][1::2])
-def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
-    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
-    table = load_glide_tables()[law]
-    assert table.find_glide_factor(ratio) == pytest.approx(measured, rel=2e-3)
-    assert compute_slip_length(measured, 1.0, law) == pytest.approx(ratio, rel=0.01)
 
 
 @pytest.mark.parametrize("law", load_glide_tables())

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -18,8 +19,10 @@ from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Outcome
-from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS
+from netdesign.snow.ground import compute_slip_length, load_glide_tables
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from tests.each import each
 
 COARSE = SolverSettings(
     accuracy=0.1,
@@ -130,3 +133,21 @@ def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
     assert longer == pytest.approx(recipe, rel=5e-4)
     monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
     assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe
+
+
+@pytest.mark.long
+@each("law, ratio", [*product(load_glide_tables(), (0.025, 1.0, 31.5))][::2])
+def test_recipe_gives_the_stored_table(law, ratio):
+    table = load_glide_tables()[law]
+    place = table.slip_ratios.index(ratio)
+    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
+
+
+@pytest.mark.long
+@each("law, ratio", [*product(load_glide_tables(), (0.0281, 3.58, 14.1))][1::2])
+def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
+    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    table = load_glide_tables()[law]
+    assert table.find_glide_factor(ratio) == pytest.approx(measured, rel=2e-3)
+    assert compute_slip_length(measured, 1.0, law) == pytest.approx(ratio, rel=0.01)
