@@ -206,13 +206,13 @@ def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     going_on = {name: of for name, of in joined.items() if len(of) >= _ENDS}
     lines = {row["id"].word: row for row in rows}
     beside = {name: {*of} & lines.keys() - {name} for name, of in joined.items()}
-    for name in (one for one in going_on if one in lines):
-        at = find_named(lines[name])
+    for name, row in lines.items():
+        at = find_named(row)
         for other in joined[name]:
             if other not in beside[name]:
                 rule = say("nets.no_neighbour", id=other)
                 refuse(at, rule, say("nets.other_ids"), findings)
-        if beside[name]:
+        if name in going_on and beside[name]:
             _check_ends(name, at, beside, going_on, findings)
     return {name: of for name, of in going_on.items() if name in lines}
 

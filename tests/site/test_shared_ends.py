@@ -103,6 +103,18 @@ def test_any_number_of_rows_into_one_end_and_rings_are_refused(tmp_path, said, t
         read_site(write_rows(tmp_path / "site.xlsx", said))
 
 
+UNKNOWN = [
+    {"R1": ("A99",), "R2": (), "R3": (), "R4": ()},
+    {"R1": ("A99", "R2"), "R2": ("R3",), "R3": (), "R4": ()},
+]
+
+
+@each("said", UNKNOWN)
+def test_a_neighbour_that_is_no_row_is_refused(tmp_path, said):
+    with pytest.raises(SiteDataError, match="A99"):
+        read_site(write_rows(tmp_path / "site.xlsx", said))
+
+
 NUMBERS = (
     *("slope_angle", "snow", "net_height", "post_spacing"),
     *("net_stiffness", "slack", "post_tilt"),
