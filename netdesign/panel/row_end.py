@@ -1,6 +1,6 @@
 """Forces on the support at a row's end: half a panel, and both ropes along the row.
 
-Theory: panel/THEORY.md, section 4; structure/THEORY.md, (S1) to (S6).
+Theory: panel/THEORY.md, section 4; structure/THEORY.md, (S1) to (S6) and (S25).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from netdesign.panel.solve import PanelSolution
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
+from netdesign.structure.splay import hold_end_guy
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,14 +31,17 @@ class EndForces:
         Pull of the ridge rope on the post head along the row [N].
     guy_tension : float
         Of the end guy that holds the head along the row [N].
+    across : float
+        What that guy pulls on the head across the row [N].
     post_compression : float
-        Of half a bay and of that guy [N].
+        Of half a bay and of that guy, whose anchor lies abreast of the head [N].
     """
 
     support: AnchorForces
     foot: tuple[float, float, float]
     head_along: float
     guy_tension: float
+    across: float
     post_compression: float
 
     @property
@@ -82,13 +86,19 @@ def compute_end_forces(
         head_pull_per_m=(panel.head[0] / spacing, panel.head[1] / spacing),
         post_spacing=spacing / 2.0,
     )
+    held = hold_end_guy(points)
     if isinstance(support, FailedSupport):
         return support
+    if isinstance(held, FailedSupport):
+        return held
     along = panel.upper.along
+    across = along * math.tan(guy_angle)
+    post = support.head.post_compression + held.post_compression * across
     return EndForces(
         support=support,
         foot=(support.foot_anchor.x, support.foot_anchor.y, panel.lower.along),
         head_along=along,
         guy_tension=along / math.cos(guy_angle),
-        post_compression=support.head.post_compression + along * math.tan(guy_angle),
+        across=across,
+        post_compression=post,
     )

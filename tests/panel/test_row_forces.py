@@ -44,12 +44,18 @@ def test_at_the_end_half_a_bay_and_both_ropes(panel, points, degrees):
     assert end.foot == pytest.approx(half)
     assert end.foot_size == pytest.approx(math.dist(half, (0, 0, 0)))
     assert end.head_along == panel.upper.along
-    # the guy's parts: along the row all that the rope pulls, into the post the rest
+    # the guy's parts: along the row all that the rope pulls, across it the rest
     assert end.guy_tension * math.cos(math.radians(degrees)) == pytest.approx(
         panel.upper.along
     )
+    assert math.hypot(end.across, end.head_along) == pytest.approx(end.guy_tension)
+    # the post leans on its uphill guy: C = V cos(alpha) / cos(tau + alpha), by hand
+    (head_x, head_y), (up_x, _) = points.head, points.uphill_anchor
+    tilt = math.atan2(head_x - points.post_base[0], head_y - points.post_base[1])
+    fall = math.atan2(head_y, head_x - up_x)
     added = end.post_compression - inside.head.post_compression / 2
-    assert math.hypot(added, end.head_along) == pytest.approx(end.guy_tension)
+    by_hand = end.across * math.cos(fall) / math.cos(tilt + fall)
+    assert added == pytest.approx(by_hand)
 
 
 @pytest.mark.parametrize("degrees", [-0.1, 80.1, math.nan])

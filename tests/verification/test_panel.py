@@ -167,7 +167,7 @@ def test_row_end(number):
         end.foot_size,
         end.head_along,
         end.support.head.post_compression,
-        end.post_compression - end.support.head.post_compression,
+        end.across,
     ]
     x, y, z, size, angle, *rest = ENDS[number]
     assert [part / 1e3 for part in kN] == [
