@@ -5,6 +5,8 @@ import random
 import pytest
 
 from netdesign.site.reader import read_site
+from tests.make import write_site
+from tests.study.knowing_less.drawn_tables import draw_tables
 
 UNITS = ["deg", "m normal", "-", "m", "m"]
 
@@ -60,3 +62,22 @@ def test_ids_of_a_sheet_that_cannot_be_read_are_not_told_one_by_one(
     sheets["Anchors"] = spoil(sheets["Anchors"])
     findings = [one for one in refused(save(sheets)) if one.severity == "error"]
     assert [str(one.rule) for one in findings] == [rule]
+
+
+@pytest.mark.parametrize("seed", [4, 7, 11])
+def test_a_refused_number_is_told_alone(tmp_path, refused, seed):
+    """Beside it nothing is asked for, and no column of its line counts as empty."""
+    tables = draw_tables(seed, is_tested=True)
+    numbers = [
+        (block, place, key)
+        for block, lines in tables.items()
+        for place, line in enumerate(lines or ())
+        for key, value in line.items()
+        if block not in ("project", "declared") and isinstance(value, float)
+    ]
+    for block, place, key in random.Random(seed).sample(numbers, 30):
+        line = tables[block][place]
+        tables[block][place] = line | {key: -7.3e9}
+        (finding,) = refused(write_site(tmp_path / "site.xlsx", tables))
+        assert finding.text == "-7300000000", (block, place, key)
+        tables[block][place] = line

@@ -76,10 +76,8 @@ def _read_proof(line: Row) -> dict[str, Reading]:
     """Pull-out resistance by how it is proven: by tests, or as one number."""
     force, count, mean = (line[key] for key in ("pull_out", "test_count", "test_mean"))
     least = rename(force, line["test_least"].field)
-    if force.state == "blank":
-        return {"test_least": least}
     if force.state != "given":
-        return {}
+        return {"test_least": least}
     if line["proven"].word != "tests":
         return {
             "test_count": read_nothing(count.field, None),
