@@ -42,7 +42,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
     netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
     netdesign check site.xlsx --row R1 --row R3 --out some
     netdesign check site.xlsx --size --out sized
-    netdesign check site.xlsx --what-if Nets.P8=A40 --out what-if
+    netdesign check site.xlsx --what-if Rows.I9=3.0 --out what-if
     netdesign check site.xlsx --json > study.json
 
     The site is an xlsx, xlsm or csv file, or a folder of csv files. Defaults

@@ -143,7 +143,8 @@ def _list_open(row: str, check: Check) -> Iterator[_Point]:
             yield _Point(who="office", key=key, row=row, check=check, point=point)
         elif point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
             key = ("needs",)
-            named = who if check.resistance_type else "office"
+            is_of_product = check.resistance_type or check.mode == "mesh"
+            named = who if is_of_product else "office"
             yield _Point(who=named, key=key, row=row, check=check, point=point)
         elif point.proof is not None:
             key = ("proof", str(point.proof.document))

@@ -23,13 +23,13 @@ def workbook(tmp_path_factory):
 @each(
     "text, found",
     [
-        ("Nets.P8=A40-tested", ("Nets!P8", "A40-tested")),
-        ("Nets!p8= 3,0 m ", ("Nets!P8", "3,0 m")),
-        ("site.Nets.AB12=a=b", ("site.Nets!AB12", "a=b")),
+        ("Rows.P8=A40-tested", ("Rows!P8", "A40-tested")),
+        ("Rows!p8= 3,0 m ", ("Rows!P8", "3,0 m")),
+        ("site.Rows.AB12=a=b", ("site.Rows!AB12", "a=b")),
         ("P8=A40", None),
-        ("Nets.P8", None),
-        ("Nets.P8=", None),
-        ("Nets.P0=1", None),
+        ("Rows.P8", None),
+        ("Rows.P8=", None),
+        ("Rows.P0=1", None),
     ],
 )
 def test_a_replacement_names_sheet_cell_and_text(text, found):

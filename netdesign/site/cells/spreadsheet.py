@@ -100,7 +100,7 @@ def read_delimited(
 
 
 def _name_sheet(file: str, is_wanted: Callable[[str], bool]) -> str:
-    """Sheet that a file's name says: ``Nets.csv``, ``site - Nets.csv``."""
+    """Sheet that a file's name says: ``Rows.csv``, ``site - Rows.csv``."""
     stem = file.rpartition(".")[0]
     last = stem.replace("_", "-").rpartition("-")[2].strip()
     return next((name for name in (stem, last) if is_wanted(name)), "")
@@ -244,7 +244,7 @@ def read_workbook(
     if is_text(path):
         paths = sorted(path.glob("*.csv")) if is_folder else [path]
         if not paths:
-            raise refuse_file(path.name, say("book.no_csv"), say("book.nets_csv"))
+            raise refuse_file(path.name, say("book.no_csv"), say("book.rows_csv"))
         contents = _read_texts(path.name, paths)
         sheets, unread, remarks = read_delimited(
             contents,
