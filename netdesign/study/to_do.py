@@ -223,8 +223,10 @@ def _describe_failed(check: Check, checks: tuple[Message, ...]) -> Message:
     if demand is None or resistance is None:
         return _describe_open(checks, shorten_reason(check.plain_reason))
     failed = say("to_do.fails", checks=checks, demand=demand, resistance=resistance)
-    if check.eased_low is not None:
-        failed = say("to_do.at_best", what=failed, used=check.eased_low)
+    if check.eased_low is not None and check.used is not None:
+        ends = {"least": check.eased_low, "used": check.used}
+        forces = {"demand": demand, "resistance": resistance}
+        failed = say("to_do.from_best", checks=checks, **ends, **forces)
     other = next((each for each in check.changes if each.sense == "has"), None)
     if other is None:
         return failed
