@@ -194,6 +194,24 @@ def test_a_report_that_nobody_names_any_more_proves_no_more(tmp_path):
     assert list_improvements(before, after) == []
 
 
+@pytest.mark.parametrize("seed", [3, 11])
+def test_a_chain_that_is_not_said_to_be_complete_passes_no_better(tmp_path, seed):
+    tables, path = build_tables(seed), tmp_path / "site.xlsx"
+    tables["links"] = [line | {"chain": "complete"} for line in tables["links"]]
+    cells = [("links", place, "chain") for place in range(len(tables["links"]))]
+    before, after = judge(path, tables), judge(path, empty(tables, cells))
+    assert list_improvements(before, after) == []
+    verdicts = [
+        {
+            (name, check.id): check.verdict
+            for name in rows
+            for check in rows[name].checks
+        }
+        for rows in (before, after)
+    ]
+    assert verdicts[0] != verdicts[1]  # the word counts
+
+
 @pytest.mark.parametrize("seed", [4, 11])
 def test_a_pull_out_resistance_that_nobody_proves_is_a_condition(tmp_path, seed):
     tables, path = build_tables(seed), tmp_path / "site.xlsx"
