@@ -1,8 +1,4 @@
-"""Checks worked out again from a page alone, by a calculator of its own.
-
-Nothing of the program is used here: what is read is the English page, what is evaluated
-are the formulas that stand on it.
-"""
+"""Checks worked out again from a page alone, by a calculator of its own."""
 
 import html
 import math

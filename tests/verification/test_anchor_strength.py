@@ -71,10 +71,7 @@ def test_proof_load_that_the_tendons_of_the_example_allow(tendon_kN, limit_kN):
 
 @each("count, most_kN", [(1, 457), (2, 492), (3, 533), (5, 640)])
 def test_most_that_held_tests_show_of_a_tendon_of_800_kN(count, most_kN):
-    """640 kN over 1.40, 1.30, 1.20, 1.00: of tests alike the mean governs (R1).
-
-    The second derivation has 533 and 610 kN by the factors of the least alone.
-    """
+    """640 kN over 1.40, 1.30, 1.20, 1.00: of tests alike the mean governs (R1)."""
     load = limit_proof_load(800e3, 800e3)
     tests = PullOutTests(count=count, least=load, mean=load)
     check = check_member(a_force(1e5), pull_out(tests=tests), EUROCODE)

@@ -1,8 +1,4 @@
-"""What annual maxima tell: error of a return value, density by depth.
-
-Truths: moments of Gumbel's distribution, drawn samples, the test worked out in
-NumPy, integrals.
-"""
+"""What annual maxima tell: error of a return value, density by depth."""
 
 import math
 

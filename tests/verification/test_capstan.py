@@ -1,10 +1,4 @@
-"""Friction along the net against Euler and Eytelwein, T2 / T1 = exp(mu w).
-
-Truth: the closed form (cable/THEORY.md, C8), which holds wherever a cable is pressed
-and slips, whatever its shape is. First the cable alone on a circle under tractions
-built by hand; then the coupled state, whose nodal friction, contact and cable know
-nothing of the formula.
-"""
+"""Friction along the net against Euler and Eytelwein, T2 / T1 = exp(mu w)."""
 
 import math
 from itertools import pairwise
@@ -20,11 +14,7 @@ FRICTION = 0.4
 
 
 def arc_forces(wrap, n, start_tension):
-    """Consistent nodal forces and unstressed lengths of n elements on the circle.
-
-    T = T1 exp(mu w), pressure T / R outward, shear mu T / R against the rise of T,
-    dS = R dw / (1 + T / ES). Integrated by a rule far finer than the elements.
-    """
+    """Consistent nodal forces and unstressed lengths of n elements on the circle."""
     angles = np.linspace(0.0, wrap, n + 1)
     points, weights = np.polynomial.legendre.leggauss(12)
     lengths, forces = np.zeros(n), np.zeros((2, 2 * n + 1))
@@ -90,10 +80,7 @@ def measure_capstan(solution):
 
 @pytest.mark.parametrize("friction_deg", [1.0, 5.0, 10.0])
 def test_snow_that_slips_down_the_net(solved, friction_deg):
-    """Rough ground, net normal to the slope: the head end pulls harder.
-
-    The snow presses everywhere, so the formula is exact; to 1e-6 on coarse meshes.
-    """
+    """Rough ground, net normal to the slope: the head end pulls harder."""
     solution = solved(ground="no-slip", friction_deg=friction_deg)
     ratio, excess, capstan = measure_capstan(solution)
     assert solution.net_slides[1:].all()
@@ -111,11 +98,7 @@ def test_snow_that_slips_down_the_net(solved, friction_deg):
     ids=str,
 )
 def test_snow_that_slips_up_the_net(solved, scene, finest):
-    """Inclined net: the foot end pulls harder.
-
-    The pressure is singular at the foot (r^-0.26), so the order is about one in the
-    mesh level; 1e-4 of suction at the very top is left out of the formula.
-    """
+    """Inclined net: the foot end pulls harder."""
     excesses = []
     for level in (0, 1, 2):
         solution = solved(level, inclination_deg=30.0, **scene)

@@ -1,8 +1,4 @@
-"""Cable solver against the exact elastic cable and two textbook limits.
-
-Truth: cable/THEORY.md (C9), the elastic catenary under a load per unstressed length;
-(C6) for slack 0; a triangle of forces for a point load.
-"""
+"""Cable solver against the exact elastic cable and two textbook limits."""
 
 import math
 
@@ -27,10 +23,7 @@ def uniform_forces(load, lengths):
 
 
 def elastic_cable(S, across, along, load, stiffness):
-    """(C9) from any point: (x, y) at S, tension (H, V0 + q S), load along -y.
-
-    With V0 = 0 it is (C9) as printed.
-    """
+    """(C9) from any point: (x, y) at S, tension (H, V0 + q S), load along -y."""
     end = along + load * S
     x = across * S / stiffness + across / load * (
         np.arcsinh(end / across) - math.asinh(along / across)
@@ -56,10 +49,7 @@ def exact_pull(head, length, load, stiffness):
 @each("slack", [0.0, 0.05, 0.4])
 @each("head", [(1.0, 0.0), (0.8, 0.6), (0.6, -0.8)])
 def test_uniform_load_converges_to_the_exact_cable(head, slack):
-    """Tension vectors are exact but for the pull, and that is of fourth order.
-
-    Two Gauss points integrate the cable's direction with an error of h^4.
-    """
+    """Tension vectors are exact but for the pull, and that is of fourth order."""
     head, load, length = np.array(head), 5.0, 1.0 + slack
     foot = exact_pull(head, length, load, STIFFNESS)
     end = -(foot + np.array([0.0, load * length]))
@@ -111,11 +101,7 @@ def test_printed_form_of_the_elastic_parabola():
 
 
 def test_shallow_limit():
-    """f^3 = 3 q c^4 / (64 ES) and T^2 = (q c^2 / 8 f)^2 + (q c / 2)^2, both to (f/c)^2.
-
-    The parabola leaves out what is of the order of (f/c)^2: so the difference must
-    fall with the two thirds power of the load, and does.
-    """
+    """f^3 = 3 q c^4 / (64 ES), T^2 = (q c^2 / 8 f)^2 + (q c / 2)^2, both to (f/c)^2."""
     chord, n = 1.0, 32
     differences = []
     for load in (1e-2, 1e-3, 1e-4):
@@ -156,10 +142,7 @@ def test_values_worked_by_hand():
 @each("deflection", [0.01, 0.1, 0.5])
 @each("place", [0.25, 0.5, 0.7])
 def test_point_load_closes_a_triangle(place, deflection):
-    """Two straight halves: choose the deflected node, find the load, solve back.
-
-    Exact: straight elements under constant tension are in the space.
-    """
+    """Two straight halves: choose the deflected node, find the load, solve back."""
     node, head = np.array([place, -deflection]), np.array([1.0, 0.0])
     legs = (node, head - node)
     unstressed = np.array([place, 1.0 - place]) * 0.98

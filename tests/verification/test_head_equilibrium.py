@@ -1,10 +1,4 @@
-"""Post head against the closing triangle of forces.
-
-Truth: the three forces on the head (pull, post, guy) form a closed triangle, so
-the laws of sines and cosines give their sizes from the angles between their lines.
-The angles below are set first and the points follow from them; the program sees
-only the points and resolves them by cross products.
-"""
+"""Post head against the closing triangle of forces."""
 
 import math
 

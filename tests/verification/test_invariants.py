@@ -1,8 +1,4 @@
-"""What must hold of every steady state, whatever its numbers are.
-
-Truth: global equilibrium, similarity (FACTS.md, section 5), limits of friction.
-Nothing here knows a force beforehand.
-"""
+"""What must hold of every steady state, whatever its numbers are."""
 
 import math
 from dataclasses import replace
@@ -33,10 +29,7 @@ def pulls(solution) -> np.ndarray:
 
 
 def meshed_area(solution) -> float:
-    """L d and what lies under the net's curve, Simpson on its parabolic edges.
-
-    From the reported curve alone: no integral of the program's mesh.
-    """
+    """L d and what lies under the net's curve, Simpson on its parabolic edges."""
     pack = solution.scene.snowpack
     n_net = solution.net_forces.shape[1]
     x, y = solution.net_curve[:, :n_net]
@@ -102,11 +95,7 @@ def test_ground_takes_its_share(solved, scene):
 
 @pytest.mark.parametrize("friction_angle", [None, 0.0, 0.5])
 def test_level_free_ground_pushes_nothing_downslope(a_scene, friction_angle):
-    """Slope 0: no force along X in sum, since the upslope end is free too.
-
-    Pressure below is suction above, which a wall may hold but no net can: it lets go,
-    and then nothing presses on it either.
-    """
+    """Slope 0: no force along X in sum, since the upslope end is free too."""
     level = a_scene(slope_deg=0.0)
     wall = Wall(height_normal=4.0, friction_angle=friction_angle)
     solution = solve_rigid(put_wall(level, wall))

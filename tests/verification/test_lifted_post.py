@@ -1,9 +1,4 @@
-"""A post that the net lifts: numbers by hand, elastic members, closed bounds.
-
-Truth: statics of one head with a 3-4-5 triangle on each side; the exact elastic answer
-of post and guys without prestress, found from stiffness alone, whichever members have
-what stiffness; the part of equilibrium across the slope.
-"""
+"""A post that the net lifts: numbers by hand, elastic members, closed bounds."""
 
 import math
 import random
@@ -142,10 +137,7 @@ def test_no_support_is_refused_for_uplift(seed):
 
 
 def solve_elastic(pull, directions, stiffness):
-    """Forces of post (compression) and two guys, from the move of the head alone.
-
-    Guys are stretched or slack: the one set that agrees with itself is the answer.
-    """
+    """Forces of post (compression) and two guys, from the move of the head alone."""
     for active in product((True, False), repeat=2):
         bars = [(directions[0], stiffness[0])]
         bars += [

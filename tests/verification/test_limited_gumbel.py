@@ -1,7 +1,4 @@
-"""Gumbel's distribution of maxima that are known above a limit alone.
-
-Truths: the likelihood and its minimiser of SciPy, samples of known distributions.
-"""
+"""Gumbel's distribution of maxima that are known above a limit alone."""
 
 import math
 

@@ -1,9 +1,4 @@
-"""The net's own length, recovered from a coupled state.
-
-Truth: the continuum statement, integral ds / (1 + T / ES) = (1 + slack) c (FACTS.md,
-section 10). Lengths come from the reported curve, tensions from the reported forces by
-statics; neither the program's material coordinates nor its cable solver are asked.
-"""
+"""The net's own length, recovered from a coupled state."""
 
 import numpy as np
 import pytest

@@ -1,8 +1,4 @@
-"""Panels between posts against a prototype, statics, closed forms and a net in space.
-
-Truth: FACTS.md, section 13, read from its tables; equilibrium of half a panel from its
-supports, curves and nodal forces alone; the net of ``net_in_space.py``.
-"""
+"""Panels between posts against a prototype, statics, closed forms, a net in space."""
 
 import math
 import re
@@ -226,10 +222,7 @@ def integrate_even(values, xi):
 
 
 def sum_on_half_panel(number, solved):
-    """Forces on half a panel (3,) and their moments about the foot (3,), and scales.
-
-    Loads at the curves, and what supports and the other half of the ropes do to it.
-    """
+    """Forces on half a panel (3,) and their moments about the foot (3,), and scales."""
     forces = take_strip(solve_section(number)).forces
     half = spacing(number) / 2.0
     count = solved.stations.size - 1

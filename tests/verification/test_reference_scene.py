@@ -1,8 +1,4 @@
-"""The paper's scene, with psi = 40 deg and ES = 20 MN/m, against another code.
-
-Truth: FACTS.md, sections 6 and 7: steady state from two independent codes that agree to
-0.1 %, uncertainty of the table below 0.01 kN/m; layered scenes from one of them.
-"""
+"""The paper's scene, with psi = 40 deg and ES = 20 MN/m, against another code."""
 
 import math
 
@@ -79,10 +75,7 @@ def test_balance(case):
 
 
 def test_foot_tension_is_not_monotonic_in_friction(solved):
-    """At 30 deg: 369 at phi = 0, 341 near 20, 345.6 kN/m where everything sticks.
-
-    Finer and finer meshes give 370.0 at phi = 0.
-    """
+    """At 30 deg: 369 at phi = 0, 341 near 20, 345.6 kN/m where everything sticks."""
     expected = {0.0: 369.0, 20.0: 341.0, 45.0: 345.6}
     found = {
         phi: solved(inclination_deg=30.0, friction_deg=phi).foot for phi in expected

@@ -1,9 +1,4 @@
-"""Reliability indices against closed forms, another code, and drawn repeats.
-
-Theory: addons/reliability/THEORY.md. Values: FACTS.md, section 15. Those of pystra
-1.6.0 (FORM, and its importance sampling of 200,000 samples or more) were worked out
-apart; the tests do not need it.
-"""
+"""Reliability indices against closed forms, another code, and drawn repeats."""
 
 import math
 

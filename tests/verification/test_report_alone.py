@@ -1,10 +1,4 @@
-"""Checks follow from report.html alone; what the page is on paper.
-
-Who reads here has the page and its formulas, nothing of the program: of each kind of
-check the governing one is worked out, of all others utilisation and forces stand in
-the tables. Two sites: the example, and one of drawn numbers with what the example
-lacks.
-"""
+"""Checks follow from report.html alone; what the page is on paper."""
 
 import copy
 import math

@@ -1,7 +1,4 @@
-"""Intervals of return values: how often they hold the truth, in drawn winters.
-
-Truth: samples of known distributions.
-"""
+"""Intervals of return values: how often they hold the truth, in drawn winters."""
 
 import math
 from dataclasses import replace

@@ -1,10 +1,4 @@
-"""Every check of rows R4 and R5 redone by the second reader's own script.
-
-The script has the workbook's cells, the profile's files and what only a solve knows:
-forces of section and panel, pulls on the head, least and largest angle of a pull, and
-of the outer guys at the row's end what the program's truss gives them, which is
-compared with the script's own truss besides.
-"""
+"""Every check of rows R4 and R5 redone by the second reader's own script."""
 
 import json
 import math
@@ -126,10 +120,7 @@ def test_every_check_of_a_force(solved):
 
 
 def takes_the_place(second, inside, stated):
-    """A check of the second support that is up to 1 % worse stands for that inside.
-
-    Of two alike - the base slides by the same share whatever the load - either does.
-    """
+    """A check of the second support that is up to 1 % worse stands for that inside."""
     ratio = second.used[1] / inside.used[1]
     if abs(ratio - 1.0) > 1e-9:
         return 1.0 < ratio <= 1.01
@@ -166,7 +157,7 @@ def test_the_guideline_s_load_on_every_member(solved):
 
 def test_parts_of_the_end_guy_s_push(solved):
     for row, _ in solved:
-        along, angle, _ = row.end_guy
+        along, angle = row.end_guy
         across = along * math.tan(angle)
         post, guy, lower = (part / across for part in row.push())
         stated = row.study["end_guy"]

@@ -1,9 +1,4 @@
-"""Net that slides over the snow against the capstan, Euler and Eytelwein.
-
-Truth: round a circular arc of friction mu the tension changes by exp(mu angle) where
-the net glides, and not at all where it sticks. The arc becomes a polygon with nodes
-on it and straight tails along its end tangents; errors fall at order 2.
-"""
+"""Net that slides over the snow against the capstan, Euler and Eytelwein."""
 
 import math
 
@@ -67,8 +62,7 @@ def test_capstan_ratio_where_the_whole_net_glides(phi, end):
 def tail_before(slip_angle: float, rate: float) -> float:
     """Length of the tail under STRAIN whose change to TAIL makes the net glide so far.
 
-    Tension over the slip angle is T0 exp(rate angle), T0 beyond, and the unstressed
-    length of arc and tail together stays:
+    Tension over the slip angle is T0 exp(rate angle), and the unstressed length stays:
     R int_0^w d(angle) / (1 + e(angle)) + TAIL / (1 + e(w)) = (R w + a) / (1 + e(0)).
     """
     end_strain = STRAIN * math.exp(rate * slip_angle)

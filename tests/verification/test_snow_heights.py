@@ -1,7 +1,4 @@
-"""Settling models against their authors' series, snow pits, and another code.
-
-Spoilt formulas that made this file fail are named in its commit.
-"""
+"""Settling models against their authors' series, snow pits, and another code."""
 
 import csv
 from datetime import date, timedelta

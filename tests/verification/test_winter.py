@@ -1,9 +1,4 @@
-"""A made-up winter on a net, against a prototype of the same chain.
-
-Its figures rest on an earlier solver whose layers were carried by the bulging net:
-layers at constant height pull up to 8 % more. Glide factors were those of the
-largest height.
-"""
+"""A made-up winter on a net, against a prototype of the same chain."""
 
 import math
 from datetime import date, timedelta

@@ -60,7 +60,7 @@ def redo_end(row):
         yield from redo_rope(row, name, net[name], row.find_tension(rope), None)
     lateral = row.find_along("lower")
     yield from redo_anchor(row, "lateral_anchor", end["lateral_anchor"], lateral)
-    along, angle, _ = row.end_guy
+    along, angle = row.end_guy
     pull = along / math.cos(angle)
     beside = find_pulls(row, "end_guy_anchor").beside
     yield from redo_rope(row, "end_guy", end["end_guy"], pull, beside)
@@ -265,10 +265,8 @@ def find_pulls(row, member, position="intermediate"):
 
 def find_end_guy_way(row):
     """Unit vector along the end guy from its anchor to the head."""
-    _, angle, place = row.end_guy
-    section = row.sections[0]
-    at = None if place is None else section.base[0] + place
-    x, y = statics.pull_of_end_guy(section, angle, at)
+    _, angle = row.end_guy
+    x, y = statics.pull_of_end_guy(angle)
     return -x * math.cos(angle), -y * math.cos(angle), math.cos(angle)
 
 

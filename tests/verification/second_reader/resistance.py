@@ -3,6 +3,8 @@
 import math
 from bisect import bisect_right
 
+import numpy as np
+
 # Loss of a face in natural ground [mm] after years (EN 14199, Annex D), and of others.
 YEARS = (0.0, 5.0, 25.0, 50.0, 75.0, 100.0)
 LOSS = {"natural": (0.0, 0.0, 0.30, 0.60, 0.90, 1.20)}
@@ -58,22 +60,6 @@ def bend_bar(bar, angle, lever):
     return find_root(rest, 0.0, axial + moment + shear + 1e3)
 
 
-def find_ground_lever(modulus, bending):
-    """Lever that the ground adds to a beam pulled at its mouth: max M / V [m].
-
-    Of a beam on elastic ground (E_s in kPa, E I in kN m2): M = (V / beta) e^-s sin s,
-    largest at s = pi / 4.
-    """
-    beta = (modulus / (4.0 * bending)) ** 0.25
-    return math.exp(-math.pi / 4.0) * math.sin(math.pi / 4.0) / beta
-
-
-def incline_bearing(tilt):
-    """i_q and i_gamma of EN 1997-1 annex D for a square plate, no cohesion."""
-    across = 1.0 - math.tan(tilt)
-    return across**1.5, across**2.5
-
-
 def buckle(area, second, length, strength, curve):
     """Characteristic resistance and critical force of a strut [kN]."""
     critical = math.pi**2 * STEEL * second / length**2
@@ -116,30 +102,19 @@ def lift_wedge(soil, depth, width, slope, pulls, *, drained):
     (rear); the wedge moves at theta + phi. ``soil``: c, phi (both design), gamma.
     """
     cohesion, friction, weight = soil
-
-    def hold(theta):
-        rear = theta + 2.0 * friction
-        area = depth**2 / 2.0 * (1.0 / math.tan(theta) - 1.0 / math.tan(rear))
-        planes = depth / math.sin(theta) + depth / math.sin(rear)
-        moves = theta + friction
-        work = weight * math.sin(moves - slope)
-        if not drained:
-            work -= WATER * math.cos(slope) * math.sin(moves)
-        return width * (cohesion * planes * math.cos(friction) + area * work)
+    low, high = pulls
 
     def resist(theta):
-        held = hold(theta)
-        if held <= 0.0:
-            return 0.0
-        turns = [math.cos(pull - theta - friction) for pull in pulls]
-        low, high = pulls
-        if low <= theta + friction <= high:
-            turns.append(1.0)
-        best = max(turns)
-        return held / best if best > 0.0 else math.inf
+        rear, moves = theta + 2.0 * friction, theta + friction
+        area = depth**2 / 2.0 * (1.0 / np.tan(theta) - 1.0 / np.tan(rear))
+        planes = depth / np.sin(theta) + depth / np.sin(rear)
+        work = weight * np.sin(moves - slope)
+        if not drained:
+            work -= WATER * math.cos(slope) * np.sin(moves)
+        held = width * (cohesion * planes * math.cos(friction) + area * work)
+        return divide(held, np.cos(np.clip(moves, low, high) - moves))
 
-    last = math.pi - 2.0 * friction
-    return find_least(resist, 1e-4, last - 1e-4)
+    return find_least(resist, (1e-4, math.pi - 2.0 * friction - 1e-4))
 
 
 def lift_cone(soil, depth, slope, pull, *, drained):
@@ -155,49 +130,38 @@ def lift_cone(soil, depth, slope, pull, *, drained):
 
     def resist(rise, turn):
         front, rear = rise - friction, rise + friction
-        longer = depth / math.sin(front), depth / math.sin(rear)
-        base = depth / math.tan(front) - depth / math.tan(rear)
-        across = (
-            depth * math.sin(friction) / math.sqrt(math.sin(front) * math.sin(rear))
-        )
+        longer = depth / np.sin(front) + depth / np.sin(rear)
+        base = depth / np.tan(front) - depth / np.tan(rear)
+        across = depth * math.sin(friction) / np.sqrt(np.sin(front) * np.sin(rear))
         volume = math.pi / 6.0 * depth * base * across
-        mantle = math.pi / 2.0 * across * sum(longer)
-        way = (
-            math.cos(rise) * math.sin(turn),
-            math.sin(rise),
-            math.cos(rise) * math.cos(turn),
-        )
+        mantle = math.pi / 2.0 * across * longer
+        way = np.cos(rise) * np.sin(turn), np.sin(rise), np.cos(rise) * np.cos(turn)
         held = cohesion * math.cos(friction) * mantle + volume * (
             heavy * math.cos(slope) * way[1] - weight * math.sin(slope) * way[0]
         )
-        if held <= 0.0:
-            return 0.0
-        along = sum(p * w for p, w in zip(pull, way, strict=True))
-        return held / along if along > 1e-9 else math.inf
-
-    def turn_worst(rise):
-        return find_least(lambda turn: resist(rise, turn), -1.57, 1.57, parts=40)
+        return divide(held, sum(p * w for p, w in zip(pull, way, strict=True)))
 
     edge = friction + 1e-4
-    return find_least(turn_worst, edge, math.pi - edge, parts=60)
+    return find_least(resist, (edge, math.pi - edge), (-1.57, 1.57), parts=90)
 
 
-def find_least(function, low, high, parts=4000):
-    """Least value: a grid, then golden sections about its least point."""
-    step = (high - low) / parts
-    place = min(range(parts + 1), key=lambda k: function(low + k * step))
-    left, right = (
-        max(low, low + (place - 1) * step),
-        min(high, low + (place + 1) * step),
-    )
-    golden = (math.sqrt(5.0) - 1.0) / 2.0
-    for _ in range(90):
-        one, two = right - golden * (right - left), left + golden * (right - left)
-        if function(one) < function(two):
-            right = two
-        else:
-            left = one
-    return function((left + right) / 2.0)
+def divide(held, along):
+    """Pull that a mechanism bears: none where it slides alone, any where it locks."""
+    pull = held / np.where(along > 1e-9, along, np.nan)
+    return np.where(held <= 0.0, 0.0, np.nan_to_num(pull, nan=math.inf))
+
+
+def find_least(function, *spans, parts=2000):
+    """Least value: a grid, drawn closer about its least point again and again."""
+    for _ in range(12):
+        axes = [np.linspace(low, high, parts) for low, high in spans]
+        values = function(*np.meshgrid(*axes, indexing="ij"))
+        place = np.unravel_index(np.argmin(values), values.shape)
+        spans = [
+            (axis[max(k - 2, 0)], axis[min(k + 2, parts - 1)])
+            for axis, k in zip(axes, place, strict=True)
+        ]
+    return float(values.min())
 
 
 def hold_slab(soil, depth, slope, *, drained):

@@ -234,22 +234,17 @@ class Row:
 
     @property
     def end_guy(self):
-        """Pull along the row at the end, angle of the guy to it, and its place in X."""
-        along = self.find_along("upper")
-        place = self.end.get("end_guy_place")
-        return along, math.radians(self.end["end_guy_angle"]), place
+        """Pull along the row at the end, and angle of the guy to it."""
+        return self.find_along("upper"), math.radians(self.end["end_guy_angle"])
 
     def push(self):
         """What the end guy's pull across the row brings post and uphill guy [kN].
 
         Its largest over the net's inclinations.
         """
-        along, angle, place = self.end_guy
-        found = []
-        for section in self.sections:
-            at = None if place is None else section.base[0] + place
-            across = statics.pull_of_end_guy(section, angle, at)
-            found.append(statics.hold(across, section))
+        along, angle = self.end_guy
+        across = statics.pull_of_end_guy(angle)
+        found = [statics.hold(across, section) for section in self.sections]
         post, guy, lower = np.array(found).max(axis=0)
         return along * post, along * guy, along * lower
 
@@ -338,7 +333,7 @@ class Row:
         """
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
         width *= self.floor_scale("head")  # the guideline's pull on the head, (B4)
-        along, angle, place = self.end_guy
+        along, angle = self.end_guy
         more = max(1.0, self.floor_scale("head") / self.floor_scale("upper"))
         along = tuple(more * one for one in along)  # (P13): as its heads
         pulls = [
@@ -348,12 +343,9 @@ class Row:
         hidden = max(one[2] / one[1] for one in (along, *itertools.chain(*pulls)))
         low, high = ({"uphill": [], "downhill": []} for _ in "ab")
         for section in self.sections:
-            at = None if place is None else section.base[0] + place
-            reach = statics.reach_of_end_guy(section, angle, at)
+            reach = statics.reach_of_end_guy(section, angle)
             for ropes in self.list_stiffnesses():
-                bars = statics.build_end_truss(
-                    section, splay, ropes, reach=reach, at=at
-                )
+                bars = statics.build_end_truss(section, splay, ropes, reach=reach)
 
                 def find(tension, compression, bars=bars, section=section):
                     pull = [

@@ -82,22 +82,14 @@ def share_between_guys(section):
     return uphill, downhill, pressed
 
 
-def pull_of_end_guy(section, angle, at=None):
-    """What an end guy that holds 1 kN along the row pulls the head with, (X, Y) [kN].
-
-    The guy's anchor lies at ``at`` in X (None: abreast of the head), so far along the
-    row that the guy makes ``angle`` with it.
-    """
-    x = section.head[0] if at is None else at
-    across = (x - section.head[0], -section.head[1])
-    size = math.hypot(*across)
-    return tuple(part / size * math.tan(angle) for part in across)
+def pull_of_end_guy(angle):
+    """Pull (X, Y) on the head of an end guy that holds 1 kN along the row [kN]."""
+    return 0.0, -math.tan(angle)
 
 
-def reach_of_end_guy(section, angle, at=None):
-    """Distance of the end guy's anchor from the support along the row [m]."""
-    x = section.head[0] if at is None else at
-    return math.hypot(x - section.head[0], section.head[1]) / math.tan(angle)
+def reach_of_end_guy(section, angle):
+    """Distance of the end guy's anchor, abreast of the head, along the row [m]."""
+    return section.head[1] / math.tan(angle)
 
 
 @dataclass(frozen=True)
@@ -150,7 +142,7 @@ def solve_truss(head, bars, load):
     return found
 
 
-def build_end_truss(section, splay, ropes, *, reach, at=None):
+def build_end_truss(section, splay, ropes, *, reach):
     """Bars of the support at the end of a row; the row goes on towards +Z.
 
     ``ropes`` are the stiffnesses EA of uphill guy, downhill guy, end guy and post.
@@ -161,7 +153,6 @@ def build_end_truss(section, splay, ropes, *, reach, at=None):
         for side, word in ((-1.0, "outer"), (1.0, "inner")):
             end = (point[0], 0.0, side * flat * math.tan(splay))
             bars.append(Bar(f"{word} {name}", end, ropes[name]))
-    x = section.head[0] if at is None else at
-    bars.append(Bar("end guy", (x, 0.0, -reach), ropes["end guy"]))
+    bars.append(Bar("end guy", (section.head[0], 0.0, -reach), ropes["end guy"]))
     bars.append(Bar("post", (*section.base, 0.0), ropes["post"], is_rope=False))
     return bars
