@@ -1,6 +1,6 @@
 """Searches of net rows: which cases each solves next, until its envelope is known.
 
-A ``RowSearch`` solves no case. `ask` gives the batches to solve, `tell` takes their
+A search solves no case: it is a generator of the batches to solve, which is sent their
 ends. First: which of these cases need no solve. More friction leaves a solution
 (nearly) as it is where the snow slips nowhere on the net, or at its foot only. Such a
 case takes the result of the case with less friction. The first of them are solved as a
@@ -10,9 +10,10 @@ coarsest meshes, then again near a largest force. Theory: envelope/THEORY.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, product
+from typing import Any, TypeAlias, TypeVar
 
 from netdesign.edge.progress import Wave
 from netdesign.envelope.result_reader import ResultReader, bound_lifted
@@ -24,14 +25,15 @@ from netdesign.envelope.rows import (
     roughen_settings,
 )
 from netdesign.envelope.run import CaseResult, resolve_case
-from netdesign.outcome import ModelError
 from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.search.surrogate import Point
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import CaseEnd, Settings, SolvedState
 from netdesign.solving.workers import Batch, Ends
-from netdesign.words.message import say
 
+_End = TypeVar("_End")
+# Batches to be solved, their ends, and what follows once all are known.
+Steps: TypeAlias = Generator[list[Batch], list[Ends], _End]
 _AXIS = "friction_angle"
 _TESTS = 2  # cases that are solved as tests before any is skipped
 _AGREEMENT = 0.2  # of the stated error of both end pulls: more than iterations leave
@@ -89,7 +91,7 @@ class FrictionSkip:
             if self._friction(point) < known_friction:
                 self._sticking[self._line(point)] = (self._friction(point), end)
 
-    def forget(self, points: Sequence[Point]) -> None:
+    def forget(self, points: Collection[Point]) -> None:
         """Drop what is known of the lines of points that are to be solved again."""
         for point in points:
             self._sticking.pop(self._line(point), None)
@@ -119,136 +121,74 @@ def _agree(first: SolvedState, second: SolvedState) -> bool:
     )
 
 
-class Cases:
-    """Some points of a row, until all their results are known.
+def solve_points(
+    task: RowTask,
+    points: Sequence[Point],
+    skip: FrictionSkip,
+    settings: Settings | None = None,
+) -> Steps[list[CaseResult]]:
+    """Results of some points of a row, in their order; settings unless the row's own.
 
-    Attributes
-    ----------
-    rough : frozenset of int
-        Places of results that are known roughly only.
+    Ends that friction cannot change are those of the case with less of it.
     """
-
-    rough: frozenset[int] = frozenset()
-
-    def __init__(
-        self,
-        task: RowTask,
-        points: Sequence[Point],
-        skip: FrictionSkip,
-        settings: Settings | None = None,
-    ) -> None:
-        """Take the points, and the settings of their solves if not the row's own."""
-        self._points, self._skip = points, skip
-        self._tasks = [build_point_task(task, point, settings) for point in points]
-        asked = zip(points, self._tasks, strict=True)
-        self._jobs = {point: case.job for point, case in asked if case.job is not None}
-        self._ends: dict[Point, CaseEnd] = {}
-        self._lines = self._list_lines()
-
-    def _list_lines(self) -> list[list[Point]]:
-        open_points = [point for point in self._jobs if point not in self._ends]
-        return self._skip.list_lines(open_points)
-
-    def ask(self) -> list[Batch]:
-        """Batches to be solved next; none once the rest need no solve."""
-        return [tuple(self._jobs[point] for point in line) for line in self._lines]
-
-    def tell(self, answers: Sequence[Ends]) -> None:
-        """Take the ends of the batches asked for, in their order."""
-        for line, answer in zip(self._lines, answers, strict=True):
+    tasks = [build_point_task(task, point, settings) for point in points]
+    asked = zip(points, tasks, strict=True)
+    jobs = {point: case.job for point, case in asked if case.job is not None}
+    ends: dict[Point, CaseEnd] = {}
+    while lines := skip.list_lines([point for point in jobs if point not in ends]):
+        answers = yield [tuple(jobs[point] for point in line) for line in lines]
+        for line, answer in zip(lines, answers, strict=True):
             for point, end in zip(line, answer, strict=False):  # until it sticks
-                self._ends[point] = end
-                self._skip.learn(point, end)
-        self._lines = self._list_lines()
-
-    def finish(self) -> list[CaseResult]:
-        """Results in the order of the points; ends that friction cannot change."""
-        for point in self._jobs:
-            if point not in self._ends:
-                self._ends[point] = self._skip.recall(point)
-        resolved: dict[int, CaseResult] = {}
-        results = []
-        for point, task in zip(self._points, self._tasks, strict=True):
-            end = self._ends.get(point)
-            # Several frictions share an end where the snow sticks.
-            same = resolved.get(id(end)) if end else None
-            result = replace(same, case=task.case) if same else resolve_case(task, end)
-            resolved[id(end)] = result
-            results.append(result)
-        return results
+                ends[point] = end
+                skip.learn(point, end)
+    ends |= {point: skip.recall(point) for point in jobs if point not in ends}
+    resolved: dict[int, CaseResult] = {}
+    results = []
+    for case, found in zip(tasks, map(ends.get, points), strict=True):
+        # Several frictions share an end where the snow sticks.
+        same = resolved.get(id(found)) if found else None
+        result = replace(same, case=case.case) if same else resolve_case(case, found)
+        resolved[id(found)] = result
+        results.append(result)
+    return results
 
 
-class FirstCases:
-    """Cases of the first design: on the two coarsest meshes, then as they deserve.
+def solve_first(
+    task: RowTask,
+    points: Sequence[Point],
+    skip: FrictionSkip,
+    find_near: Callable[[Sequence[CaseResult]], set[int]],
+) -> Steps[tuple[list[CaseResult], set[int]]]:
+    """Results of the first design, and the places of those that stay rough.
 
-    A case that failed there, has no panel, or may come near a largest force, is solved
-    again as the row asks for, unless it is that accurate already. The others stay
-    rough.
-
-    Attributes
-    ----------
-    rough : frozenset of int
-        Places of results that are known roughly only.
+    All are solved on the two coarsest meshes. A case that failed there, has no panel,
+    or may come near a largest force, is solved again as the row asks for, unless it is
+    that accurate already. ``find_near`` gives the places of those that matter.
     """
+    settings = roughen_settings(task.settings)
+    results = yield from solve_points(task, points, skip, settings)
+    near, rough = find_near(results), set[int]()
+    if settings != task.settings:
+        accuracy = task.settings.accuracy
+        rough = {k for k, x in enumerate(results) if _would_gain(x, accuracy)}
+    again = {place: points[place] for place in sorted(rough & near)}
+    skip.forget(again.values())
+    solved = yield from solve_points(task, [*again.values()], skip)
+    for place, result in zip(again, solved, strict=True):
+        results[place] = result
+    return results, rough - near
 
-    def __init__(
-        self,
-        task: RowTask,
-        points: Sequence[Point],
-        skip: FrictionSkip,
-        find_near: Callable[[Sequence[CaseResult]], set[int]],
-    ) -> None:
-        """Take the points, and what finds the places of those that matter."""
-        self._task, self._points, self._skip = task, points, skip
-        self._find_near = find_near
-        self._settings = roughen_settings(task.settings)
-        self._cases = Cases(task, points, skip, self._settings)
-        self._first: list[CaseResult] | None = None
-        self._again: list[int] = []
-        self.rough: frozenset[int] = frozenset()
-        self._go_on()
 
-    def ask(self) -> list[Batch]:
-        """Batches to be solved next; none once the rest need no solve."""
-        return self._cases.ask()
-
-    def tell(self, answers: Sequence[Ends]) -> None:
-        """Take the ends of the batches asked for, in their order."""
-        self._cases.tell(answers)
-        self._go_on()
-
-    def finish(self) -> list[CaseResult]:
-        """Results in the order of the points."""
-        results = list(self._first or ())
-        for place, result in zip(self._again, self._cases.finish(), strict=True):
-            results[place] = result
-        return results
-
-    def _go_on(self) -> None:
-        """Ask for the cases that matter once more, after the last of all is known."""
-        if self._first is not None or self._cases.ask():
-            return
-        self._first = self._cases.finish()
-        rough = {k for k, result in enumerate(self._first) if self._would_gain(result)}
-        near = self._find_near(self._first)
-        self._again, self.rough = sorted(rough & near), frozenset(rough - near)
-        points = [self._points[place] for place in self._again]
-        self._skip.forget(points)
-        self._cases = Cases(self._task, points, self._skip)
-
-    def _would_gain(self, result: CaseResult) -> bool:
-        """More meshes could change the result."""
-        if self._settings == self._task.settings or result.fault is not None:
-            return False
-        if result.solution is None:
-            return True
-        pulls = (result.solution.foot, result.solution.head)
-        accuracy = self._task.settings.accuracy
-        return any(pull.error > accuracy * pull.size for pull in pulls)
+def _would_gain(result: CaseResult, accuracy: float) -> bool:
+    """More meshes could change the result."""
+    if result.solution is None:
+        return result.fault is None
+    pulls = (result.solution.foot, result.solution.head)
+    return any(pull.error > accuracy * pull.size for pull in pulls)
 
 
 class RowSearch:
-    """Search of one row's envelope: asks for the ends of batches, and is told.
+    """Search of one row's envelope.
 
     Attributes
     ----------
@@ -263,111 +203,66 @@ class RowSearch:
     def __init__(self, task: RowTask) -> None:
         """Begin a search with nothing known of the row's cases."""
         self.task = task
-        self._result: RowEnvelope | None = None
         self._search = MaximaSearch(len(task.ranges.axes), task.search)
         self._reader = ResultReader(
             layouts=task.layouts, has_panel=bool(task.panels), has_end=task.has_end
         )
-        self._skip = FrictionSkip(task.ranges.axes)
-        self._results: list[CaseResult] = []
-        self._maxima: Maxima | None = None  # known once only confirmations are open
-        self._cases: Cases | FirstCases = FirstCases(
-            task, self._search.ask(), self._skip, self._reader.find_near
-        )
-        self._advance()
-
-    @property
-    def result(self) -> RowEnvelope:
-        """Envelope of the row; the same for the same ends.
-
-        Raises
-        ------
-        ModelError
-            While something is still asked for.
-        """
-        if self._result is None:
-            raise ModelError(say("envelope.not_ended"))
-        return self._result
 
     @property
     def gap(self) -> float:
         """Largest gap left after the last round, over its quantity [-]."""
         return self._search.gap
 
-    def ask(self) -> list[Batch]:
-        """Batches to be solved next; none once the envelope is known."""
-        return self._cases.ask()
+    def run(self) -> Steps[RowEnvelope]:
+        """Envelope of the row; the same for the same ends."""
+        task, search, reader = self.task, self._search, self._reader
+        skip = FrictionSkip(task.ranges.axes)
+        every: list[CaseResult] = []
+        results, rough = yield from solve_first(
+            task, search.ask(), skip, reader.find_near
+        )
+        while True:
+            every += results
+            values = reader.read(results)
+            search.tell(values, reader.watch(), reader.read_doubts(results, rough))
+            if search.result is not None:
+                break
+            results, rough = (yield from solve_points(task, search.ask(), skip)), set()
+        maxima = reader.bound_members(search.result)
+        return RowEnvelope(
+            task=task,
+            members=reader.members,
+            quantities=reader.quantities,
+            results=tuple(every),
+            maxima=maxima,
+            confirmations=(yield from self._confirm(maxima, every)),
+            skipped=skip.skipped,
+            skips_tested=skip.tested,
+            lifted=bound_lifted(task.layouts, maxima.points, every, task.search),
+        )
 
-    def tell(self, answers: Sequence[Ends]) -> None:
-        """Take the ends of the batches asked for, in their order."""
-        self._cases.tell(answers)
-        self._advance()
-
-    def _advance(self) -> None:
-        """Go on until something has to be solved, or the envelope is known."""
-        while self._result is None and not self._cases.ask():
-            answered = self._cases.finish()
-            if self._maxima is None:
-                self._go_on(answered)
-            else:
-                self._finish(self._maxima, answered)
-
-    def _go_on(self, answered: list[CaseResult]) -> None:
-        """Tell the search what was found, and ask what it wants next."""
-        self._results += answered
-        search, reader = self._search, self._reader
-        values = reader.read(answered)
-        doubts = reader.read_doubts(answered, self._cases.rough)
-        search.tell(values, reader.watch(), doubts)
-        if points := search.ask():
-            self._cases = Cases(self.task, points, self._skip)
-        elif search.result is not None:
-            self._confirm(search.result)
-
-    def _confirm(self, maxima: Maxima) -> None:
-        """Ask for the governing cases once more."""
-        self._maxima = self._reader.bound_members(maxima)
-        points = [maxima.points[place] for place in self._list_confirmed(maxima)]
-        apart = FrictionSkip(())  # each is solved
-        self._cases = Cases(self.task, points, apart, self.task.confirmed_by)
-
-    def _list_confirmed(self, maxima: Maxima) -> list[int]:
-        """Places of the cases that govern a member, each once."""
+    def _confirm(
+        self, maxima: Maxima, results: Sequence[CaseResult]
+    ) -> Steps[tuple[Confirmation, ...]]:
+        """Governing case of each member that carries a force, solved once more."""
         if self.task.confirmed_by is None:
-            return []
-        return sorted(set(self._find_governing(maxima).values()))
-
-    def _find_governing(self, maxima: Maxima) -> dict[str, int]:
-        """Place of the governing case of each member that carries a force."""
+            return ()
         peaks = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
-        return {
+        governing = {
             member: place
             for member, (force, place) in zip(self._reader.members, peaks, strict=False)
             if force > 0.0
         }
-
-    def _finish(self, maxima: Maxima, confirmed: Sequence[CaseResult]) -> None:
-        again = dict(zip(self._list_confirmed(maxima), confirmed, strict=True))
-        self._result = RowEnvelope(
-            task=self.task,
-            members=self._reader.members,
-            quantities=self._reader.quantities,
-            results=tuple(self._results),
-            maxima=maxima,
-            confirmations=tuple(
-                Confirmation(
-                    member=member,
-                    screened=self._results[place],
-                    confirmed=again[place],
-                )
-                for member, place in self._find_governing(maxima).items()
-                if place in again
-            ),
-            skipped=self._skip.skipped,
-            skips_tested=self._skip.tested,
-            lifted=bound_lifted(
-                self.task.layouts, maxima.points, self._results, self.task.search
-            ),
+        places = sorted(set(governing.values()))
+        points = [maxima.points[place] for place in places]
+        apart = FrictionSkip(())  # each is solved
+        confirmed = yield from solve_points(
+            self.task, points, apart, self.task.confirmed_by
+        )
+        again = dict(zip(places, confirmed, strict=True))
+        return tuple(
+            Confirmation(member=member, screened=results[place], confirmed=again[place])
+            for member, place in governing.items()
         )
 
 
@@ -393,28 +288,18 @@ def search_rows(
         In the order of the tasks; equal tasks share one.
     """
     searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
-    while asked := _ask_rows(searches.values()):
-        ends = iter(runner.solve_batches([batch for _, its in asked for batch in its]))
-        for search, batches in asked:
-            search.tell(list(islice(ends, len(batches))))
-        on_wave(_describe_wave(_ask_rows(searches.values())))
-    return [searches[task].result for task in tasks]
 
+    def describe(asked: Mapping[RowTask, Sequence[Batch]]) -> None:
+        wave = Wave(
+            rows_open=len(asked),
+            cases_waiting=sum(len(batch) for its in asked.values() for batch in its),
+            gap=max((searches[task].gap for task in asked), default=0.0),
+        )
+        on_wave(wave)
 
-_Asked = list[tuple[RowSearch, list[Batch]]]
-
-
-def _ask_rows(searches: Iterable[RowSearch]) -> _Asked:
-    """Searches that go on, with the batches that each waits for."""
-    return [(search, batches) for search in searches if (batches := search.ask())]
-
-
-def _describe_wave(asked: _Asked) -> Wave:
-    return Wave(
-        rows_open=len(asked),
-        cases_waiting=sum(len(batch) for _, batches in asked for batch in batches),
-        gap=max((search.gap for search, _ in asked), default=0.0),
-    )
+    steps = {task: search.run() for task, search in searches.items()}
+    envelopes = _run_together(steps, runner, describe)
+    return [envelopes[task] for task in tasks]
 
 
 def run_grid(
@@ -424,7 +309,31 @@ def run_grid(
     sizes = [counts[name] for name in task.ranges.axes]
     points = list(product(*([k / (n - 1) for k in range(n)] for n in sizes)))
     skip = FrictionSkip(task.ranges.axes)
-    cases = Cases(task, points, skip)
-    while batches := cases.ask():
-        cases.tell(runner.solve_batches(batches))
-    return cases.finish(), skip.skipped
+    steps = {task: solve_points(task, points, skip)}
+    return _run_together(steps, runner)[task], skip.skipped
+
+
+def _run_together(
+    steps: Mapping[RowTask, Steps[_End]],
+    runner: Runner,
+    on_wave: Callable[[Mapping[RowTask, Sequence[Batch]]], None] = lambda _: None,
+) -> dict[RowTask, _End]:
+    """End of each task; a wave has the batches that all of them wait for."""
+    ended: dict[RowTask, _End] = {}
+
+    def go_on(answers: Mapping[RowTask, Any]) -> dict[RowTask, list[Batch]]:
+        asked = {}
+        for task, ends in answers.items():
+            try:
+                asked[task] = steps[task].send(ends)
+            except StopIteration as end:
+                ended[task] = end.value
+        return asked
+
+    asked = go_on(dict.fromkeys(steps))
+    while asked:
+        batches = [batch for its in asked.values() for batch in its]
+        ends = iter(runner.solve_batches(batches))
+        asked = go_on({x: list(islice(ends, len(its))) for x, its in asked.items()})
+        on_wave(asked)
+    return ended

@@ -15,13 +15,13 @@ from netdesign.envelope.result_reader import (
     read_signed_errors,
 )
 from netdesign.envelope.rows import RowTask, build_point_task
-from netdesign.envelope.search import FirstCases, FrictionSkip, search_rows
+from netdesign.envelope.search import FrictionSkip, search_rows, solve_first
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
 from tests.each import each
-from tests.solving.made_up_workers import Recording, Spoiling
+from tests.solving.made_up_workers import Recording, Spoiling, finish
 from tests.solving.small_scene import LAYOUT, build_scene, solve_case
 
 SETTINGS = SolverSettings(accuracy=0.004, levels=MESH_LEVELS[:4])
@@ -140,12 +140,10 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     points = [(side, share) for side in (0.0, 0.37, 1.0) for share in (0.0, 0.41, 1.0)]
     skip = FrictionSkip(task.ranges.axes)
     reader, workers = ResultReader(layouts=[LAYOUT]), Recording()
-    cases = FirstCases(task, points, skip, reader.find_near)
-    while batches := cases.ask():
-        cases.tell(Runner(workers=workers).solve_batches(batches))
-    results = cases.finish()
+    steps = solve_first(task, points, skip, reader.find_near)
+    results, rough = finish(steps, Runner(workers=workers).solve_batches)
     assert skip.skipped > 0
-    assert not cases.rough
+    assert not rough
     coarsest = solve_case(
         build_point_task(task, points[0], replace(SETTINGS, levels=MESH_LEVELS[:2]))
     )

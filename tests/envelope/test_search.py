@@ -20,7 +20,7 @@ from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
-from tests.solving.made_up_workers import Spoiling
+from tests.solving.made_up_workers import Spoiling, finish
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
@@ -139,15 +139,15 @@ def test_a_search_can_be_stepped(found):
     search = RowSearch(replace(TASK, confirmed_by=finer))
     assert search.gap == math.inf
     gaps = []
-    while batches := search.ask():
-        assert search.ask() == batches
-        with pytest.raises(ModelError, match="has not ended"):
-            search.result  # noqa: B018
-        search.tell(Runner().solve_batches(batches))
+
+    def solve(batches):
         gaps.append(search.gap)
-    assert search.result.maxima.points == found.maxima.points
-    assert search.result.maxima.upper_bound == found.maxima.upper_bound
-    assert [one.member for one in search.result.confirmations] == [
+        return Runner().solve_batches(batches)
+
+    result = finish(search.run(), solve)
+    assert result.maxima.points == found.maxima.points
+    assert result.maxima.upper_bound == found.maxima.upper_bound
+    assert [one.member for one in result.confirmations] == [
         one.member for one in found.confirmations
     ]
     assert 0.0 < gaps[-1] <= TASK.search.gap * (1.0 + 1e-9)

@@ -31,3 +31,14 @@ class Spoiling(OwnProcess):
         for place, ends in super().solve(batches):
             solved = zip(batches[place], ends, strict=False)
             yield place, [self._spoil(job, end) for job, end in solved]
+
+
+def finish(steps, solve):
+    """End of a search, whose batches are solved one wave after the other."""
+    ends = None
+    while True:
+        try:
+            batches = steps.send(ends)
+        except StopIteration as end:
+            return end.value
+        ends = solve(batches)
