@@ -52,11 +52,6 @@ def test_what_is_computed_and_fails_stays_a_failure():
     assert "cannot change that" in str(found.reason)
 
 
-def test_a_declaration_without_a_date_says_so():
-    found = check(0.2, 0.9, proof=replace(PROOF, date=""))
-    assert "without a date" in str(found.reason)
-
-
 @each("ratio", [None, 0.83, 1.0])
 @each(
     "height, verdict",

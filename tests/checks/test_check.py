@@ -20,7 +20,7 @@ from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.ground import PullOutTests
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
-from netdesign.words.names import name, name_mode
+from netdesign.words.names import name_mode
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
 from tests.each import each
 
@@ -108,30 +108,6 @@ def test_numbers_of_a_check_are_action_times_and_resistance_over_factor():
     assert result.verdict is Verdict.PASS
 
 
-@pytest.mark.parametrize("left_out", ["action.snow", "resistance.tendon"])
-def test_missing_factor_is_not_proven_and_named(left_out):
-    values = [v for v in plain_standard().values if v.id != left_out]
-    result = check_member(a_force(9.0), a_resistance(), a_standard(*values))
-    assert result.verdict is Verdict.NOT_PROVEN
-    assert f"the profile lacks its value {left_out}, factor of the" in str(
-        result.reason
-    )
-
-
-def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
-    resistance = a_resistance(1e9, mode="pull_out", basis="declared")
-    standard = load_standard("nf-p-95-304-style")
-    result = check_member(a_force(1.0), resistance, standard)
-    assert result.verdict is Verdict.NOT_PROVEN
-    for language in LANGUAGES:
-        told = render(result.reason, language)
-        assert "pull_out" not in told
-        assert "'declared'" not in told
-        for one in ("declared", "tested", "computed"):
-            assert render(name("basis", one), language) in told
-    assert "give tests of the site" in str(result.reason)
-
-
 @each("mode", [mode for _, mode in (*MEMBER_MODES, *DEPENDENT_MODES)])
 @each("basis", ["", "tested", "declared"])
 @each("language", LANGUAGES)
@@ -145,17 +121,6 @@ def test_every_lack_of_a_factor_names_its_mode_in_words(mode, basis, language):
     assert f"({render(name_mode(mode), language)})" in told
 
 
-def test_tested_and_computed_pull_out_have_their_own_factors():
-    standard = load_standard("nf-p-95-304-style")
-    factors = [
-        check_member(
-            a_force(1.0), a_resistance(mode="pull_out", basis=basis), standard
-        ).read("γ_R")
-        for basis in ("tested", "computed")
-    ]
-    assert factors == [1.35, 2.3625]
-
-
 def test_all_that_is_missing_is_told_at_once():
     result = check_member(
         no_force(),
@@ -166,20 +131,6 @@ def test_all_that_is_missing_is_told_at_once():
     assert result.verdict is Verdict.NOT_PROVEN
     for part in ("worker ended", "Anchors!B4", "action.snow", "resistance.tendon"):
         assert part in str(result.reason)
-
-
-def test_no_solved_case_is_not_proven():
-    result = check_member(no_force(), a_resistance(), plain_standard())
-    assert result.verdict is Verdict.NOT_PROVEN
-    assert "no case could be calculated" in str(result.reason)
-    assert [result.read(one) for one in ("E_k", "E_d", "μ")] == [None] * 3
-
-
-def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
-    result = check_member(a_force(0.0), a_resistance(7e3), plain_standard())
-    assert result.verdict is Verdict.PASS
-    assert result.step_of["μ"].ends == (0.0, 0.0, 0.0)
-    assert "slack in every case" in str(result.reason)
 
 
 def test_member_that_may_be_tight_needs_its_resistance():
@@ -217,97 +168,11 @@ def test_inclination_against_the_range_of_the_profile(low, high, verdict):
     assert result.clause == "4.2"
 
 
-def reason_of(action, resistance=None, standard=None, gap=None) -> str:
-    return str(
-        check_member(
-            action,
-            resistance or a_resistance(),
-            standard or plain_standard(),
-            unsolved(gap),
-        ).reason
-    )
-
-
-NO_RESISTANCE = "resistance missing: type GEWI 25, cell Anchors!B4"
-
-
-@each(
-    "told, expected",
-    [
-        (
-            {"action": a_force(0.5)},
-            "The design force stays within the resistance, "
-            "numerical uncertainty included.",
-        ),
-        (
-            {"action": a_force(2.0)},
-            "The design force exceeds the resistance, "
-            "even at the lower end of its numerical uncertainty.",
-        ),
-        (
-            {"action": a_force(2.0), "gap": "3 of 40 cases failed"},
-            "The design force exceeds the resistance, even at the lower end of its "
-            "numerical uncertainty; besides, 3 of 40 cases failed.",
-        ),
-        (
-            {"action": a_force(1.0, 0.5, 1.5)},
-            "Not proven: the numerical uncertainty of the design force "
-            "spans the resistance.",
-        ),
-        (
-            {"action": a_force(0.0)},
-            "The member is slack in every case; its resistance is given.",
-        ),
-        ({"action": no_force()}, "Not proven: no case could be calculated."),
-        (
-            {"action": a_force(0.5), "resistance": a_resistance(None)},
-            f"Not proven: {NO_RESISTANCE}.",
-        ),
-        (
-            {"action": a_force(0.5), "resistance": a_resistance(None, type_id="")},
-            "Not proven: resistance missing: Net anchor (foot) (tendon), "
-            "cell Anchors!B4.",
-        ),
-        (
-            {
-                "action": a_force(0.5),
-                "resistance": a_resistance(None),
-                "gap": "1 of 4 cases failed",
-            },
-            f"Not proven: 1 of 4 cases failed; {NO_RESISTANCE}.",
-        ),
-        (
-            {
-                "action": a_force(0.5),
-                "resistance": a_resistance(basis=""),
-                "standard": a_standard(),
-            },
-            "Not proven: the profile lacks its value action.snow, factor of the "
-            "action; the profile lacks its value resistance.tendon, factor of the "
-            "resistance (tendon).",
-        ),
-        (
-            {
-                "action": a_force(0.5),
-                "standard": a_standard(a_value("action.snow", 1.0)),
-            },
-            "Not proven: the profile lacks its value resistance.tendon, factor of the "
-            "resistance (tendon).",
-        ),
-    ],
-)
-def test_a_reason_says_what_was_found_and_no_more(told, expected):
-    assert reason_of(**told) == expected
-
-
 def test_without_a_factor_there_is_no_clause():
     result = check_member(a_force(0.5), a_resistance(), a_standard())
     assert result.clause == "-"
     inclination = check_inclination(0.5, 0.6, a_standard())
     assert inclination.clause == "-"
-    assert str(inclination.reason) == (
-        "Not proven: the profile has no limits of the net inclination."
-    )
 
 
 @pytest.mark.parametrize("end", ["min", "max"])

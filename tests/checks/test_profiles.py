@@ -46,10 +46,6 @@ def folder(tmp_path):
     return copy
 
 
-def test_all_four_profiles_are_there():
-    assert list_standards() == NAMES
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_every_value_has_a_source_and_none_claims_to_be_read(name):
     standard = load_standard(name)
@@ -125,31 +121,6 @@ def test_swapped_limit_changes_verdict_and_hash_and_nothing_else(folder, tmp_pat
     assert was == now
 
 
-def test_profile_without_end_effect_proves_nothing(folder, tmp_path):
-    mine = folder("eurocode")
-    (mine / "model.toml").unlink()
-    checks = judge_row(tmp_path, mine, **ROW)
-    assert checks["geometry.ends"].verdict is Verdict.NOT_PROVEN
-    reason = str(checks["geometry.ends"].reason)
-    assert "no end effect (end.*)" in reason
-    assert "no lateral load" in reason
-
-
-def test_profile_without_correlation_does_not_prove_by_tests(folder, tmp_path):
-    mine = folder("eurocode")
-    (mine / "tables.toml").unlink()
-    anchor = {
-        "tendon": 360,
-        "test_count": 3,
-        "pull_out": 270,
-        "test_mean": 290,
-    }
-    checks = judge_row(tmp_path, mine, **(ROW | {"anchor": anchor}))
-    check = checks["foot_anchor.pull_out"]
-    assert check.verdict is Verdict.NOT_PROVEN
-    assert "no correlation factors for 3 tests" in str(check.reason)
-
-
 def test_national_choice_takes_the_place_of_its_factors(folder):
     mine = folder("eurocode")
     recommended = load_standard(mine)
@@ -194,54 +165,26 @@ def test_consequence_class_3_is_stricter(folder):
             "{ from = 1, to = 2, value = 1.3 }",
             "'from' = 1: overlaps the row before",
         ),
-        (
-            "swiss-guideline-2007",
-            "model.toml",
-            'value = 10.0\nunit = "m/s2"',
-            'value = 10.0\nunit = "kN/t"',
-            "'unit' = 'kN/t': must be 'm/s2' for snow.gravity",
-        ),
-        (
-            "swiss-guideline-2007",
-            "model.toml",
-            'id = "snow.flexible"',
-            'id = "snow.flexibel"',
-            "'id' = 'snow.flexibel': must be one of snow.gravity",
-        ),
-        (
-            "onr-24805-style",
-            "choices.toml",
-            'name = "cc3"',
-            'name = "cc3"\nclass = 3',
-            "'class': unknown key; accepted are name, text, factor",
-        ),
     ],
 )
 def test_spoilt_profile_is_refused_by_file_and_key(folder, name, file, old, new, told):
     mine = folder(name)
-    text = (mine / file).read_text("utf-8")
-    assert old in text
-    (mine / file).write_text(text.replace(old, new, 1), "utf-8")
+    edit(mine / file, old, new)
     with pytest.raises(StandardError) as caught:
         load_standard(mine)
     assert file in str(caught.value)
     assert told in str(caught.value)
 
 
-def test_missing_source_and_half_a_group_are_refused(folder):
+def test_half_a_group_is_refused(folder):
     mine = folder("swiss-guideline-2007")
     path = mine / "model.toml"
-    text = path.read_text("utf-8")
-    blocks = text.split("[[value]]")
+    blocks = path.read_text("utf-8").split("[[value]]")
     kept = [one for one in blocks if 'id = "end.isolated_gap"' not in one]
     path.write_text("[[value]]".join(kept), "utf-8")
     with pytest.raises(
         StandardError, match=r"end\.\* are given all or none; lacks end"
     ):
-        load_standard(mine)
-    start = text.index('source = "')
-    path.write_text(text[:start] + text[text.index("\n", start) :], "utf-8")
-    with pytest.raises(StandardError, match=r"entry 1 'source': is missing"):
         load_standard(mine)
 
 

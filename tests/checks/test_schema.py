@@ -129,29 +129,17 @@ def test_smallest_positive_value_is_accepted():
     assert check_table(FactorsFile, table, "f").factor[0].value == 5e-324
 
 
-BELOW_1 = math.nextafter(1.0, 0.0)
-FACTORS = ["action.snow", "resistance.rope", "resistance.pull_out.tested"]
-
-
+@each("value", [math.nextafter(1.0, 0.0), 0.37])
 @each("blank", [{}, {"reason_beyond": " "}])
-@each("name", FACTORS)
-def test_factor_below_1_is_refused_by_name_unless_it_says_why(name, blank):
-    entries = [an_entry(id=name, value=BELOW_1), an_entry(id=name, value=0.37)]
-    for entry in entries:
-        message = refusal(FactorsFile, {"factor": [entry | blank]})
-        assert f"{name} = {entry['value']:g} lies beyond 1 to" in message
-        assert "it needs 'reason_beyond'" in message
-    choice = {"name": "annex", "text": "An annex.", "factor": [entries[1] | blank]}
-    assert f"{name} = 0.37" in refusal(ChoicesFile, {"choice": [choice]})
-
-
-@pytest.mark.parametrize("name", FACTORS)
-def test_factor_of_1_needs_no_reason_and_one_below_is_read_with_it(name):
-    plain = {"factor": [an_entry(id=name, value=1.0)]}
-    assert check_table(FactorsFile, plain, "f").factor[0].reason_beyond == ""
-    why = "The annex takes the mean of ten winters."
-    table = {"factor": [an_entry(id=name, value=0.83, reason_beyond=why)]}
-    assert check_table(FactorsFile, table, "f").factor[0].reason_beyond == why
+def test_a_factor_below_1_needs_more_than_a_blank_reason(value, blank):
+    entry = an_entry(value=value) | blank
+    choice = {"name": "annex", "text": "An annex.", "factor": [entry]}
+    for told in (
+        refusal(FactorsFile, {"factor": [entry]}),
+        refusal(ChoicesFile, {"choice": [choice]}),
+    ):
+        assert f"action.snow = {value:g} lies beyond 1 to" in told
+        assert "it needs 'reason_beyond'" in told
 
 
 def some_correlations(last: float) -> dict[str, object]:
@@ -160,16 +148,6 @@ def some_correlations(last: float) -> dict[str, object]:
     ends = [(1, 2, 1.4), (3, math.inf, last)]
     rows = [{"from": low, "to": high, "value": one} for low, high, one in ends]
     return table | {"rows": rows}
-
-
-def test_correlation_factor_below_1_is_refused_by_name_unless_it_says_why():
-    table = some_correlations(0.92)
-    message = refusal(TablesFile, {"table": [table]})
-    assert "correlation.tests.least = 0.92 lies beyond 1 to 2" in message
-    why = {"reason_beyond": "The annex allows it for twelve tests."}
-    read = check_table(TablesFile, {"table": [table | why]}, "t").table[0]
-    assert read.reason_beyond == why["reason_beyond"]
-    assert check_table(TablesFile, {"table": [some_correlations(1.0)]}, "t")
 
 
 @pytest.mark.parametrize("value", [0.0, -0.9])
@@ -246,26 +224,12 @@ def test_all_faults_of_a_file_are_told_at_once():
     assert all(line.startswith("my.toml: 'factor' entry ") for line in lines)
 
 
-def test_profile_that_says_nothing_of_the_floor_has_the_guideline_as_floor():
-    for load in ({}, {"load": {}}, {"load": {"floor": "guideline"}}):
-        file = check_table(DocumentFile, a_document(**load), "d")
-        assert file.load.floor == "guideline"
-    without = check_table(DocumentFile, a_document(load={"floor": "none"}), "d")
-    assert without.load.floor == "none"
-
-
 @each("floor", ["margreth", "", "None", "GUIDELINE", 1, False])
 def test_floor_that_nobody_knows_is_one_finding_with_place_and_words(floor):
     text = refusal(DocumentFile, a_document(load={"floor": floor}))
     assert text.count("\n") == 0
     assert text.startswith("my.toml: 'load' 'floor'")
     assert "'guideline' or 'none'" in text
-
-
-def test_other_key_beside_the_floor_is_refused_with_what_is_accepted():
-    text = refusal(DocumentFile, a_document(load={"flor": "none"}))
-    assert "'load' 'flor': unknown key; accepted are floor" in text
-    assert "'load'" in refusal(DocumentFile, a_document(load="none"))
 
 
 IDS = sorted({*LIMIT_UNITS, *FACTOR_IDS, *MODEL_UNITS, *TABLE_COUNTS})
@@ -307,9 +271,12 @@ def test_a_value_beyond_its_bounds_needs_a_reason(name):
     assert "lies beyond" not in judge_alone(name, value=draw.uniform(low, high))
 
 
-def test_a_table_beyond_its_bounds_needs_a_reason():
-    table = some_correlations(3.5)
+@each("last", [3.5, 0.92])
+def test_a_table_beyond_its_bounds_needs_a_reason(last):
+    table = some_correlations(last)
     message = refusal(TablesFile, {"table": [table]})
-    assert "correlation.tests.least = 3.5 lies beyond 1 to 2" in message
+    assert f"correlation.tests.least = {last} lies beyond 1 to 2" in message
     why = {"reason_beyond": "The annex."}
-    assert check_table(TablesFile, {"table": [table | why]}, "t").table
+    read = check_table(TablesFile, {"table": [table | why]}, "t").table[0]
+    assert read.reason_beyond == why["reason_beyond"]
+    assert check_table(TablesFile, {"table": [some_correlations(1.0)]}, "t")

@@ -100,7 +100,10 @@ def test_a_resistance_that_is_no_positive_number_is_not_proven(
 @given(FACTORS, FORCES, FACTORS)
 @settings(max_examples=50)
 def test_no_solved_case_is_not_proven(on_action, strength, factor):
-    assert verdict_of(None, on_action, strength, factor) is OPEN
+    given = (a_resistance(strength), profile(on_action, factor))
+    check = check_member(no_force(), *given)
+    assert check.verdict is OPEN
+    assert [check.read(one) for one in ("E_k", "E_d", "μ")] == [None] * 3
 
 
 @given(bands(), FORCES, st.sampled_from(["", "declared", "guessed", "tendon"]))
