@@ -93,12 +93,6 @@ def test_a_row_that_another_law_would_turn_is_named(judge, used):
     assert bool(turned) is (used > 0.9)
 
 
-def test_the_lightest_of_the_snow_lies_outside_and_decides_nothing(judge):
-    study = judge(build_row("R1"))
-    assert any(note.key == "note.outside_calibration" for note in study.notes)
-    assert study.verdict is Verdict.PASS
-
-
 def test_what_surely_fails_fails_in_light_snow_too(judge):
     study = judge(build_row("R1", resistances=resist(WEAK)), ranges=LIGHT)
     assert forces(study.rows[0])["foot_anchor.tendon"].verdict is Verdict.FAIL
@@ -147,20 +141,6 @@ def test_an_end_of_another_type_is_declared_by_its_own_line(judge, position, exp
     declared = [k for k, c in checks.items() if c.verdict is Verdict.DECLARED]
     assert declared == expected
     assert {c.verdict for k, c in checks.items() if k not in declared} == {Verdict.PASS}
-
-
-def test_what_fails_here_stays_a_failure_though_declared(judge):
-    weak = resist(foot_anchor__pull_out=WEAK)
-    study = judge(build_row("R1", resistances=weak), declared=(PULL_OUT,))
-    check = forces(study.rows[0])["foot_anchor.pull_out"]
-    assert check.verdict is study.verdict is Verdict.FAIL
-    assert "cannot change that" in str(check.reason)
-
-
-def test_a_declaration_leaves_what_else_is_open(judge):
-    missing = resist(foot_anchor__tendon=None)
-    study = judge(build_row("R1", resistances=missing), declared=(PULL_OUT,))
-    assert study.verdict is Verdict.NOT_PROVEN
 
 
 # --- snow above the net --------------------------------------------------------------
@@ -214,16 +194,3 @@ def test_a_net_counts_as_overtopped_beyond_rounding_only(height, expected):
     row = build_row("R1", net_height=height)
     assert row.is_overtopped is expected
     assert row.held_thickness == (height if expected else 2.5)
-
-
-def test_checks_with_one_reason_are_told_in_one_sentence(judge):
-    study = judge(build_row("R1", net_height=2.2))
-    *forces_told, height_told = map(str, study.rows[0].reasons)
-    parts = [told.partition(": ") for told in forces_told]
-    reasons = [reason for _, _, reason in parts]
-    assert all("overtops the net" in reason for reason in reasons)
-    assert len(set(reasons)) == len(reasons)
-    named = sum(1 + titles.count(";") for titles, _, _ in parts)
-    count = len(name_force_checks()) + len(name_directions())
-    assert named == count + 1  # and the load along the row
-    assert height_told.startswith("Net, height: The effective height D_K of 2.2 m")

@@ -10,7 +10,7 @@ from netdesign.checks.check import OpenKind
 from netdesign.outcome import Verdict
 from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.words.message import say
-from tests.study.test_chain import NF, WORST, judge, solved
+from tests.study.test_chain import NF, judge, solved
 
 __all__ = ["solved"]
 
@@ -141,16 +141,6 @@ def test_a_missing_resistance_leaves_its_own_check_open_and_no_other(solved, see
             assert check.verdict is Verdict.NOT_PROVEN
             assert [x.kind for x in check.open] == [OpenKind.RESISTANCE_MISSING]
             assert check.demand_kN == pytest.approx(before[name].demand_kN)
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_a_reason_more_never_makes_a_verdict_better(solved, seed):
-    draw = random.Random(f"reason {seed}")
-    for check in judge(solved)[1].values():
-        kind = draw.choice([one for one in OpenKind if one != "proven_elsewhere"])
-        worse = check.with_open(kind, say("check.no_case_solved"))
-        assert WORST.index(worse.verdict) <= WORST.index(check.verdict)
-        assert WORST.index(worse.verdict) <= WORST.index(Verdict.NOT_PROVEN)
 
 
 def test_what_is_open_of_a_row_says_the_resistance_that_is_needed(solved):

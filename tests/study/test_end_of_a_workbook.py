@@ -12,8 +12,6 @@ from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
-from netdesign.words.catalogue import LANGUAGES, render
-from tests.digits import write_force
 from tests.make import write_site
 from tests.verification.untidy_site import PROFILE, VERTICAL, draw_site
 
@@ -98,6 +96,3 @@ def require_one_anchor_told(row):
     }
     (note,) = (one for one in row.notes if one.key == "row.one_anchor")
     assert note.arguments["both"] == pytest.approx(math.hypot(*forces.values()))
-    for language in LANGUAGES:
-        shown = write_force(note.arguments["both"])
-        assert shown in render(note, language).replace(",", ".")

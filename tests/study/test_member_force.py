@@ -23,7 +23,6 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.record_envelope import record_point
 from netdesign.study.record_provenance import record_profile
-from netdesign.study.row_to_check import CaseSolver
 from tests.grid import solve_site
 from tests.guideline.one_floor import find_row_floor
 from tests.read_check import bring, compare_support
@@ -187,12 +186,6 @@ def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
     assert set(floor.assumed) <= set(without.rows[0].notes)
 
 
-def test_profile_without_a_floor_has_none():
-    none = replace(SWISS, floor="none")
-    assert a_floor(standard=none) is None
-    assert record_floor(None, ROW) is None
-
-
 def test_floor_that_is_not_known_proves_nothing(solved):
     """A slope beyond the closed forms: the coupled results alone would pass."""
     site, study = judge(solved, slope_angle=0.04)
@@ -299,12 +292,6 @@ def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):
     assert wide > 2.0 * spacing - 0.5
 
 
-def test_row_that_goes_on_has_no_end(solved):
-    _, study = judge(solved, gap=0.0)
-    of_force = [one for one in study.rows[0].checks if one.is_of_force]
-    assert {one.position for one in of_force} == {"intermediate"}
-
-
 @pytest.mark.parametrize(("gap", "is_told"), [(1.99, True), (2.0, True), (1.7, False)])
 def test_gap_close_to_a_threshold_shows_both_values(solved, gap, is_told):
     """1.99 and 2.00 m give one demand, and the other value beside it."""
@@ -317,18 +304,6 @@ def test_gap_close_to_a_threshold_shows_both_values(solved, gap, is_told):
     if is_told:
         assert told[0].arguments["wider"] == pytest.approx(width, rel=1e-12)
         assert told[0].arguments["other"] < 0.7 * width
-
-
-def test_comparison_ends_in_a_sentence_with_size_and_cause(solved):
-    _, study = judge(solved)
-    told = str(study.rows[0].guideline.sentence)
-    cases = {one.name: one for one in study.rows[0].guideline.cases}
-    foot = study.rows[0].guideline.solved_foot_anchor_kN
-    larger = cases["load_case_2"].foot_anchor_kN
-    assert f"load case 2 gives {larger:.0f} kN" in told
-    assert f"{100.0 * (larger / foot - 1.0):.0f} % more" in told
-    assert "Density" not in told  # 270 kg/m³ in both
-    assert "kN/m over 5 m" in told
 
 
 def test_floor_has_every_carrying_member_and_the_mesh(solved):
@@ -453,26 +428,3 @@ def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
 
 def widen_ranges(further):
     return Ranges(intervals=tuple((dict(RANGES.intervals) | further).items()))
-
-
-def list_changes(check):
-    return {change.quantity.key: change for change in check.changes}
-
-
-def test_what_flips_a_check_inside_the_row(solved):
-    site = build_site(
-        replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
-        ranges=RANGES,
-    )
-    checks = checks_of(judge_site(site, solved, SWISS, RUN))
-    assert set(list_changes(checks["foot_anchor.tendon"])) == {
-        *("change.characteristic_resistance", "change.post_spacing", "change.bar"),
-    }
-
-
-def judge_end(solved, resistance):
-    row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
-    solver = CaseSolver(RUN.settings, RUN.creep_law)
-    site = build_site(row, ranges=RANGES)
-    study = judge_site(site, solved, SWISS, RUN, solver)
-    return checks_of(study)

@@ -1,6 +1,7 @@
 """Checks beyond axial force on a row with given pulls: what they need and say."""
 
 import math
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -8,11 +9,10 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.checks.comparison import find_action_factor
-from netdesign.outcome import SiteDataError, Verdict
-from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.edge.input_files import find_resource
+from netdesign.outcome import Verdict
 from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
@@ -25,12 +25,14 @@ from tests.checks.given_pulls import (
     set_efficiency,
     study_row,
 )
+from tests.each import each
 
 SECOND = find_second(0.5)
 
 SWISS = "swiss-guideline-2007"
 GUYS, SPLAY = "guy_count", "guy_splay"
 FOOT_AXIS = "foot_axis"
+LIFTED, HELD = (5.0, 22.0), "foot_tension"  # the net pulls the head off the slope
 BAR = {
     "kind": "bar",
     "bar_diameter": 32,
@@ -169,13 +171,6 @@ def test_a_rope_anchor_that_is_pushed_fails_whatever_its_head(tmp_path):
     verdict, text = told(checks["foot_anchor.direction"])
     assert verdict is Verdict.FAIL
     assert "a rope anchor is pushed there" in text
-
-
-def test_a_profile_without_a_least_dip_proves_no_bond(tmp_path, folder_without):
-    mine = folder_without("limits.toml", "anchor.dip.min")
-    verdict, text = told(judge(tmp_path, mine)["foot_anchor.pull_out"])
-    assert verdict is Verdict.NOT_PROVEN
-    assert "no limit anchor.dip.min" in text
 
 
 @pytest.mark.parametrize(("slope", "axis"), [(35, 50.0), (25.5, FOOT), (50, 65.0)])
@@ -382,17 +377,6 @@ def test_moment_of_the_snow_that_is_too_much_alone_fails(tmp_path):
     assert "alone is too much" in text
 
 
-@pytest.mark.parametrize("lost", ["post.efficiency", "post.efficiency.per_glide"])
-def test_profile_without_snow_on_posts_proves_none_of_them(
-    tmp_path, folder_without, lost
-):
-    mine = folder_without("model.toml", lost)
-    post = POST | {ETA: None}
-    verdict, text = told(judge(tmp_path, mine, post=post)["post.compression_bending"])
-    assert verdict is Verdict.NOT_PROVEN
-    assert f"its value {lost}," in text
-
-
 ETA, HEAD = "eta", "head_eccentricity"
 GLIDES = {"glide_factor": 2.4}  # eta up to 3.4
 
@@ -499,54 +483,34 @@ def test_a_post_whose_eccentricity_nobody_gives_rests_on_its_edges(
     assert (told["head"], told["foot"]) == pytest.approx((ends, ends), abs=0.05)
 
 
-def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):
-    mine = folder_without("limits.toml", "anchor.angle.rope")
-    anchor = BAR | {"kind": "rope anchor"}
-    verdict, text = told(judge(tmp_path, mine, anchor=anchor)["foot_anchor.direction"])
-    assert verdict is Verdict.NOT_PROVEN
-    assert "no limit anchor.angle.rope" in text
-
-
-@pytest.fixture
-def folder_without(tmp_path):
-    """Copy of the Swiss profile without one of its values."""
-    import shutil
-
-    from netdesign.edge.input_files import find_resource
-
-    def copy(file, value_id):
-        mine = shutil.copytree(find_resource("standards") / SWISS, tmp_path / "mine")
-        blocks = (mine / file).read_text("utf-8").split("\n\n")
-        kept = [one for one in blocks if f'id = "{value_id}"' not in one]
-        assert len(kept) == len(blocks) - 1
-        (mine / file).write_text("\n\n".join(kept), "utf-8")
-        return mine
-
-    return copy
-
-
-@pytest.mark.parametrize(
-    ("cell", "value", "accepted"),
+@each(
+    "file, value, name, changes",
     [
-        (SPLAY, 0, "5 to 60 deg"),
-        (GUYS, 3, "whole numbers, 1 to 2"),
+        ("limits.toml", "anchor.dip.min", "foot_anchor.pull_out", {}),
+        ("limits.toml", "anchor.angle.rope", "foot_anchor.direction",
+         {"anchor": BAR | {"kind": "rope anchor"}}),
+        ("model.toml", "post.efficiency", "post.compression_bending",
+         {"post": POST | {ETA: None}}),
+        ("model.toml", "post.efficiency.per_glide", "post.compression_bending",
+         {"post": POST | {ETA: None}}),
+        ("factors.toml", "resistance.tension", "post_foot.tension",
+         {"head": LIFTED, "post": POST | {HELD: 200}}),
     ],
-)
-def test_impossible_splay_and_count_are_one_finding_each(
-    tmp_path, cell, value, accepted
+)  # fmt: skip
+def test_a_profile_proves_nothing_by_a_value_that_it_lacks(
+    tmp_path, file, value, name, changes
 ):
-    with pytest.raises(SiteDataError) as caught:
-        judge(tmp_path, **{cell: value})
-    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
-    assert finding.sheet == "Net types"
-    assert accepted in str(finding.accepted)
+    mine = shutil.copytree(find_resource("standards") / SWISS, tmp_path / value)
+    blocks = (mine / file).read_text("utf-8").split("\n\n")
+    kept = [one for one in blocks if f'id = "{value}"' not in one]
+    assert len(kept) == len(blocks) - 1
+    (mine / file).write_text("\n\n".join(kept), "utf-8")
+    verdict, text = told(judge(tmp_path, mine, **changes)[name])
+    assert verdict is Verdict.NOT_PROVEN
+    assert value in text
 
 
 def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path):
-    import shutil
-
-    from netdesign.edge.input_files import find_resource
-
     mine = shutil.copytree(find_resource("standards") / "eurocode", tmp_path / "ec")
     path = mine / "document.toml"
     text = path.read_text("utf-8")
@@ -613,10 +577,6 @@ def test_a_type_for_shorter_posts_is_no_remedy(tmp_path):
         assert (change and change.quantity.arguments["type"]) == found
 
 
-LIFTED = (5.0, 22.0)  # the net pulls the head away from the slope
-HELD = "foot_tension"
-
-
 @pytest.mark.parametrize("head", [(5.0, -22.0), (5.0, 0.0)])
 def test_a_post_that_nothing_lifts_has_no_check_of_its_foot(tmp_path, head):
     for post in (POST, POST | {HELD: 0}, POST | {HELD: 150}):
@@ -676,18 +636,6 @@ def test_guys_of_a_lifted_post_hold_its_head_alone(tmp_path):
 def test_factor_of_uplift_takes_the_place_of_that_of_snow(profile, mode, source):
     found = find_action_factor(load_standard(profile), mode)
     assert (found.source, found.value) == (source, 1.5)
-
-
-def test_profile_without_its_factor_proves_no_foot(tmp_path, folder_without):
-    mine = folder_without("factors.toml", "resistance.tension")
-    checks = judge(tmp_path, mine, head=LIFTED, post=POST | {HELD: 200})
-    verdict, text = told(checks["post_foot.tension"])
-    assert verdict is Verdict.NOT_PROVEN
-    assert "resistance.tension" in text
-
-
-def test_a_foot_can_be_declared():
-    assert (Member.POST_FOOT, "tension") in DECLARABLE
 
 
 def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
