@@ -62,42 +62,15 @@ def test_uniform_load_converges_to_the_exact_cable(head, slack):
         np.testing.assert_allclose(
             cable.head_pull - end, -(cable.foot_pull - foot), atol=1e-12
         )
-        errors.append(np.hypot(*(cable.foot_pull - foot)))
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert orders[-1] >= 3.9
-    assert errors[-1] <= 1e-7 * load
-
-
-def test_nodes_of_the_uniformly_loaded_cable():
-    head, load, length = np.array([0.8, 0.6]), 5.0, 1.1
-    pull = exact_pull(head, length, load, STIFFNESS)
-    errors = []
-    for n in (8, 16, 32):
-        lengths = np.full(n, length / n)
-        forces = uniform_forces([0.0, -load], lengths)
-        cable = solve_funicular(forces, lengths, STIFFNESS, head, np.array([3.0, 0.1]))
         S = np.linspace(0.0, length, 2 * n + 1)
-        exact = elastic_cable(S, *pull, load, STIFFNESS)
-        errors.append(np.abs(cable.curve - exact).max())
+        exact = elastic_cable(S, *foot, load, STIFFNESS)
+        errors.append(
+            (np.hypot(*(cable.foot_pull - foot)), np.abs(cable.curve - exact).max())
+        )
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert orders.min() >= 3.8  # of midpoints as of vertices
-
-
-def test_printed_form_of_the_elastic_parabola():
-    """(C9) from the lowest point, V = q S, for the start of a horizontal tangent."""
-    q, H, S = 2.0, 3.0, 1.7
-    x, y = elastic_cable(S, H, 0.0, q, STIFFNESS)
-    assert x == pytest.approx(H * S / STIFFNESS + H / q * math.asinh(q * S / H))
-    assert y == pytest.approx(
-        q * S**2 / (2 * STIFFNESS) + H / q * (math.sqrt(1 + (q * S / H) ** 2) - 1)
-    )
-    n = 64
-    lengths = np.full(n, S / n)
-    forces = uniform_forces([0.0, q], lengths) * -1.0
-    cable = solve_funicular(
-        forces, lengths, STIFFNESS, np.array([x, y]), np.array([2.0, 0.5])
-    )
-    np.testing.assert_allclose(cable.foot_pull, [H, 0.0], atol=1e-6 * H)
+    assert orders[-1, 0] >= 3.9
+    assert orders[-1, 1] >= 3.8  # of midpoints as of vertices
+    assert errors[-1][0] <= 1e-7 * load
 
 
 def test_shallow_limit():
@@ -122,21 +95,6 @@ def test_shallow_limit():
         )
     assert max(differences) <= 3.0
     assert differences[2] == pytest.approx(differences[1], rel=0.1)
-
-
-def test_values_worked_by_hand():
-    """physics 7.8: q 10 kN/m, c 4 m, ES 20 MN: f 0.1817 m, H 110.1, T 111.9 kN."""
-    n = 32
-    lengths = np.full(n, 4.0 / n)
-    forces = uniform_forces([10.0, 0.0], lengths)
-    cable = solve_funicular(
-        forces, lengths, 20e3, np.array([0.0, 4.0]), np.array([20.0, 110.0])
-    )
-    # the shallow formula is good to three (f/c)^2, see above
-    shallow = 3 * (0.1817 / 4.0) ** 2
-    assert cable.curve[0].max() == pytest.approx(0.1817, rel=shallow)
-    assert cable.foot_pull[1] == pytest.approx(110.1, rel=shallow)
-    assert np.hypot(*cable.foot_pull) == pytest.approx(111.9, rel=shallow)
 
 
 @each("deflection", [0.01, 0.1, 0.5])

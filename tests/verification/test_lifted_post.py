@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
@@ -104,36 +105,47 @@ def cross(a, b):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_no_support_is_refused_for_uplift(seed):
-    """What is refused has no guy that pulls it sideways, whatever the post does."""
-    lifted = failed = 0
+def test_a_head_is_in_equilibrium_or_no_guy_can_pull_it_there(seed):
+    """Members bear their sign; all that the net pulls comes to the ground."""
+    seen = {"lifted": 0, "failed": 0, "uphill": 0, "downhill": 0}
     for pull, points in draw_supports(seed):
+        foot, size = (0.7 * pull[1], 0.3 * pull[0]), 3.5 * math.hypot(*pull)
         found = compute_anchor_forces(
-            points, foot_pull_per_m=(0, 1), head_pull_per_m=pull, post_spacing=1.0
+            points, foot_pull_per_m=foot, head_pull_per_m=pull, post_spacing=3.5
         )
         (post, *guys), _ = find_directions(points)
-        if isinstance(found, FailedSupport):
-            failed += 1
+        held = [nnls(np.array([post]).T * [[1.0, -1.0]], -np.array(pull))]
+        held += [
+            nnls(np.array([post, np.negative(post), guy]).T, -np.array(pull))
+            for guy in guys
+            if abs(cross(post, guy)) >= math.sin(math.radians(1.0))
+        ]
+        holds = min(gap for _, gap in held) < 1e-9 * size
+        assert isinstance(found, AnchorForces) == holds
+        if not holds:
+            seen["failed"] += 1
             assert found.outcome is Outcome.NO_EQUILIBRIUM
-            least = math.sin(math.radians(1.0)) * (1.0 + 1e-9)
-            for guy in guys:  # along the post, or it would have to push
-                assert (
-                    abs(cross(post, guy)) < least
-                    or cross(pull, post) * cross(post, guy) <= 0.0
-                )
             continue
-        size = math.hypot(*pull)
-        away = np.subtract(found.head_pull, pull)
-        assert np.linalg.norm(away) < 1e-12 * size
         head = found.head
-        assert min(head.post_compression, head.post_tension) == 0.0
-        assert min(found.member_forces.values()) >= 0.0
-        lifted += head.post_tension > 0.0
+        thrust = head.post_tension - head.post_compression
+        tensions = (head.uphill_guy_tension, head.downhill_guy_tension)
+        left = 3.5 * np.array(pull) + np.array([thrust, *tensions]) @ [post, *guys]
+        assert np.linalg.norm(left) < 1e-12 * size
+        assert min(*tensions, *found.member_forces.values()) >= 0.0
+        assert min(tensions) == min(head.post_compression, head.post_tension) == 0.0
+        ground = [found.foot_anchor, found.uphill_anchor, found.downhill_anchor]
+        total = np.sum([(one.x, one.y) for one in (*ground, found.post_base)], axis=0)
+        away = total - 3.5 * (np.array(foot) + pull)
+        assert np.linalg.norm(away) < 1e-12 * size
         # (S4a): the slope holds down what the net does not lift
         steep = points.post_length / points.head[1]
-        assert head.post_tension <= (max(pull[1], 0.0) + 1e-11 * size) * steep
-    assert lifted > 30
-    assert failed > 20
+        lifts = 3.5 * max(pull[1], 0.0) + 1e-11 * size
+        assert head.post_tension <= lifts * steep
+        seen["lifted"] += head.post_tension > 0.0
+        for side, tension in zip(("uphill", "downhill"), tensions, strict=True):
+            seen[side] += tension > 0.0
+    assert min(seen.values()) > 20
+    assert seen["lifted"] > 30
 
 
 def solve_elastic(pull, directions, stiffness):

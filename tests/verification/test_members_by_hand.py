@@ -25,7 +25,9 @@ from netdesign.resistance.steel import (
     find_least_tube,
 )
 from netdesign.structure.layout import SupportPoints
+from tests.each import each
 from tests.structure.splayed_head import compute_splayed_head
+from tests.verification.second_reader.resistance import compress_bent_post
 
 CLOSE = {"rel": 1e-3}
 
@@ -290,66 +292,43 @@ def use_post(row, eta, head, foot):
     return math.inf if found is None else 1.05 * ROWS[row][-1] / (1e-3 * found)
 
 
-def use_by_moments(row, eta, head, foot):
-    """The same by halving C: the moments of 4000 stations, each of them amplified."""
+# By row, efficiency, eccentricities of head and foot [mm; None: h / 2].
+END_POSTS = [
+    *((row, 2.0, shift, shift, used)
+      for shift, line in ((0, (0.539, 0.669, 0.885)), (25, (0.783, 0.859, 1.079)),
+                          (50, (0.990, 1.028, 1.260)), (None, (1.068, 1.221, 1.604)),
+                          (100, (1.372, 1.346, 1.604)))
+      for row, used in zip(ROWS, line, strict=True)),
+    # a foot that turns
+    *(("R1", 2.0, None, 0, 0.999), ("R4", 2.0, None, 0, 1.031)),
+    ("R5", 2.0, None, 0, 1.312),
+    # snow that presses round the post
+    *(("R5", eta, 0, 0, used)
+      for eta, used in ((1.0, 0.687), (3.0, 1.173), (4.0, 1.646), (5.0, 2.597))),
+    # 1, 2.2 and 3.4, by the glide factor
+    *(("R1", 1.0, 0, 0, 0.511), ("R4", 2.2, 0, 0, 0.691), ("R5", 3.4, 0, 0, 1.331)),
+]  # fmt: skip
+
+
+@each("row, eta, head, foot, used", END_POSTS)
+def test_end_posts_of_table_a6(row, eta, head, foot, used):
+    """Statics, table A6, column (R11), and the numbers below it."""
+    half = 0.5 * ROWS[row][0]
+    ends = (half if one is None else one for one in (head, foot))
+    assert use_post(row, eta, *ends) == pytest.approx(used, abs=6e-4)
+
+
+@each("row", ROWS)
+@each("eta, head, foot", [(0.02, 90, 3), (1.0, 60, 0), (2.2, 0, 47), (3.0, 40, 40)])
+def test_bent_posts_are_those_of_the_second_reader(row, eta, head, foot):
     post, moment = build_post(row, head, foot)
-    low, high = 0.0, post.buckling / 1.05
-    for _ in range(60):
-        force = 0.5 * (low + high)
-        largest = max(
-            force * (1e-3 * head * (1.0 - x) + 1e-3 * foot * x)
-            + 1.5e3 * eta * moment * 4.0 * x * (1.0 - x)
-            for x in (step / 4000 for step in range(4001))
-        )
-        bent = 1.05 * largest / post.moment_resistance / (1.0 - force / post.critical)
-        if 1.05 * force / post.buckling + bent > 1.0:
-            high = force
-        else:
-            low = force
-    return 1e3 * ROWS[row][-1] / low
-
-
-TABLE_A6 = [
-    (0, (0.539, 0.669, 0.885)),
-    (25, (0.783, 0.859, 1.079)),
-    (50, (0.990, 1.028, 1.260)),
-    (None, (1.068, 1.221, 1.604)),  # h / 2
-    (100, (1.372, 1.346, 1.604)),
-]
-
-
-@pytest.mark.parametrize(("typed", "printed"), TABLE_A6)
-def test_end_posts_under_equal_eccentricities(typed, printed):
-    """Statics, table A6, column (R11), eta 2."""
-    for row, told in zip(ROWS, printed, strict=True):
-        shift = 0.5 * ROWS[row][0] if typed is None else typed
-        assert use_post(row, 2.0, shift, shift) == pytest.approx(told, abs=6e-4), row
-
-
-def test_end_posts_with_a_foot_that_turns():
-    """e_h = h / 2, e_f = 0, eta 2: 0.999, 1.031, 1.312; also by stations of M."""
-    for row, told in zip(ROWS, (0.999, 1.031, 1.312), strict=True):
-        depth = ROWS[row][0]
-        assert use_post(row, 2.0, 0.5 * depth, 0.0) == pytest.approx(told, abs=6e-4)
-    for row in ROWS:
-        for eta, head, foot in ((0.02, 90, 3), (1.0, 60, 0), (2.2, 0, 47), (3, 40, 40)):
-            exact = use_by_moments(row, eta, head, foot)
-            assert use_post(row, eta, head, foot) == pytest.approx(exact, rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("eta", "printed"),
-    [(1.0, 0.687), (2.0, 0.885), (3.0, 1.173), (4.0, 1.646), (5.0, 2.597)],
-)
-def test_end_post_of_r5_under_snow_that_presses_round_it(eta, printed):
-    assert use_post("R5", eta, 0.0, 0.0) == pytest.approx(printed, abs=6e-4)
-
-
-def test_efficiency_by_the_glide_factor():
-    """1, 2.2 and 3.4 of N = 1.2, 1.8, 2.4: 0.511, 0.691, 1.331."""
-    for row, told in zip(ROWS, (0.511, 0.691, 1.331), strict=True):
-        eta = 1.0 + 2.0 * (ROWS[row][8] - 1.2)
-        assert use_post(row, eta, 0.0, 0.0) == pytest.approx(told, abs=6e-4)
+    strut = tuple(
+        1e-3 * one for one in (post.buckling, post.critical, post.moment_resistance)
+    )
+    ends = 1e-3 * head, 1e-3 * foot
+    held = compress_bent_post(strut, 1.5 * eta * moment, *ends, 1.05)
+    used = ROWS[row][-1] / held
+    assert use_post(row, eta, head, foot) == pytest.approx(used, rel=1e-9)
 
 
 def test_sliding_of_a_base_plate():

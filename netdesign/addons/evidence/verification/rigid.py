@@ -161,7 +161,7 @@ def solve_rigid(
 
     Verified by
     -----------
-    tests/verification/test_rigid_wall.py
+    tests/addons/evidence/verification/test_rigid.py
     """
     return end_solve(lambda: _solve(scene, settings or SolverSettings()))
 

@@ -1,4 +1,4 @@
-"""Outcomes of a wall. Truth: tests/verification/test_rigid_wall.py and the pack."""
+"""Rigid walls: what must hold exactly, and outcomes; other codes are in the pack."""
 
 import math
 from dataclasses import replace
@@ -63,14 +63,47 @@ def test_friction_is_within_its_limit(a_scene, friction_angle, inclination):
     assert (np.abs(shear) <= limit + 1e-8 * scale).all()
 
 
-def test_pressure_tips_the_upper_edge_downslope(a_scene):
-    """A lone downslope force at height y has the moment + y F."""
+@each("inclination", [0.0, 0.5])
+@each("friction_angle", [None, 0.0, 0.4])
+def test_free_ground_leaves_its_weight_to_the_wall(
+    a_scene, friction_angle, inclination
+):
+    """Along X the wall carries weight times sin psi, whatever holds the snow on it."""
+    solution = press(a_scene, friction_angle, inclination)
+    area = 20.0 * 4.0 + 4.0**2 * math.tan(inclination) / 2.0
+    expected = 0.4 * 917 * 9.81 * area * math.sin(math.radians(40))
+    assert solution.force.x == pytest.approx(expected, rel=1e-8)
+
+
+def test_smooth_wall_normal_to_the_slope_has_no_shear(a_scene):
     solution = press(a_scene, 0.0, **PRESSED)
-    height = solution.moment_about_foot / solution.force.x
-    assert 0.0 < height < 4.0
-    # without shear or lean only X-forces turn it
-    moment = (solution.wall_nodes[1] * solution.wall_forces[0]).sum()
+    assert abs(solution.force.y) < 1e-9 * solution.force.x
+    assert solution.wall_slides[1:].all()
+
+
+def test_adhering_snow_hangs_on_the_wall(a_scene):
+    """Held by the wall, the settling snow pulls it towards the ground."""
+    solution = press(a_scene, **PRESSED)
+    assert solution.force.y < 0.0
+    assert not solution.wall_slides.any()
+
+
+def test_moment_is_that_of_the_nodal_forces(a_scene):
+    solution = press(a_scene, inclination=0.3, ground="no-slip")
+    (x, y), (force_x, force_y) = solution.wall_nodes, solution.wall_forces
+    moment = (y * force_x - x * force_y).sum()
     assert solution.moment_about_foot == pytest.approx(moment, rel=1e-12)
+    # it tips the upper edge downslope, about the foot
+    assert 0.0 < solution.moment_about_foot / solution.force.size < 4.0
+
+
+def test_fluidity_leaves_the_force(a_scene):
+    scene = walled(a_scene, **PRESSED)
+    slow = solve_rigid(scene, COARSE)
+    fast = solve_rigid(replace(scene, fluidity=9.0 * scene.creep_fluidity), COARSE)
+    assert fast.force.x == slow.force.x
+    expected = 9.0 * slow.largest_velocity
+    assert fast.largest_velocity == pytest.approx(expected, rel=1e-12)
 
 
 def test_wall_holds_layered_snow(a_scene):
