@@ -28,6 +28,7 @@ MEASURES = {
     ("net_types", "slack"): "slack",
     ("layers", "thickness"): "normal",
 }
+VERTICAL = {("rows", "snow"): "vertical"}
 _HERE = Path(__file__).parent
 _HEADINGS, _BELOW = 2, 3  # row of a sheet's headings, from 0; rows down to its lines
 _OF_ADDONS = (MONITORING, WINTER, UNCERTAINTY)
@@ -43,6 +44,21 @@ def load_tables(name):
             {key: value for key, value in line if value != ""} for line in lines
         ]
     return tables
+
+
+def draw_untidy(draw):
+    """Tables of three rows whose decimal numbers are varied; snow is vertical."""
+
+    def vary(cell):
+        if isinstance(cell, list):
+            return tuple(map(vary, cell))
+        is_drawn = isinstance(cell, float)
+        return float(f"{cell * draw.uniform(0.97, 1.03):.3g}") if is_drawn else cell
+
+    return {
+        table: [{key: vary(cell) for key, cell in line.items()} for line in lines]
+        for table, lines in load_tables("untidy").items()
+    }
 
 
 def write_tiny(path, edit=None):

@@ -12,8 +12,7 @@ from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
-from tests.make import write_site
-from tests.verification.untidy_site import PROFILE, VERTICAL, draw_site
+from tests.make import VERTICAL, draw_untidy, write_site
 
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
@@ -30,7 +29,7 @@ MEMBERS = {"lateral_anchor", "end_guy", "end_guy_anchor"}
 
 def judge(folder, panel):
     """Study of one drawn row with this panel, from its workbook."""
-    tables = draw_site(random.Random(31))
+    tables = draw_untidy(random.Random(31))
     tables["rows"] = [one for one in tables["rows"] if one["id"] == "U2"]
     (row,), tables["declared"] = tables["rows"], []
     row |= {"end_anchor": "strong", "snow": 2.13, "post_spacing": 2.71}
@@ -47,7 +46,7 @@ def judge(folder, panel):
     strong |= {"bar_diameter": 89.7, "tendon": 3000.0, "tube_diameter": 139.7}
     strong["tube_wall"] = 20.0
     path = write_site(folder / "site.xlsx", tables, measures=VERTICAL)
-    site, standard = read_site(path), load_standard(PROFILE)
+    site, standard = read_site(path), load_standard("eurocode")
     study = judge_site(site, search_site(site, RUN), standard, RUN)
     return study.rows[0]
 

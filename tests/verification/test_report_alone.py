@@ -16,7 +16,7 @@ from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES
-from tests.make import write_rows
+from tests.make import VERTICAL, draw_untidy, write_rows, write_site
 from tests.report.printing import (
     PAPER_PX,
     PHONE_PX,
@@ -28,7 +28,6 @@ from tests.report.printing import (
     measure_pages,
 )
 from tests.verification.page_again import divide, read_annex, read_ratios, work_out
-from tests.verification.untidy_site import PROFILE, write_untidy_site
 
 SWISS = "swiss-guideline-2007"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05), started="")
@@ -39,10 +38,11 @@ SEED = 7
 def studies(tmp_path_factory):
     folder = tmp_path_factory.mktemp("alone")
     write_rows(folder / "example.xlsx", leans=True)
-    write_untidy_site(folder / "untidy.xlsx", SEED)
+    drawn = draw_untidy(random.Random(SEED))
+    write_site(folder / "untidy.xlsx", drawn, measures=VERTICAL)
     return {
         name: judge(folder / f"{name}.xlsx", profile)
-        for name, profile in (("example", SWISS), ("untidy", PROFILE))
+        for name, profile in (("example", SWISS), ("untidy", "eurocode"))
     }
 
 
