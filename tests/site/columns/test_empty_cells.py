@@ -6,8 +6,8 @@ from netdesign.site.columns.office import TABLES, load_columns
 from netdesign.site.reader import read_site
 from netdesign.site.template.empty import say_empty
 from tests.each import each
+from tests.make import write_site
 from tests.site.columns.empty_cells import USAGE, build_table, find_table
-from tests.site.office.books import write_office
 from tests.site.office.drawn import draw_tables
 
 
@@ -22,7 +22,7 @@ def test_the_template_says_of_each_column_what_an_empty_cell_means(table):
 
 
 def read_rows(path, tables):
-    write_office(path, tables)
+    write_site(path, tables)
     return read_site(path).rows
 
 

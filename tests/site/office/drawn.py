@@ -38,15 +38,17 @@ def draw_tables(seed, rows=4):
             }
         )
     return {
-        "project": {
-            "name": f"Site {seed}",
-            "density": (rng.randint(250, 300), rng.randint(380, 450)),
-            "friction_angle": (pick(10, 18), pick(30, 44)),
-            "inclination": (pick(20, 27), pick(30, 38)),
-            "design_life": rng.randint(40, 100),
-            "soil": "natural",
-            "base_friction": pick(0.3, 0.6, 2),
-        },
+        "project": [
+            {
+                "name": f"Site {seed}",
+                "density": (rng.randint(250, 300), rng.randint(380, 450)),
+                "friction_angle": (pick(10, 18), pick(30, 44)),
+                "inclination": (pick(20, 27), pick(30, 38)),
+                "design_life": rng.randint(40, 100),
+                "soil": "natural",
+                "base_friction": pick(0.3, 0.6, 2),
+            }
+        ],
         "rows": lines,
         "net_types": [draw_net(rng, pick, net, height[net]) for net in nets],
         "anchor_types": [draw_anchor(rng, pick, one) for one in anchors],

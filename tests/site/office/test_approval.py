@@ -11,7 +11,7 @@ from netdesign.study.member_force import list_maker_leaves
 from netdesign.study.row_checks import check_limits
 from netdesign.study.row_to_check import Basis
 from tests.each import each
-from tests.site.office.books import write_office
+from tests.make import write_site
 from tests.site.office.drawn import draw_tables
 
 STANDARD = load_standard("swiss-guideline-2007")
@@ -22,7 +22,7 @@ ANCHORS = ("foot", "uphill", "downhill")
 def test_every_row_is_compared_with_the_limits_of_its_net_type(tmp_path_factory, seed):
     tables = draw_tables(seed, rows=6)
     path = tmp_path_factory.mktemp("approved") / f"{seed}.xlsx"
-    write_office(path, tables)
+    write_site(path, tables)
     site = read_site(path)
     nets = {one["id"]: one for one in tables["net_types"]}
     for line, row in zip(tables["rows"], site.rows, strict=True):
@@ -49,7 +49,7 @@ def test_a_limit_left_empty_proves_nothing(tmp_path):
     for net in tables["net_types"]:
         net["altitude_most"] = None
         net["glide_most"], net["spacing_most"] = 3.2, 9.0
-    write_office(tmp_path / "site.xlsx", tables)
+    write_site(tmp_path / "site.xlsx", tables)
     site = read_site(tmp_path / "site.xlsx")
     for row in site.rows:
         basis = Basis(

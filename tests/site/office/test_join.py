@@ -3,20 +3,20 @@
 import math
 from dataclasses import replace
 
-import openpyxl
 import pytest
 
 from netdesign.cable.sag import find_slack
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.office import load_columns
+from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.office.rows import join_rows
 from netdesign.site.reader import read_site
 from netdesign.site.readings import read_nothing
 from tests.each import each
-from tests.site.office.books import write_office
+from tests.make import find_cell, lay_out, write_sheets, write_site
 from tests.site.office.drawn import draw_tables
 
 LANGUAGES = ("en", "fr", "de")
+IN_ROWS = ("rows", "net_types")
 CASES = [(seed, LANGUAGES[seed % 3]) for seed in range(12)]
 
 
@@ -33,13 +33,13 @@ def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
         for net in tables["net_types"]:
             net["slack"] = net["slack"] + 9
     path = tmp_path / f"{seed}.xlsx"
-    write_office(
+    write_site(
         path, tables, language, {("rows", "snow"): measure, ("net_types", "slack"): sag}
     )
     site = read_site(path)
     assert site.project.name == f"Site {seed}"
     density = site.ranges["density"]
-    assert (density.low, density.high) == tables["project"]["density"]
+    assert (density.low, density.high) == tables["project"][0]["density"]
     for line, row in zip(tables["rows"], site.rows, strict=True):
         net = find_line(tables, "net_types", line["net_type"])
         slope = math.radians(line["slope_angle"])
@@ -55,7 +55,7 @@ def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
         assert row.guys.are_shared is (net["guy_anchors"] == "shared")
         assert row.net_stiffness_per_m == 1e3 * net["net_stiffness"]
         assert row.post_count == line["post_count"]
-        assert row.design_life == tables["project"]["design_life"]
+        assert row.design_life == tables["project"][0]["design_life"]
         assert row.ground_type == "till"
         assert row.approval.foot_force.value == 1e3 * net["maker_foot"]
         assert row.approval.glide_factor.value == net["glide_most"]
@@ -77,14 +77,19 @@ def test_every_cell_that_a_row_shows_is_where_it_was_typed(tmp_path, seed):
     tables = draw_tables(seed)
     language = LANGUAGES[seed % 3]
     path = tmp_path / f"{seed}.xlsx"
-    places = write_office(path, tables, language)
+    write_site(path, tables, language)
     site = read_site(path)
-    typed = {f"{sheet}!{cell}" for sheet, cell in places.values()}
+    typed = {
+        find_cell(table, key, line, language, tables)
+        for table, lines in tables.items()
+        for line, cells in enumerate(lines)
+        for key in cells
+    }
     for row in site.rows:
-        shown = {one.cell for one in row.inputs if "!" in one.cell}
+        shown = {one.cell for one in row.inputs if "!" in one.cell and one.text}
         assert shown <= typed
         sheets = {one.partition("!")[0] for one in shown}
-        assert {places["rows", 0, "id"][0], places["net_types", 0, "id"][0]} <= sheets
+        assert {load_plan(one).name_in(language) for one in IN_ROWS} <= sheets
 
 
 SPOILT = [
@@ -112,17 +117,18 @@ SPOILT = [
 @each("table, key, text", SPOILT)
 def test_a_fault_names_its_cell(tmp_path, table, key, text):
     tables = draw_tables(3)
-    line = tables[table] if table == "project" else tables[table][0]
+    line = tables[table][0]
     line[key] = text
     if table == "net_types":  # a type that no row names is no fault of a row
         for row in tables["rows"]:
             row["net_type"] = line["id"]
-    path = tmp_path / "site.xlsx"
-    places = write_office(path, tables, ("en", "fr", "de")[len(key) % 3])
+    language = LANGUAGES[len(key) % 3]
+    path = write_site(tmp_path / "site.xlsx", tables, language)
     with pytest.raises(SiteDataError) as refused:
         read_site(path)
     errors = [one for one in refused.value.findings if one.severity == "error"]
-    assert {(one.sheet, one.cell) for one in errors} == {places[table, 0, key]}
+    place = find_cell(table, key, language=language, tables=tables)
+    assert {f"{one.sheet}!{one.cell}" for one in errors} == {place}
 
 
 @each("seed", range(5))
@@ -141,7 +147,7 @@ def test_an_id_is_known_whatever_its_case(tmp_path, seed):
 
 
 def write_and_read(path, tables, **more):
-    write_office(path, tables, **more)
+    write_site(path, tables, **more)
     return read_site(path)
 
 
@@ -159,16 +165,12 @@ def test_the_nearest_ids_are_offered(tmp_path):
 
 
 def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
-    path = tmp_path / "site.xlsx"
-    places = write_office(path, draw_tables(2))
-    book = openpyxl.load_workbook(path)
-    sheet, address = places["rows", 0, "snow"]
-    column = address.rstrip("0123456789")
-    book[sheet][f"{column}2"] = "m"
-    book.save(path)
+    sheets = lay_out(draw_tables(2))
+    column = [one.field.key for one in load_columns("rows")].index("snow")
+    sheets["Rows"][3][column] = "m"
     with pytest.raises(SiteDataError) as refused:
-        read_site(path)
-    assert {one.cell[:1] for one in refused.value.findings} == {column}
+        read_site(write_sheets(tmp_path / "site.xlsx", sheets))
+    assert {one.cell[:1] for one in refused.value.findings} == {"ABCDEF"[column]}
 
 
 def test_nets_that_go_on_at_both_ends_have_no_end(tmp_path):
@@ -289,7 +291,7 @@ def test_layers_belong_to_the_rows_that_have_some(tmp_path):
         {"row": "a3", "layer": 1, "thickness": round(0.4 * height, 3), "density": 380},
         {"row": "a3", "layer": 2, "thickness": round(0.6 * height, 3), "density": 310},
     ]
-    measures = {("layers", "thickness"): "vertical"}
+    measures = dict.fromkeys((("layers", "thickness"), ("rows", "snow")), "vertical")
     site = write_and_read(tmp_path / "site.xlsx", tables, measures=measures)
     assert [len(row.layers) for row in site.rows] == [0, 0, 2, 0]
     total = sum(layer.thickness for layer in site.rows[2].layers)

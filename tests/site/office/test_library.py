@@ -5,7 +5,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from tests.each import each
-from tests.site.office.books import write_office
+from tests.make import write_site
 from tests.site.office.drawn import draw_tables
 
 LIBRARY = ("net_types", "ropes", "posts")
@@ -32,10 +32,10 @@ def test_a_library_is_read_as_if_its_sheets_were_there(tmp_path, seed, language)
     names = ("whole", "bare", "lib")
     whole, bare, library = (tmp_path / f"{one}.xlsx" for one in names)
     of_sag = {("net_types", "slack"): "sag"}
-    write_office(whole, tables, language, of_sag)
+    write_site(whole, tables, language, of_sag)
     site, others = split(tables)
-    write_office(bare, site, language)
-    write_office(library, others, "en", of_sag)
+    write_site(bare, site, language)
+    write_site(library, others, "en", of_sag)
     joined = read_site(bare, net_types=library)
     assert list_numbers(joined) == list_numbers(read_site(whole))
     assert joined.library_file == "lib.xlsx"
@@ -46,12 +46,12 @@ def test_a_library_is_read_as_if_its_sheets_were_there(tmp_path, seed, language)
 def test_one_id_means_one_thing(tmp_path):
     tables = draw_tables(4)
     path, library = tmp_path / "site.xlsx", tmp_path / "lib.xlsx"
-    write_office(path, tables)
+    write_site(path, tables)
     _, others = split(tables)
-    write_office(library, others)
+    write_site(library, others)
     assert read_site(path, net_types=library).rows  # alike, so that nothing is unclear
     others["net_types"][0]["post_tilt"] += 1
-    write_office(library, others)
+    write_site(library, others)
     with pytest.raises(SiteDataError) as refused:
         read_site(path, net_types=library)
     (finding,) = refused.value.findings
@@ -62,8 +62,8 @@ def test_a_fault_in_the_library_names_its_file(tmp_path):
     site, others = split(draw_tables(5))
     others["net_types"][0]["net_height"] = "tall"
     path, library = tmp_path / "site.xlsx", tmp_path / "lib.xlsx"
-    write_office(path, site)
-    write_office(library, others)
+    write_site(path, site)
+    write_site(library, others)
     with pytest.raises(SiteDataError) as refused:
         read_site(path, net_types=library)
     errors = [one for one in refused.value.findings if one.severity == "error"]

@@ -65,13 +65,8 @@ def test_an_empty_form_asks_for_rows_alone(tmp_path, language):
 @each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(6)])
 def test_what_is_written_is_read_again(tmp_path, seed, language):
     tables = draw_tables(seed)
-    tables["project"] = [
-        {
-            key: one
-            for key, one in tables["project"].items()
-            if not isinstance(one, tuple)
-        }
-    ]
+    for key in ("density", "friction_angle", "inclination"):  # ranges as tuples
+        del tables["project"][0][key]
     measures = {("net_types", "slack"): "slack"}
     content = render_input(tables, language, measures=measures)
     site = read_site(write(tmp_path / "site.xlsx", content))
