@@ -176,6 +176,8 @@ _CORNERS = 0.01
 
 # In the order in which a search has them.
 PANEL_QUANTITIES = (*map(name_in_panel, CARRYING_MEMBERS), *RopeForce)
+# Tension of a post, by the section and by the panel between posts.
+POST_PULLS: tuple[str, ...] = (Member.POST_FOOT, name_in_panel(Member.POST_FOOT))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,25 +8,29 @@ bounded first, and in nearly all rows no post pulls. Theory: structure/THEORY.md
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+from netdesign.checks.result import Band
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, POST_PULLS, PanelForces
+from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed_forces import (
+    SIGNED,
     choose_watched,
     gather_pulls,
     name_sources,
     read_signed,
-    read_signed_errors,
     spread_ends,
 )
-from netdesign.numerics.arrays import Floats, measure_length
+from netdesign.numerics.arrays import Floats, Mask, measure_length
 from netdesign.search import surrogate
-from netdesign.search.maxima import Maxima, SearchSettings, Values, Watched
+from netdesign.search.maxima import Maxima, SearchSettings, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
 from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
 from netdesign.structure.head import resolve_loose
@@ -40,8 +44,6 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 
-# Tension of a post, by the section and by the panel between posts.
-POST_PULLS: tuple[str, ...] = (Member.POST_FOOT, name_in_panel(Member.POST_FOOT))
 # Members that each of the forces of `_measure` loads; the last one of a shared anchor.
 _LIFTED = (
     (Member.POST_FOOT,),
@@ -147,148 +149,131 @@ _PANEL_GUYS = tuple(map(name_in_panel, GUYS))
 _ALONG = (RopeForce.LOWER_ALONG, RopeForce.UPPER_ALONG)
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
-ReadSigned = Callable[
-    [Sequence[CaseResult], Sequence[SupportLayout]], list[dict[str, float] | None]
-]
 
-
-@dataclass(slots=True, kw_only=True)
-class ResultReader:
-    """Turns results into the quantities of a search, and its bounds into members'.
+class Reading(NamedTuple):
+    """Some cases as a search follows them.
 
     Attributes
     ----------
-    layouts : sequence of SupportLayout
-        That the net's support may have; none follows the net's own tensions.
-    has_panel : bool
-        The row has a panel between its posts.
-    has_end : bool
-        Pulls of the panel's ropes along the row are checked.
-    members, signed : tuple of str
-        Quantities of the results, and the signed forces behind them.
-    is_shared : bool
-        Net and uphill guy end at one anchor.
-    is_without_panel : bool
-        Some case has no forces by its panel: they are not searched any longer, and
-        count as 0 where they are missing. That gap is told of the row.
-    errors, largest : dict of str to float
-        Smallest numerical error and largest force of each member [N].
+    values, errors : ndarray, shape (cases, quantities)
+        Forces and their numerical errors [N]; no numbers of a case that failed.
+    lacks_panel : ndarray of bool, shape (cases,)
+        No forces by the panel are known of a case that converged.
     """
 
-    layouts: Sequence[SupportLayout]
-    has_panel: bool = False
-    has_end: bool = False
+    values: Floats
+    errors: Floats
+    lacks_panel: Mask
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantities:
+    """What a search follows of a row's results, and its bounds of members.
+
+    Attributes
+    ----------
+    task : RowTask
+        What is searched.
+    members, signed : tuple of str
+        Quantities of the results, and the signed forces behind them; none without any
+        result that converged.
+    is_shared : bool
+        Net and uphill guy end at one anchor.
+    """
+
+    task: RowTask
     members: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     is_shared: bool = False
-    is_without_panel: bool = False
-    errors: dict[str, float] = field(default_factory=dict)
-    largest: dict[str, float] = field(default_factory=dict)
 
     @property
-    def quantities(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """All that is modelled: members, then signed forces."""
         return (*self.members, *self.signed)
 
-    def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
-        """Values of some cases; the first decide whether signed forces exist."""
-        self._name_quantities(results)
-        for result in results:
-            for member, band in result.member_forces.items():
-                before = self.largest.get(member, 0.0)
-                self.largest[member] = max(before, band.value)
-                if band.value > 0.0:
-                    error = band.high - band.value
-                    self.errors[member] = min(error, self.errors.get(member, error))
-        self.is_without_panel |= any(map(self._lacks_panel, results))
-        return self._read_values(results)
+    def read(self, results: Sequence[CaseResult]) -> Reading:
+        """Forces and errors of some cases; what is missing of a panel counts as 0."""
+        both = np.full((2, len(results), len(self.names)), np.nan)
+        none = Band(low=0.0, value=0.0, high=0.0)
+        for place, result in enumerate(results):
+            if result.is_converged:
+                bands = [result.member_forces.get(name, none) for name in self.members]
+                line = [(band.value, band.high - band.value) for band in bands]
+                both[:, place, : len(bands)] = np.array(line).T
+        if self.signed:
+            signed = np.array(read_signed(results, self.task.layouts))
+            both[..., len(self.members) :] = signed[..., : len(self.signed)]
+        lacks = [self._lacks_panel(result) for result in results]
+        return Reading(both[0], both[1], np.array(lacks))
 
-    def read_doubts(
-        self, results: Sequence[CaseResult], rough: Collection[int]
-    ) -> list[Values | None]:
-        """Numerical errors of the rough cases, by their places; None of the others."""
-        places = sorted(rough)
-        errors = self._read_errors([results[place] for place in places])
-        of_place = dict(zip(places, errors, strict=True))
-        return [of_place.get(place) for place in range(len(results))]
+    def _lacks_panel(self, result: CaseResult) -> bool:
+        has_panel = isinstance(result.panel, PanelForces)
+        return bool(self.task.panels) and result.is_converged and not has_panel
 
-    def find_near(self, results: Sequence[CaseResult]) -> set[int]:
+    def find_near(self, reading: Reading) -> set[int]:
         """Places of the cases that failed, or may come near the largest of a quantity.
 
         Errors count on the safe side: the upper end of a force against the largest
         lower end.
         """
-        self._name_quantities(results)
-        both = zip(self._read_values(results), self._read_errors(results), strict=True)
-        by_place = {
-            place: pair
-            for place, pair in enumerate(both)
-            if pair[0] and not self._lacks_panel(results[place])
-        }
-        if not by_place:
-            return set(range(len(results)))
-        values, errors = map(np.array, zip(*by_place.values(), strict=True))
-        least = _NEAR * np.maximum(np.max(values - errors, axis=0), 0.0)
-        is_near = (values + errors >= least)[:, list(self.watch())].any(axis=1)
-        far = {place for place, near in zip(by_place, is_near, strict=True) if not near}
-        return set(range(len(results))) - far
+        values, errors, lacks_panel = reading
+        is_known = np.isfinite(values).all(axis=1) & ~lacks_panel
+        if not self.members or not is_known.any():
+            return set(range(len(values)))
+        lower = (values - errors)[is_known].max(axis=0)
+        is_far = values + errors < _NEAR * np.maximum(lower, 0.0)
+        watched = [self.names.index(name) for name in self._watched]
+        is_far = is_far[:, watched].all(axis=1) & is_known
+        return set(np.flatnonzero(~is_far).tolist())
 
-    def _lacks_panel(self, result: CaseResult) -> bool:
-        has_panel = isinstance(result.panel, PanelForces)
-        return self.has_panel and result.is_converged and not has_panel
+    @property
+    def _watched(self) -> tuple[str, ...]:
+        return choose_watched(self.members, self.signed, is_shared=self.is_shared)
 
-    def _name_quantities(self, results: Sequence[CaseResult]) -> None:
-        """Name what is modelled, from the first cases that converged."""
-        converged = [result for result in results if result.is_converged]
-        if self.members or not converged:
-            return
-        first = converged[0]
-        behind = read_signed(converged, self.layouts) if self.layouts else [None]
-        self.members = self._list_members(first)
-        self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-        if None not in behind:
-            self.signed = self._list_signed(behind[0] or {})
+    def watch(self, readings: Sequence[Reading]) -> dict[int, Watched]:
+        """Quantities to be bounded, by place, and how closely each; after some cases.
 
-    def _list_members(self, first: CaseResult) -> tuple[str, ...]:
-        """Members of the section, and all quantities of a panel, found or not.
-
-        A post that pulls is bounded apart, by ``bound_lifted``.
+        Where a case lacks its panel, that is not searched any longer: the gap is told
+        of the row.
         """
-        own = [name for name in first.member_forces if name not in PANEL_QUANTITIES]
-        every = (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
-        return tuple(name for name in every if name not in POST_PULLS)
-
-    def _list_signed(self, first: Mapping[str, float]) -> tuple[str, ...]:
-        own = [name for name in first if not name.startswith(_BY_PANEL)]
-        return (*own, *(map(name_in_panel, own) if self.has_panel else ()))
-
-    def watch(self) -> dict[int, Watched]:
-        """Quantities to be bounded, by place, and how closely each."""
-        names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
-        if self.is_without_panel:
+        values, errors = (
+            np.concatenate([x[k] for x in readings])[:, : len(self.members)]
+            for k in (0, 1)
+        )
+        largest = np.fmax.reduce(values, axis=0, initial=0.0)
+        smallest = np.min(errors, axis=0, where=values > 0.0, initial=np.inf)
+        forces = dict(zip(self.members, largest.tolist(), strict=True))
+        closest = dict(zip(self.members, smallest.tolist(), strict=True))
+        names = self._watched
+        if any(reading.lacks_panel.any() for reading in readings):
             names = tuple(name for name in names if not name.startswith(_BY_PANEL))
-        return {self.quantities.index(name): self._ask_for(name) for name in names}
+        return {
+            self.names.index(name): self._ask_for(name, forces, closest)
+            for name in names
+        }
 
-    def _ask_for(self, name: str) -> Watched:
+    def _ask_for(
+        self, name: str, forces: Mapping[str, float], errors: Mapping[str, float]
+    ) -> Watched:
         """Half the numerical error of the members that a quantity stands for."""
         behind = [
             member
             for member in self.members
             if name in (member, *name_sources(member, is_shared=self.is_shared))
         ]
-        floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
+        floor = min((forces[member] for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
             guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else GUYS
             behind += [member for member in self.members if member in guys]
         if name in tuple(RopeForce):
-            closest = _ROPES_SHARE * self.largest.get(name, 0.0)
+            closest = _ROPES_SHARE * forces[name]
             return Watched(
                 resolution=closest,
                 floor=floor,
-                is_deciding=self.has_end and name in _ALONG,
+                is_deciding=self.task.has_end and name in _ALONG,
             )
-        errors = [self.errors[member] for member in behind if member in self.errors]
-        return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
+        known = (errors[x] for x in behind if math.isfinite(errors[x]))
+        return Watched(resolution=_RESOLUTION * max(known, default=0.0), floor=floor)
 
     def bound_members(self, maxima: Maxima) -> Maxima:
         """Bounds of the members from those of the signed forces behind them."""
@@ -297,47 +282,30 @@ class ResultReader:
         upper = list(maxima.upper_bound)
         for place, member in enumerate(self.members):
             sources = name_sources(member, is_shared=self.is_shared)
-            allowed = [upper[self.quantities.index(name)] for name in sources]
+            allowed = [upper[self.names.index(name)] for name in sources]
             if allowed:
                 upper[place] = float(np.max([maxima.maximum[place], 0.0, *allowed]))
         return replace(maxima, upper_bound=tuple(upper))
 
-    def _read_errors(self, results: Sequence[CaseResult]) -> list[Values | None]:
-        """Numerical errors of what ``_read_values`` gives [N]."""
-        errors = [
-            {name: band.high - band.value for name, band in one.member_forces.items()}
-            for one in results
-        ]
-        return self._line_up(errors, read_signed_errors, results)
 
-    def _read_values(self, results: Sequence[CaseResult]) -> list[Values | None]:
-        values = [
-            {name: band.value for name, band in result.member_forces.items()}
-            for result in results
-        ]
-        return self._line_up(values, read_signed, results)
+def name_quantities(task: RowTask, results: Sequence[CaseResult]) -> Quantities:
+    """Names of what a search follows, from the first case that converged.
 
-    def _line_up(
-        self,
-        of_members: Sequence[Mapping[str, float]],
-        read: ReadSigned,
-        results: Sequence[CaseResult],
-    ) -> list[Values | None]:
-        """Members, then signed forces of each case; what is missing counts as 0.
-
-        None of a case that failed.
-        """
-        of_signed: list[dict[str, float] | None] = [{}] * len(results)
-        if self.signed and self.layouts:
-            of_signed = read(results, self.layouts)
-        return [
-            (
-                *(forces.get(member, 0.0) for member in self.members),
-                *(signed.get(name, 0.0) for name in self.signed),
-            )
-            if signed is not None and result.is_converged
-            else None
-            for forces, signed, result in zip(
-                of_members, of_signed, results, strict=True
-            )
-        ]
+    Members of the section, and all quantities of a panel, found or not. A post that
+    pulls is bounded apart, by ``bound_lifted``.
+    """
+    converged = [result for result in results if result.is_converged]
+    if not converged:
+        return Quantities(task=task)
+    first, layouts = converged[0], task.layouts
+    own = [name for name in first.member_forces if name not in PANEL_QUANTITIES]
+    every = (*own, *(PANEL_QUANTITIES if task.panels else ()))
+    signed: tuple[str, ...] = ()
+    if layouts and np.isfinite(read_signed(converged, layouts)[0]).all():
+        signed = SIGNED if task.panels else SIGNED[: len(SIGNED) // 2]
+    return Quantities(
+        task=task,
+        members=tuple(name for name in every if name not in POST_PULLS),
+        signed=signed,
+        is_shared=first.anchors is not None and first.anchors.is_foot_shared,
+    )

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
+from netdesign.envelope.panel_forces import POST_PULLS
 from netdesign.envelope.ranges import Case, Ranges, build_case, place_scene
-from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
 from netdesign.panel.inputs import Panel
 from netdesign.search.maxima import Maxima, SearchSettings

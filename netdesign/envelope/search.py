@@ -15,8 +15,10 @@ from dataclasses import replace
 from itertools import islice, product
 from typing import Any, TypeAlias, TypeVar
 
+import numpy as np
+
 from netdesign.edge.progress import Wave
-from netdesign.envelope.result_reader import ResultReader, bound_lifted
+from netdesign.envelope.result_reader import bound_lifted, name_quantities
 from netdesign.envelope.rows import (
     Confirmation,
     RowEnvelope,
@@ -157,17 +159,17 @@ def solve_first(
     task: RowTask,
     points: Sequence[Point],
     skip: FrictionSkip,
-    find_near: Callable[[Sequence[CaseResult]], set[int]],
 ) -> Steps[tuple[list[CaseResult], set[int]]]:
     """Results of the first design, and the places of those that stay rough.
 
     All are solved on the two coarsest meshes. A case that failed there, has no panel,
     or may come near a largest force, is solved again as the row asks for, unless it is
-    that accurate already. ``find_near`` gives the places of those that matter.
+    that accurate already.
     """
     settings = roughen_settings(task.settings)
     results = yield from solve_points(task, points, skip, settings)
-    near, rough = find_near(results), set[int]()
+    quantities, rough = name_quantities(task, results), set[int]()
+    near = quantities.find_near(quantities.read(results))
     if settings != task.settings:
         accuracy = task.settings.accuracy
         rough = {k for k, x in enumerate(results) if _would_gain(x, accuracy)}
@@ -204,9 +206,6 @@ class RowSearch:
         """Begin a search with nothing known of the row's cases."""
         self.task = task
         self._search = MaximaSearch(len(task.ranges.axes), task.search)
-        self._reader = ResultReader(
-            layouts=task.layouts, has_panel=bool(task.panels), has_end=task.has_end
-        )
 
     @property
     def gap(self) -> float:
@@ -215,34 +214,34 @@ class RowSearch:
 
     def run(self) -> Steps[RowEnvelope]:
         """Envelope of the row; the same for the same ends."""
-        task, search, reader = self.task, self._search, self._reader
+        task, search = self.task, self._search
         skip = FrictionSkip(task.ranges.axes)
-        every: list[CaseResult] = []
-        results, rough = yield from solve_first(
-            task, search.ask(), skip, reader.find_near
-        )
-        while True:
+        every, rough = yield from solve_first(task, search.ask(), skip)
+        quantities = name_quantities(task, every)
+        readings = [quantities.read(every)]
+        doubts = np.zeros_like(readings[0].errors)
+        doubts[sorted(rough)] = readings[0].errors[sorted(rough)]
+        search.tell(readings[0].values, quantities.watch(readings), doubts)
+        while search.result is None:
+            results = yield from solve_points(task, search.ask(), skip)
             every += results
-            values = reader.read(results)
-            search.tell(values, reader.watch(), reader.read_doubts(results, rough))
-            if search.result is not None:
-                break
-            results, rough = (yield from solve_points(task, search.ask(), skip)), set()
-        maxima = reader.bound_members(search.result)
+            readings.append(quantities.read(results))
+            search.tell(readings[-1].values, quantities.watch(readings))
+        maxima = quantities.bound_members(search.result)
         return RowEnvelope(
             task=task,
-            members=reader.members,
-            quantities=reader.quantities,
+            members=quantities.members,
+            quantities=quantities.names,
             results=tuple(every),
             maxima=maxima,
-            confirmations=(yield from self._confirm(maxima, every)),
+            confirmations=(yield from self._confirm(quantities.members, maxima, every)),
             skipped=skip.skipped,
             skips_tested=skip.tested,
             lifted=bound_lifted(task.layouts, maxima.points, every, task.search),
         )
 
     def _confirm(
-        self, maxima: Maxima, results: Sequence[CaseResult]
+        self, members: Sequence[str], maxima: Maxima, results: Sequence[CaseResult]
     ) -> Steps[tuple[Confirmation, ...]]:
         """Governing case of each member that carries a force, solved once more."""
         if self.task.confirmed_by is None:
@@ -250,7 +249,7 @@ class RowSearch:
         peaks = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
         governing = {
             member: place
-            for member, (force, place) in zip(self._reader.members, peaks, strict=False)
+            for member, (force, place) in zip(members, peaks, strict=False)
             if force > 0.0
         }
         places = sorted(set(governing.values()))

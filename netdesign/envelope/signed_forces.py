@@ -9,7 +9,7 @@ signed forces bound the members. Theory: structure/THEORY.md, eq. (S2).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -94,115 +94,86 @@ _SHARED = "signed foot and uphill guy"
 _POST = ("signed post with uphill guy", "signed post with downhill guy")
 _BASE = ("signed post base with uphill guy", "signed post base with downhill guy")
 _UPHILL, _DOWNHILL = "signed uphill guy", "signed downhill guy"
+_OF_SECTION = (_NET, _SHARED, _UPHILL, _DOWNHILL, *_POST, *_BASE)
+SIGNED = (*_OF_SECTION, *map(name_in_panel, _OF_SECTION))
 _IN_PANEL = {name_in_panel(member): member for member in CARRYING_MEMBERS}
 
 
 def read_signed(
     results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
-) -> list[dict[str, float] | None]:
-    """Signed forces of cases by name [N]; None where a guy holds nothing.
+) -> tuple[Floats, Floats]:
+    """Signed forces of cases and their numerical errors [N].
 
-    A guy along the post holds nothing sideways: there the members themselves have to
-    be searched. Those by the panel between posts stand behind those of the section.
-    Each is the largest on any of the layouts. None of a case that failed, too.
+    Parameters
+    ----------
+    results : sequence of CaseResult
+        Of solves.
+    layouts : sequence of SupportLayout
+        That the support may have: each force is the largest on any of them.
+
+    Returns
+    -------
+    forces, errors : ndarray, shape (cases, ``SIGNED``)
+        No numbers of a case that failed, and of one in which a guy lies along the post
+        and holds nothing sideways: there the members themselves have to be searched. 0
+        by the panel between posts where a case has none.
     """
-    width = layouts[0].post_spacing
-
-    def find(solved: Sequence[CaseResult]) -> dict[str, Floats] | None:
-        pulls = gather_pulls(solved, width)
-        signed = _find_signed(pulls.head, pulls.feet, spread_ends(layouts, solved))
-        if signed is None:
-            return None
-        largest = {name: values.max(axis=0) for name, values in signed.items()}
-        return {name: values[:, 0] for name, values in largest.items()} | {
-            name_in_panel(name): values[:, 1:].max(axis=1, initial=-np.inf)
-            for name, values in largest.items()
-        }
-
-    return _read_each(results, find)
-
-
-def read_signed_errors(
-    results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
-) -> list[dict[str, float] | None]:
-    """Numerical errors of the forces that ``read_signed`` gives [N]."""
-    width = layouts[0].post_spacing
-
-    def find(solved: Sequence[CaseResult]) -> dict[str, Floats] | None:
-        states = [result.solution for result in solved if result.solution]
-        own = np.array([(state.foot.error, state.head.error) for state in states])
-        panels = (result.panel for result in solved)
-        errors = (
-            x.brought.error if isinstance(x, PanelForces) else 0.0 for x in panels
-        )
-        by_panels = np.array([np.max(error) for error in errors])
-        ends = spread_ends(layouts, solved)
-        by_section = _find_errors(width * own[:, 0], width * own[:, 1], ends)
-        by_panel = _find_errors(width * by_panels, width * by_panels, ends)
-        if by_section is None or by_panel is None:
-            return None
-        return by_section | {name_in_panel(name): x for name, x in by_panel.items()}
-
-    return _read_each(results, find)
-
-
-def _read_each(
-    results: Sequence[CaseResult],
-    find: Callable[[Sequence[CaseResult]], dict[str, Floats] | None],
-) -> list[dict[str, float] | None]:
-    """What is found of all solved cases, case by case; where not of all, of each alone.
-
-    What is found by the panel is left out where a case has none.
-    """
-    read: list[dict[str, float] | None] = [None] * len(results)
+    both = np.full((2, len(results), len(SIGNED)), np.nan)
     places = [k for k, x in enumerate(results) if x.anchors and x.solution]
-    groups = [places] if places else []
-    while groups:
-        group = groups.pop()
-        found = find([results[k] for k in group])
-        if found is None:
-            groups += [[k] for k in group] if len(group) > 1 else []
-            continue
-        lines = np.array(list(found.values())).T.tolist()
-        for k, line in zip(group, lines, strict=True):
-            has_panel = isinstance(results[k].panel, PanelForces)
-            names = found if has_panel else list(found)[: len(found) // 2]
-            read[k] = dict(zip(names, line, strict=False))
-    return read
+    if places:
+        both[:, places] = _read_solved([results[k] for k in places], layouts)
+    return both[0], both[1]
 
 
-def _find_errors(foot: Floats, head: Floats, ends: Ends) -> dict[str, Floats] | None:
+def _read_solved(
+    results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
+) -> Floats:
+    """Forces and errors of solved cases, shape (2, cases, ``SIGNED``) [N]."""
+    width, ends = layouts[0].post_spacing, spread_ends(layouts, results)
+    pulls = gather_pulls(results, width)
+    forces = _find_signed(pulls.head, pulls.feet, ends).max(axis=1)
+    panels = [x.panel if isinstance(x.panel, PanelForces) else None for x in results]
+    states = [result.solution for result in results if result.solution]
+    foot, head = np.array([(x.foot.error, x.head.error) for x in states]).T
+    by_panel = np.array([np.max(x.brought.error) if x else 0.0 for x in panels])
+    has_panel = np.array([panel is not None for panel in panels])
+    of_panel = np.where(has_panel, forces[..., 1:].max(axis=-1, initial=-np.inf), 0.0)
+    read = [
+        (forces[..., 0], of_panel),
+        (
+            _find_errors(width * foot, width * head, ends),
+            has_panel * _find_errors(width * by_panel, width * by_panel, ends),
+        ),
+    ]
+    return np.array([np.concatenate(pair).T for pair in read])
+
+
+def _find_errors(foot: Floats, head: Floats, ends: Ends) -> Floats:
     """Errors of signed forces from those of foot and head on the worst support [N].
 
     They are linear in these: what an error of each component causes is added, as in
-    the bands of the members.
+    the bands of the members. Shape: forces, cases.
     """
     none = 0.0 * foot
     across, along, at_foot = np.array(
         [(head, none, none), (none, head, none), (none, none, foot)]
     ).swapaxes(1, 2)
     caused = _find_signed((across, along), at_foot, ends)
-    if caused is None:
-        return None
-    return {
-        name: np.abs(each).sum(axis=-1).max(axis=0) for name, each in caused.items()
-    }
+    return np.asarray(np.abs(caused).sum(axis=-1).max(axis=1))
 
 
-def _find_signed(
-    pull: Vector[Floats], foot: Floats, ends: Ends
-) -> dict[str, Floats] | None:
-    """Signed forces under pulls on the head and forces on the foot anchor [N]."""
-    pairs = [
+def _find_signed(pull: Vector[Floats], foot: Floats, ends: Ends) -> Floats:
+    """Signed forces by pulls on the head and forces on the foot anchor [N].
+
+    Shape: forces of a section, layouts, cases, pulls of each.
+    """
+    (post_up, uphill), (post_down, downhill) = (
         resolve_signed(pull, ends.head, ends.base, anchor)
         for anchor in (ends.uphill, ends.downhill)
-    ]
-    if pairs[0] is None or pairs[1] is None:
-        return None
-    (post_up, uphill), (post_down, downhill) = pairs[0], pairs[1]
+    )
     reach = np.hypot(ends.head[0] - ends.base[0], ends.head[1] - ends.base[1])
     across = ends.head[1] / reach
-    return {
+    forces = {
         _NET: foot + 0.0 * uphill,
         _SHARED: foot + uphill,
         _UPHILL: uphill,
@@ -212,6 +183,7 @@ def _find_signed(
         _BASE[0]: across * post_up,
         _BASE[1]: across * post_down,
     }
+    return np.stack([forces[name] for name in _OF_SECTION])
 
 
 def name_sources(member: str, *, is_shared: bool) -> tuple[str, ...]:

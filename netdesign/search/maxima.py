@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import ModelError, require_count, require_within
 from netdesign.search.surrogate import (
     DENSE_DIMENSIONS,
@@ -35,8 +35,6 @@ from netdesign.search.upper_bound import (
     list_first_design,
 )
 from netdesign.words.message import say
-
-Values = tuple[float, ...]
 
 MOST_PARAMETERS = 8
 # The first design sees features at least as wide at half their height, as a share of
@@ -131,10 +129,10 @@ class Maxima:
     ----------
     points : tuple of Point
         All cases asked for, in order; shares of the ranges.
-    values : tuple of Values or None
-        Their answers; None for a failed case.
-    doubts : tuple of Values or None
-        Errors of the answers that are known roughly only; None of the others.
+    values : ndarray, shape (points, quantities)
+        Their answers; no numbers of a failed case.
+    doubts : ndarray, shape (points, quantities)
+        Errors of the answers that are known roughly only; 0 of the others.
     maximum, upper_bound : tuple of float
         Of each quantity: largest value found, and largest value that the model
         allows anywhere in the box, 0 where all are negative; infinite for a
@@ -150,8 +148,8 @@ class Maxima:
     """
 
     points: tuple[Point, ...]
-    values: tuple[Values | None, ...]
-    doubts: tuple[Values | None, ...]
+    values: Floats
+    doubts: Floats
     maximum: tuple[float, ...]
     upper_bound: tuple[float, ...]
     governing: tuple[int, ...]
@@ -170,8 +168,10 @@ class MaximaSearch:
     ----------
     settings : SearchSettings
         When it ends.
-    points, values, doubts : tuple
+    points : tuple of Point
         All cases told so far, in the order in which they were asked for.
+    values, doubts : list of ndarray
+        Their answers and the errors of these, an array for each round.
     log : list of Addition
         Why each of them was asked for.
     gap : float
@@ -205,8 +205,8 @@ class MaximaSearch:
             )
         self.settings = settings
         self.points: tuple[Point, ...] = ()
-        self.values: tuple[Values | None, ...] = ()
-        self.doubts: tuple[Values | None, ...] = ()
+        self.values: list[Floats] = []
+        self.doubts: list[Floats] = []
         self.log: list[Addition] = []
         self.gap = math.inf
         self.result: Maxima | None = None
@@ -228,22 +228,22 @@ class MaximaSearch:
 
     def tell(
         self,
-        values: Sequence[Values | None],
+        values: Floats,
         watched: Mapping[int, Watched] | None = None,
-        doubts: Sequence[Values | None] | None = None,
+        doubts: Floats | None = None,
     ) -> None:
         """Take the values at the points asked for, and decide what to ask next.
 
         Parameters
         ----------
-        values : sequence of Values or None
-            One a point, in their order: a number for each quantity, in its unit; None
-            where a case failed.
+        values : ndarray, shape (points, quantities)
+            In their order, each in the quantity's unit; no numbers where a case failed.
         watched : mapping of int to Watched, optional
             Quantities that have to be bounded, by their place, and how closely; the
             others are modelled along. All of them unless told otherwise.
-        doubts : sequence of Values or None, optional
-            Errors of values that are known roughly only; None of the others.
+        doubts : ndarray, shape (points, quantities), optional
+            Errors of values that are known roughly only, 0 of the others; none by
+            default.
 
         Raises
         ------
@@ -259,8 +259,8 @@ class MaximaSearch:
         if self._bounds is not None:
             self._test(values, expected, self._bounds)
         self.points += self.ask()
-        self.values += tuple(values)
-        self.doubts += tuple(doubts or (None,) * len(values))
+        self.values.append(values)
+        self.doubts.append(np.zeros_like(values) if doubts is None else doubts)
         self._asked = self._choose(watched)
         if not self._asked:
             self.result = self._finish()
@@ -272,10 +272,11 @@ class MaximaSearch:
             return Prediction(mean=nothing, standard_error=nothing, sway=nothing)
         return self._model.predict(np.array(self.ask()))
 
-    def _note(self, values: Sequence[Values | None], expected: Prediction) -> None:
+    def _note(self, values: Floats, expected: Prediction) -> None:
         """Log the questions with what was expected and what was found."""
         number = self.log[-1].round + 1 if self.log else 0
         for k, (question, value) in enumerate(zip(self._asked, values, strict=True)):
+            is_solved = bool(_find_solved(value[None])[0])
             self.log.append(
                 Addition(
                     point=question.point,
@@ -284,7 +285,7 @@ class MaximaSearch:
                     quantity=question.quantity,
                     predicted=float(expected.mean[k, question.quantity]),
                     standard_error=float(expected.standard_error[k, question.quantity]),
-                    found=math.nan if value is None else value[question.quantity],
+                    found=float(value[question.quantity]) if is_solved else math.nan,
                 )
             )
 
@@ -294,9 +295,7 @@ class MaximaSearch:
             return "first design"
         return "test" if self._bounds.is_closed else "could exceed"
 
-    def _test(
-        self, values: Sequence[Values | None], expected: Prediction, bounds: Bounds
-    ) -> None:
+    def _test(self, values: Floats, expected: Prediction, bounds: Bounds) -> None:
         """Test the bounds by cases that they did not know: they must have held."""
         errors = _measure_errors(values, expected.mean, bounds.watched)
         allowed = np.maximum(
@@ -313,18 +312,16 @@ class MaximaSearch:
 
     def _choose(self, watched: Mapping[int, Watched] | None) -> list[Question]:
         """Next questions; none at the end of the search."""
-        solved = [k for k, value in enumerate(self.values) if value is not None]
-        if not solved:
+        values, doubts = np.concatenate(self.values), np.concatenate(self.doubts)
+        is_solved = _find_solved(values)
+        places, values = np.array(self.points)[is_solved], values[is_solved]
+        if not is_solved.any() or not supports_model(places):
             return []
-        places = np.array([self.points[k] for k in solved])
-        if not supports_model(places):
-            return []
-        values = np.array([self.values[k] for k in solved])
-        nothing = (0.0,) * values.shape[1]
-        doubts = np.array([self.doubts[k] or nothing for k in solved])
         if watched is None:
             watched = dict.fromkeys(range(values.shape[1]), Watched())
-        self._model, self._bounds = self._bound(places, values, doubts, watched)
+        self._model, self._bounds = self._bound(
+            places, values, doubts[is_solved], watched
+        )
         self.gap = self._bounds.gap * self.settings.gap
         return [] if self._is_tested else self._list_questions(self._bounds)
 
@@ -380,13 +377,14 @@ class MaximaSearch:
         return is_closed and (self._is_tested or has_room)
 
     def _finish(self) -> Maxima:
-        governing = _find_governing(self.points, self.values)
-        maximum = tuple((self.values[k] or ())[q] for q, k in enumerate(governing))
+        values = np.concatenate(self.values)
+        governing = _find_governing(self.points, values)
+        maximum = tuple(float(values[k, q]) for q, k in enumerate(governing))
         bounds = self._bounds
         return Maxima(
             points=self.points,
-            values=self.values,
-            doubts=self.doubts,
+            values=values,
+            doubts=np.concatenate(self.doubts),
             maximum=maximum,
             upper_bound=maximum if bounds is None else tuple(bounds.upper.tolist()),
             governing=governing,
@@ -396,17 +394,18 @@ class MaximaSearch:
         )
 
 
-def _measure_errors(
-    values: Sequence[Values | None], mean: Floats, watched: Sequence[int]
-) -> Floats:
+def _find_solved(values: Floats) -> Mask:
+    """Cases with a number for every quantity, shape (cases,)."""
+    is_solved: Mask = np.isfinite(values).all(axis=1) & (values.shape[1] > 0)
+    return is_solved
+
+
+def _measure_errors(values: Floats, mean: Floats, watched: Sequence[int]) -> Floats:
     """Errors of predictions, shape (batch, quantities).
 
     A failed case has none, and neither has a quantity that is not watched.
     """
-    errors = np.zeros_like(mean)
-    for k, value in enumerate(values):
-        if value is not None:
-            errors[k] = np.abs(np.array(value) - mean[k])
+    errors = np.where(_find_solved(values)[:, None], np.abs(values - mean), 0.0)
     errors[:, [q for q in range(mean.shape[1]) if q not in watched]] = 0.0
     return errors
 
@@ -430,13 +429,8 @@ def _set_tolerance(
     return result
 
 
-def _find_governing(
-    points: Sequence[Point], values: Sequence[Values | None]
-) -> tuple[int, ...]:
+def _find_governing(points: Sequence[Point], values: Floats) -> tuple[int, ...]:
     """Place of each quantity's largest value; of equals the least point."""
-    solved = {k: value for k, value in enumerate(values) if value is not None}
-    quantities = len(next(iter(solved.values()), ()))
-    return tuple(
-        min(solved, key=lambda k: (-solved[k][quantity], points[k]))
-        for quantity in range(quantities)
-    )
+    solved = np.flatnonzero(_find_solved(values)).tolist()
+    columns = values.T.tolist() if solved else []
+    return tuple(min(solved, key=lambda k: (-own[k], points[k])) for own in columns)

@@ -248,7 +248,7 @@ def resolve_signed(
     head: Vector[Number],
     post_base: Vector[Number],
     anchor: Vector[Number],
-) -> Vector[Number] | None:
+) -> Vector[Number]:
     """Find what post and one guy would need to hold a pull, signs allowed.
 
     The members' forces are ``max(0, tension)`` of each guy, and of the two pairs the
@@ -264,9 +264,9 @@ def resolve_signed(
 
     Returns
     -------
-    tuple of float or ndarray, or None
-        Compression of the post, tension of the guy [N]; None where a guy lies along
-        the post.
+    tuple of float or ndarray
+        Compression of the post, tension of the guy [N]; no numbers where the guy lies
+        along the post.
 
     Verified by
     -----------
@@ -274,8 +274,11 @@ def resolve_signed(
     """
     post, guy = find_direction(head, post_base), find_direction(head, anchor)
     pair = _resolve(pull, post, guy)
-    is_along = as_mask(pair.is_along).any()
-    return None if is_along else (pair.signed_compression, pair.tension)
+    compression, tension = pair.signed_compression, pair.tension
+    return (
+        choose(pair.is_along, math.nan * compression, compression),
+        choose(pair.is_along, math.nan * tension, tension),
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

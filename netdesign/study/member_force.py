@@ -18,7 +18,7 @@ from netdesign.checks.forces import (
     load_post,
 )
 from netdesign.checks.schema import LATERAL_SHARE
-from netdesign.envelope.result_reader import POST_PULLS
+from netdesign.envelope.panel_forces import POST_PULLS
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import (

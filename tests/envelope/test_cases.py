@@ -9,13 +9,9 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.envelope.result_reader import (
-    ResultReader,
-    read_signed,
-    read_signed_errors,
-)
 from netdesign.envelope.rows import RowTask, build_point_task
 from netdesign.envelope.search import FrictionSkip, search_rows, solve_first
+from netdesign.envelope.signed_forces import SIGNED, read_signed
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
@@ -65,7 +61,7 @@ def list_rough(found):
         for point, result, doubt in zip(
             found.maxima.points, found.results, found.maxima.doubts, strict=True
         )
-        if doubt is not None
+        if doubt.any()
     ]
 
 
@@ -139,8 +135,7 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     )
     points = [(side, share) for side in (0.0, 0.37, 1.0) for share in (0.0, 0.41, 1.0)]
     skip = FrictionSkip(task.ranges.axes)
-    reader, workers = ResultReader(layouts=[LAYOUT]), Recording()
-    steps = solve_first(task, points, skip, reader.find_near)
+    workers, steps = Recording(), solve_first(task, points, skip)
     results, rough = finish(steps, Runner(workers=workers).solve_batches)
     assert skip.skipped > 0
     assert not rough
@@ -152,12 +147,20 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     )
 
 
+def name_signed(result):
+    """Signed forces of the section, and their errors, by name."""
+    own = SIGNED[: len(SIGNED) // 2]
+    return [
+        dict(zip(own, numbers[0], strict=False))
+        for numbers in read_signed([result], [LAYOUT])
+    ]
+
+
 @each("seed", range(6))
 def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
     rng = np.random.default_rng(seed)
     result = solve_case(build_point_task(TASK, tuple(rng.uniform(size=2).tolist())))
-    (errors,) = read_signed_errors([result], [LAYOUT])
-    (before,) = read_signed([result], [LAYOUT])
+    before, errors = name_signed(result)
     state, angle = result.solution, rng.uniform(0.0, 2.0 * math.pi)
     shift = np.array([math.cos(angle), math.sin(angle)]) * state.head.error
     moved = replace(
@@ -168,7 +171,7 @@ def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
             error=state.head.error,
         ),
     )
-    (after,) = read_signed([replace(result, solution=moved)], [LAYOUT])
+    after, _ = name_signed(replace(result, solution=moved))
     changes = {name: abs(after[name] - before[name]) for name in before}
     assert any(change > 0.1 * errors[name] for name, change in changes.items())
     for name, change in changes.items():

@@ -8,8 +8,9 @@ import pytest
 
 from netdesign.checks import Band
 from netdesign.coupling.solution import EndPull
+from netdesign.envelope.panel_forces import POST_PULLS
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.result_reader import POST_PULLS, bound_lifted
+from netdesign.envelope.result_reader import bound_lifted
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings

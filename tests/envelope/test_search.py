@@ -9,8 +9,8 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
+from netdesign.envelope.panel_forces import POST_PULLS
 from netdesign.envelope.ranges import PARAMETERS, Case, Interval, Ranges
-from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.outcome import ModelError, Outcome
@@ -159,7 +159,8 @@ def test_a_second_run_solves_nothing_and_ends_the_same(tmp_path):
         with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
             runner = Runner(store=store)
             (one,) = search_rows([TASK], runner)
-        ends.append((one.maxima.upper_bound, one.maxima.values, one.maxima.is_closed))
+        values = one.maxima.values.tolist()
+        ends.append((one.maxima.upper_bound, values, one.maxima.is_closed))
     assert runner.counts.solved == 0
     assert ends[0] == ends[1]
 

@@ -8,8 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings, Values
-from netdesign.search.surrogate import Point
+from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings
 
 Response = Callable[[np.ndarray], np.ndarray]  # of one place (d,) or of many (d, n)
 
@@ -18,7 +17,7 @@ def drive(response: Response, dimension: int, **settings: float) -> Maxima:
     """End of a search whose questions the response answers; NaN is a failed case."""
     search = MaximaSearch(dimension, SearchSettings(**settings))
     while points := search.ask():
-        search.tell([answer(response, point) for point in points])
+        search.tell(np.array([response(np.array(point)) for point in points]))
     return search.result
 
 
@@ -37,16 +36,8 @@ def drive_roughly(
             far = (values < 0.9 * values.max(axis=0)).all(axis=1)
             doubts[far] = share * np.abs(values[far])
         values += rng.uniform(-1.0, 1.0, values.shape) * doubts
-        search.tell(
-            [tuple(map(float, one)) for one in values],
-            doubts=[tuple(map(float, one)) if one.any() else None for one in doubts],
-        )
+        search.tell(values, doubts=doubts)
     return search.result
-
-
-def answer(response: Response, point: Point) -> Values | None:
-    value = response(np.array(point))
-    return None if np.isnan(value).any() else tuple(map(float, value))
 
 
 def true_maxima(response: Response, dimension: int, samples: int = 21) -> np.ndarray:
