@@ -265,7 +265,7 @@ def find_envelope(
     task = RowTask(
         scene=scene,
         ranges=ranges,
-        layout=layout,
+        layouts=() if layout is None else (layout,),
         settings=SolverSettings(accuracy=accuracy),
         search=SearchSettings(gap=accuracy),
         confirmed_by=None,

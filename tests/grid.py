@@ -68,7 +68,7 @@ def wrap_results(site, row, results, run):
         task=RowTask(
             scene=build_scene(row, build_cases(site.ranges)[0], run.creep_law),
             ranges=site.ranges,
-            layout=row.layout,
+            layouts=(row.layout,),
             settings=run.settings,
             search=SearchSettings(),
             confirmed_by=None,

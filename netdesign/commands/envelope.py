@@ -149,7 +149,7 @@ def _build_task(scene: Scene, confirm: str, ranges: Ranges, accuracy: float) -> 
     return RowTask(
         scene=scene,
         ranges=ranges,
-        layout=None,
+        layouts=(),
         settings=settings,
         search=SearchSettings(gap=accuracy),
         confirmed_by=refine_settings(settings) if confirm == "mesh" else None,

@@ -36,10 +36,9 @@ class RowTask:
         Has all values that the ranges leave alone.
     ranges : Ranges
         Of the parameters that vary.
-    layout : SupportLayout or None
-        Support of the net; None follows the net's own tensions per metre.
-    other_layouts : tuple of SupportLayout
-        Of the support, where something of it is assumed: the worst of all counts.
+    layouts : tuple of SupportLayout
+        That the net's support may have, several where something of it is assumed: the
+        worst counts. Without any the net's own tensions are followed, per metre.
     settings : SolverSettings
         Of every case.
     search : SearchSettings
@@ -58,19 +57,13 @@ class RowTask:
 
     scene: Scene
     ranges: Ranges
-    layout: SupportLayout | None
+    layouts: tuple[SupportLayout, ...]
     settings: SolverSettings
     search: SearchSettings
     confirmed_by: Settings | None
     build: Callable[[Case], Scene] | None = None
     panels: tuple[Panel, ...] = ()
     has_end: bool = False
-    other_layouts: tuple[SupportLayout, ...] = ()
-
-    @property
-    def layouts(self) -> tuple[SupportLayout, ...]:
-        """All layouts that the support may have, the first one first."""
-        return () if self.layout is None else (self.layout, *self.other_layouts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -157,7 +150,7 @@ class RowEnvelope:
         No case is solved for it. Its bounds follow from those of the largest over all
         layouts: envelope/THEORY.md, (E3).
         """
-        if not self.task.other_layouts:
+        if len(self.task.layouts) < 2:
             return self
         layout = self.task.layouts[place]
         return self._move(layout, lambda result: result.at_layout(place))
@@ -172,7 +165,7 @@ class RowEnvelope:
         results = tuple(map(move, self.results))
         return replace(
             self,
-            task=replace(self.task, layout=layout, other_layouts=()),
+            task=replace(self.task, layouts=(layout,)),
             results=results,
             maxima=self._bound_on_layout(results),
             confirmations=tuple(
@@ -251,8 +244,7 @@ def build_point_task(
     return build_task(
         build_case(task.scene, values),
         task.build or (lambda _: place_scene(task.scene, values)),
-        task.layout,
+        task.layouts,
         settings or task.settings,
         task.panels,
-        task.other_layouts,
     )

@@ -40,18 +40,16 @@ from netdesign.words.message import Message
 class CaseTask:
     """Everything that a worker needs for one case.
 
-    ``job`` is None where the model refuses the case; ``refusal`` says why. Without
-    a ``layout`` the net's own tensions are followed, per metre of width; with
-    ``panels`` the largest forces of these, too; with ``other_layouts`` the largest on
-    any of all layouts.
+    ``job`` is None where the model refuses the case; ``refusal`` says why. Of several
+    ``layouts`` the largest forces on any count; without one the net's own tensions are
+    followed, per metre of width. Of ``panels`` the largest forces count, too.
     """
 
     case: Case
     job: Job | None
     refusal: Message | None
-    layout: SupportLayout | None
+    layouts: tuple[SupportLayout, ...]
     panels: tuple[Panel, ...] = ()
-    other_layouts: tuple[SupportLayout, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -204,10 +202,10 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
     if isinstance(end, FailedSolution):
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
-    if task.layout is None:
+    if not task.layouts:
         return replace(_resolve_net(task, end), reason=end.reason)
     result = catch_fault(
-        partial(_resolve_support, task, task.layout, end),
+        partial(_resolve_support, task, end),
         describe_case(task.job.scene, task.job.settings),
     )
     if not isinstance(result, Fault):
@@ -237,12 +235,10 @@ def _bound_tension(state: SolvedState) -> Band:
     return spread_out(largest, max(foot.error, head.error))
 
 
-def _resolve_support(
-    task: CaseTask, layout: SupportLayout, state: SolvedState
-) -> CaseResult:
+def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
     """Forces on all layouts; what fails on one fails, but for the panel."""
-    layouts, width = (layout, *task.other_layouts), layout.post_spacing
-    places = [place_support(layout, state.head_point) for layout in layouts]
+    width = task.layouts[0].post_spacing
+    places = [place_support(layout, state.head_point) for layout in task.layouts]
     brought = failure = None
     if isinstance(panel := _resolve_panel(task, state), PanelPulls):
         brought = panel
@@ -268,7 +264,7 @@ def _resolve_support(
         anchors=anchors,
         solution=state,
         panel=brought.stand(places[0], held) if brought else failure,
-        of_layouts=forces if task.other_layouts else None,
+        of_layouts=forces if len(task.layouts) > 1 else None,
     )
 
 
@@ -323,10 +319,9 @@ def _read_ends(state: SolvedState) -> Floats:
 def build_task(
     case: Case,
     build_scene: Callable[[Case], Scene],
-    layout: SupportLayout | None,
+    layouts: Sequence[SupportLayout],
     settings: Settings,
     panels: tuple[Panel, ...] = (),
-    other_layouts: tuple[SupportLayout, ...] = (),
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
     job: Job | None = None
@@ -339,9 +334,8 @@ def build_task(
         case=case,
         job=job,
         refusal=refusal,
-        layout=layout,
+        layouts=tuple(layouts),
         panels=panels,
-        other_layouts=other_layouts,
     )
 
 

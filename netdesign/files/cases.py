@@ -225,7 +225,7 @@ def resolve_support(
         case=build_case(solution.scene, {}),
         job=Job(scene=solution.scene, settings=settings),
         refusal=None,
-        layout=support.layout,
+        layouts=(support.layout,),
         panels=(support.panel,) if support.panel else (),
     )
     return resolve_case(task, keep_state(solution))

@@ -105,12 +105,10 @@ def _count_most_cases(ranges: Ranges) -> int:
 def _build_search(row: NetRow, of_site: Ranges, run: CheckRun) -> RowTask:
     ranges = of_site.replaced_by(row.ranges)
     is_own = bool(row.layers or ranges.further)
-    layout, *others = list_layouts(row)
     return RowTask(
         scene=_find_scene(row, ranges, run.creep_law),
         ranges=ranges,
-        layout=layout,
-        other_layouts=tuple(others),
+        layouts=list_layouts(row),
         settings=run.settings,
         search=SearchSettings(
             gap=max(run.settings.accuracy, CLOSEST_GAP),

@@ -197,14 +197,12 @@ def build_row_task(
     settings: SolverSettings,
 ) -> CaseTask:
     """Task of one case of a net row; a refused scene is a named refusal."""
-    layout, *others = list_layouts(row)
     return build_task(
         case,
         lambda case_solved: build_scene(row, case_solved, law),
-        layout,
+        list_layouts(row),
         settings,
         row.panels,
-        tuple(others),
     )
 
 

@@ -29,6 +29,8 @@ def task() -> BuildTask:
             friction_angle=math.radians(30.0),
             inclination=math.radians(30.0),
         )
-        return build_task(case, lambda point: build_scene(point, kind), layout, COARSE)
+        return build_task(
+            case, lambda point: build_scene(point, kind), (layout,), COARSE
+        )
 
     return build

@@ -46,10 +46,12 @@ def build_random_task(seed, settings=None):
             slack=draw.uniform(0.0, 0.1),
         ),
         ranges=_RANGES,
-        layout=SupportLayout(
-            post_spacing=draw.uniform(2.5, 4.0),
-            uphill_anchor_distance=draw.uniform(2.0, 5.0),
-            downhill_anchor_distance=draw.uniform(2.0, 5.0),
+        layouts=(
+            SupportLayout(
+                post_spacing=draw.uniform(2.5, 4.0),
+                uphill_anchor_distance=draw.uniform(2.0, 5.0),
+                downhill_anchor_distance=draw.uniform(2.0, 5.0),
+            ),
         ),
         settings=settings or SolverSettings(accuracy=ACCURACY),
         search=SearchSettings(gap=ACCURACY),

@@ -32,7 +32,7 @@ TASK = RowTask(
             ),
         )
     ),
-    layout=LAYOUT,
+    layouts=(LAYOUT,),
     settings=SETTINGS,
     search=SearchSettings(gap=0.004),
     confirmed_by=None,

@@ -42,8 +42,7 @@ TASK = RowTask(
         friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
         inclination=Interval(low=math.radians(24.0), high=math.radians(34.0)),
     ),
-    layout=LAYOUTS[0],
-    other_layouts=LAYOUTS[1:],
+    layouts=LAYOUTS,
     settings=COARSE,
     search=SearchSettings(gap=0.01),
     confirmed_by=None,
@@ -60,8 +59,7 @@ def draw_case(seed):
 
 
 def solve(case, layouts, panels=()):
-    first, *others = layouts
-    task = build_task(case, build_scene, first, COARSE, panels, tuple(others))
+    task = build_task(case, build_scene, layouts, COARSE, panels)
     (result,) = run_cases([task])
     return result
 
@@ -113,7 +111,7 @@ def test_no_case_of_a_grid_exceeds_the_bound_on_any_layout(runner, panels):
             assert result.member_forces[name].value <= extreme.widened.high
     for place in range(len(LAYOUTS)):
         of_one = found.at_layout(place)
-        assert of_one.task.layout == LAYOUTS[place]
+        assert of_one.task.layouts == (LAYOUTS[place],)
         for name, extreme in of_one.extremes.items():
             assert extreme.widened.high <= found.extremes[name].widened.high * 1.001
             for result in grid:

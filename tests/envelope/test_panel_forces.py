@@ -39,7 +39,7 @@ TASK = RowTask(
         density=Interval(low=251.0, high=397.0),
         friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
     ),
-    layout=LAYOUT,
+    layouts=(LAYOUT,),
     settings=COARSE,
     search=SearchSettings(gap=0.01),
     confirmed_by=None,
@@ -57,7 +57,7 @@ def draw_case(rng):
 
 def solve(case, panel=PANEL, settings=COARSE):
     panels = (panel,) if panel else ()
-    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, panels)])
+    (result,) = run_cases([build_task(case, build_scene, (LAYOUT,), settings, panels)])
     return result
 
 

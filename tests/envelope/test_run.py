@@ -60,7 +60,7 @@ def test_a_solved_case_names_every_member_with_its_band(task):
 def test_foot_force_is_the_net_tension_over_the_post_spacing(task):
     one = task(300.0)
     result = solve_case(one)
-    expected = result.solution.foot.size * one.layout.post_spacing
+    expected = result.solution.foot.size * one.layouts[0].post_spacing
     assert sizes(result)["foot_anchor"] == pytest.approx(expected, rel=1e-12)
 
 
@@ -74,10 +74,10 @@ def forces_of_moved_pulls(one, solution, foot_angle, head_angle):
         for pull, angle in ((solution.foot, foot_angle), (solution.head, head_angle))
     )
     return compute_anchor_forces(
-        place_support(one.layout, tuple(one.job.scene.net.head)),
+        place_support(one.layouts[0], tuple(one.job.scene.net.head)),
         foot_pull_per_m=foot,
         head_pull_per_m=head,
-        post_spacing=one.layout.post_spacing,
+        post_spacing=one.layouts[0].post_spacing,
     ).member_forces
 
 

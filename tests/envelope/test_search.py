@@ -36,7 +36,7 @@ RANGES = Ranges(
 TASK = RowTask(
     scene=SCENE,
     ranges=RANGES,
-    layout=LAYOUT,
+    layouts=(LAYOUT,),
     settings=COARSE,
     search=SearchSettings(gap=0.01),
     confirmed_by=None,
@@ -168,7 +168,7 @@ def test_a_second_run_solves_nothing_and_ends_the_same(tmp_path):
 def test_rows_that_share_net_and_snow_share_cases(found):
     other = replace(LAYOUT, post_spacing=2.5)
     runner = Runner()
-    one, two = search_rows([TASK, replace(TASK, layout=other)], runner)
+    one, two = search_rows([TASK, replace(TASK, layouts=(other,))], runner)
     foot = one.members.index("foot_anchor")
     assert one.maxima.maximum[foot] / two.maxima.maximum[foot] == pytest.approx(1.4)
     assert runner.counts.reused >= len(one.results) - 15
@@ -214,7 +214,7 @@ def test_no_gap_is_closed_beyond_the_accuracy_of_the_cases():
 
 
 def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
-    (found,) = search_rows([replace(TASK, layout=None)], Runner())
+    (found,) = search_rows([replace(TASK, layouts=())], Runner())
     assert found.members == ("foot", "head", "rope")
     foot, head, rope = found.maxima.maximum
     assert rope >= max(foot, head) * (1.0 - 1e-12)

@@ -68,7 +68,7 @@ def draw_case(seed):
     def solve(panels, denser=1.0):
         dense = replace(snow, density=denser * snow.density)
         scene = Scene(snowpack=dense, ground=ground, net=net)
-        task = build_task(case, lambda _: scene, layout, COARSE, tuple(panels))
+        task = build_task(case, lambda _: scene, (layout,), COARSE, tuple(panels))
         return run_cases([task])[0]
 
     return solve, net, spacing

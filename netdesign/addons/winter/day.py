@@ -343,7 +343,8 @@ class DaySolver:
         def build(_: Case) -> Scene:
             return build_day_scene(self.row.scene, day)
 
-        return build_task(case, build, self.row.layout, self.settings)
+        layouts = () if self.row.layout is None else (self.row.layout,)
+        return build_task(case, build, layouts, self.settings)
 
 
 def build_day_scene(scene: Scene, day: RowDay) -> Scene:

@@ -303,7 +303,7 @@ def _solve_net(point: Mapping[str, float]) -> CaseForces:
         stiffness=point["stiffness_kN_per_m"] * 1e3,
         slack=point["slack"],
     )
-    task = build_task(case, lambda _: scene, layout, _SETTINGS, panels)
+    task = build_task(case, lambda _: scene, (layout,), _SETTINGS, panels)
     (result,) = run_cases([task])
     if not result.is_converged:
         raise ModelError(result.reason or result.outcome.message)
