@@ -18,28 +18,13 @@ from netdesign.structure.row_position import (
 
 ANGLES = st.floats(math.radians(-30.0), math.radians(90.0))
 SLOPES = st.floats(math.radians(20.0), math.radians(60.0))
-UPSLOPE = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
-
-
-@given(axis=ANGLES, slope=SLOPES, anchor=st.sampled_from(UPSLOPE))
-def test_dip_is_that_of_the_direction_turned_by_the_slope(axis, slope, anchor):
-    along, down = math.cos(axis), math.sin(axis)  # upslope, and into the ground
-    falls = down * math.cos(slope) - along * math.sin(slope)
-    assert math.sin(find_dip(axis, slope, anchor)) == pytest.approx(falls, abs=1e-12)
-
-
-@given(axis=ANGLES, slope=SLOPES)
-def test_anchor_below_the_post_goes_down_with_the_slope(axis, slope):
-    falls = math.sin(axis) * math.cos(slope) + math.cos(axis) * math.sin(slope)
-    dip = find_dip(axis, slope, Member.DOWNHILL_ANCHOR)
-    assert math.sin(dip) == pytest.approx(falls, abs=1e-12)
-
-
-def test_an_anchor_along_the_slope_rises_with_it_and_one_across_it_dips():
-    slope = math.radians(41.3)
-    assert find_dip(0.0, slope, Member.UPHILL_ANCHOR) == -slope
-    across = find_dip(0.5 * math.pi, slope, Member.FOOT_ANCHOR)
-    assert math.degrees(across) == pytest.approx(48.7)
+# Ways of an anchor along the slope, down the row's X.
+ALONG = {
+    Member.FOOT_ANCHOR: (-1.0, 0.0, 0.0),
+    Member.UPHILL_ANCHOR: (-1.0, 0.0, 0.0),
+    Member.DOWNHILL_ANCHOR: (1.0, 0.0, 0.0),
+    EndMember.LATERAL_ANCHOR: (0.0, 0.0, -1.0),
+}
 
 
 def turn_level(way, slope):
@@ -49,11 +34,11 @@ def turn_level(way, slope):
     return turn @ np.array(way)
 
 
-@given(axis=st.floats(0.0, math.radians(90.0)), slope=SLOPES)
-def test_a_lateral_anchor_goes_along_the_level_row(axis, slope):
-    way = turn_level((0.0, -math.sin(axis), -math.cos(axis)), slope)
-    dip = find_dip(axis, slope, EndMember.LATERAL_ANCHOR)
-    assert math.sin(dip) == pytest.approx(-way[1], abs=1e-12)
+@given(axis=ANGLES, slope=SLOPES, anchor=st.sampled_from(list(ALONG)))
+def test_dip_is_that_of_the_direction_turned_by_the_slope(axis, slope, anchor):
+    way = math.cos(axis) * np.array(ALONG[anchor]) - [0.0, math.sin(axis), 0.0]
+    falls = -turn_level(way, slope)[1]
+    assert math.sin(find_dip(axis, slope, anchor)) == pytest.approx(falls, abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -69,9 +54,7 @@ def test_flattest_lateral_anchor_of_15_degrees(slope, axis):
 @given(
     dip=st.floats(math.radians(5.0), math.radians(29.0)),
     slope=SLOPES,
-    anchor=st.sampled_from(
-        (*UPSLOPE, Member.DOWNHILL_ANCHOR, EndMember.LATERAL_ANCHOR)
-    ),
+    anchor=st.sampled_from(list(ALONG)),
 )
 def test_axis_at_a_dip_has_it(dip, slope, anchor):
     axis = find_axis_at_dip(dip, slope, anchor)

@@ -64,11 +64,6 @@ def test_a_number_that_was_typed_and_the_same_from_tests(count, utilisation):
     assert typed.read("γ_R") == tested.read("γ_R") == 1.15
 
 
-@each("tendon_kN, limit_kN", [(400, 320), (480, 384), (800, 640), (1400, 1120)])
-def test_proof_load_that_the_tendons_of_the_example_allow(tendon_kN, limit_kN):
-    assert limit_proof_load(tendon_kN, tendon_kN) == pytest.approx(limit_kN, rel=1e-12)
-
-
 @each("count, most_kN", [(1, 457), (2, 492), (3, 533), (5, 640)])
 def test_most_that_held_tests_show_of_a_tendon_of_800_kN(count, most_kN):
     """640 kN over 1.40, 1.30, 1.20, 1.00: of tests alike the mean governs (R1)."""

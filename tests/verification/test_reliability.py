@@ -26,30 +26,19 @@ from tests.each import each
 REPEATS = 200
 
 
-def draw_from(kind, name, mean, deviation):
-    return Variable(name=name, kind=kind, mean=mean, deviation=deviation)
+def draw_from(kind):
+    return lambda name, mean, deviation: Variable(
+        name=name, kind=kind, mean=mean, deviation=deviation
+    )
 
 
-def normal(name, mean, deviation):
-    return draw_from("normal", name, mean, deviation)
-
-
-def lognormal(name, mean, deviation):
-    return draw_from("lognormal", name, mean, deviation)
-
-
-def gumbel(name, mean, deviation):
-    return draw_from("gumbel", name, mean, deviation)
+normal, lognormal, gumbel = map(draw_from, ("normal", "lognormal", "gumbel"))
 
 
 def find(variables, margin):
     return find_reliability(
         LimitState(variables=tuple(variables), margin=lambda values: margin(*values.T))
     )
-
-
-def list_centres(state):
-    return np.array([one.place for one in find_design_points(state)])
 
 
 def log_deviation(variation):
@@ -97,29 +86,6 @@ def test_product_of_lognormal_variables(strength, spread, load, scatter):
     assert found.beta == pytest.approx(truth, abs=3.0 * found.standard_error)
 
 
-def test_many_samples_come_within_a_hundredth_of_the_closed_form():
-    state = LimitState(
-        variables=(normal("R", 317.0, 41.0), normal("E", 141.0, 37.0)),
-        margin=lambda values: values[:, 0] - values[:, 1],
-    )
-    centres = list_centres(state)
-    found = [estimate_betas(state, centres, seed=seed)[0] for seed in range(40)]
-    mean = np.mean([one.beta for one in found])
-    assert mean == pytest.approx(176.0 / math.hypot(41.0, 37.0), abs=0.01)
-
-
-def rate_guideline():
-    """Variables and margin of the guideline's load, as given to pystra."""
-    model = read_load_model(load_standard("swiss-guideline-2007"))
-    least = find_mean_least(0.2) / 1.05
-
-    def creep(density):
-        c0, c1, c2, c3 = model.creep
-        return c0 + density * (c1 + density * (c2 + density * c3))
-
-    return least, creep, 0.27 * creep(0.27)
-
-
 def find_mean_least(variation):
     """Mean of the least of three lognormal values of mean 1."""
     spread = log_deviation(variation)
@@ -131,12 +97,20 @@ def find_mean_least(variation):
     return quad(weigh, -10.0, 10.0)[0]
 
 
-def find_of_guideline(
+def list_guideline(
     *, strength=0.2, glide=1.0, of_glide=0.2, of_model=0.2, cap=math.inf
 ):
-    """Reliability of an anchor designed exactly to the guideline's load."""
-    _, creep, load = rate_guideline()
+    """Variables and margin of an anchor designed exactly to the guideline's load."""
+    c0, c1, c2, c3 = read_load_model(load_standard("swiss-guideline-2007")).creep
     least = find_mean_least(strength) / 1.05
+
+    def press(density):
+        return density * (c0 + density * (c1 + density * (c2 + density * c3)))
+
+    def margin(height, density, glide, model, strong):
+        used = press(density) * height**2 * glide * model / press(0.27)
+        return np.log(strong / least) + math.log(1.5 * 1.35) - np.log(used)
+
     variables = (
         build_annual_maximum("H", 1.0, 100.0, 0.3, cap),
         lognormal("rho", 0.3, 0.045),
@@ -144,23 +118,11 @@ def find_of_guideline(
         lognormal("theta", 1.0, of_model),
         lognormal("R", 1.0, strength),
     )
-
-    def margin(height, density, glide, model, strong):
-        used = density * creep(density) * height**2 * glide * model / load
-        return np.log(strong / least) + math.log(1.5 * 1.35) - np.log(used)
-
-    return find(variables, margin)
+    return variables, margin
 
 
 # Five limit states: by FORM and by sampling, pystra 1.6.0.
 def list_pystra():
-    least, creep, load = rate_guideline()
-    mean = build_annual_maximum("H", 1.0, 100.0, 0.3).mean
-
-    def guideline(height, density, glide, model, strong):
-        used = density * creep(density) * height**2 * glide * model / load
-        return np.log(strong / least) + math.log(2.025) - np.log(used)
-
     return [
         (
             [normal("R", 250.0, 25.0), gumbel("S", 110.0, 30.0)],
@@ -183,16 +145,7 @@ def list_pystra():
             (3.0598, 3.0278),
             0.6447,
         ),
-        (
-            [
-                *(gumbel("H", mean, 0.3 * mean), lognormal("rho", 0.3, 0.045)),
-                *(lognormal("N", 1.0, 0.2), lognormal("theta", 1.0, 0.2)),
-                lognormal("R", 1.0, 0.2),
-            ],
-            guideline,
-            (3.0953, 3.097),
-            0.0689,
-        ),
+        (*list_guideline(), (3.0953, 3.097), 0.0689),
         (
             [
                 *(normal("a", 10.0, 2.0), normal("b", 9.9, 1.6)),
@@ -223,37 +176,16 @@ def test_five_cases_by_pystra(variables, margin, published, share):
     ],
 )
 def test_reference_table(given, index):
-    assert find_of_guideline(**given).beta == pytest.approx(index, abs=0.05)
-
-
-def integrate_over_height(variation):
-    """Index of the guideline's load, with the height's exact share in every sample."""
-    least, creep, load = rate_guideline()
-    random = np.random.default_rng(7)
-
-    def draw(mean, scatter):
-        spread = log_deviation(scatter)
-        place = random.standard_normal(400_000)
-        return mean * np.exp(spread * place - 0.5 * spread**2)
-
-    density, strong = draw(0.3, 0.15), draw(1.0, 0.2)
-    others = density * creep(density) * draw(1.0, variation) * draw(1.0, variation)
-    height = np.sqrt(strong / least * 2.025 * load / others)
-    maximum = build_annual_maximum("H", 1.0, 100.0, 0.3)
-    scale = math.sqrt(6.0) / math.pi * maximum.deviation
-    mode = maximum.mean - np.euler_gamma * scale
-    return -norm.ppf(np.mean(-np.expm1(-np.exp((mode - height) / scale))))
+    assert find(*list_guideline(**given)).beta == pytest.approx(index, abs=0.05)
 
 
 # The reference table has 3.30 where glide and model are known, and 0.47 as the share of
-# the height. Neither pystra nor the integral comes to that.
+# the height; pystra does not come to that.
 @each("variation, by_form, share", [(0.2, 3.0953, 0.729), (0.08, 3.2457, 0.821)])
-def test_glide_and_model_known_by_three_calculations(variation, by_form, share):
-    found = find_of_guideline(of_glide=variation, of_model=variation)
+def test_glide_and_model_known_by_pystra(variation, by_form, share):
+    found = find(*list_guideline(of_glide=variation, of_model=variation))
     assert found.beta_by_form == pytest.approx(by_form, abs=0.001)
     assert found.alpha_squared[0] == pytest.approx(share, abs=0.002)
-    exact = integrate_over_height(variation)
-    assert found.beta == pytest.approx(exact, abs=3.0 * found.standard_error)
 
 
 def test_a_shifted_margin_is_counted_in_the_same_samples():
@@ -269,7 +201,7 @@ def test_a_shifted_margin_is_counted_in_the_same_samples():
 
 
 def test_form_is_wrong_where_the_net_caps_the_height():
-    found = find_of_guideline(cap=1.0)
+    found = find(*list_guideline(cap=1.0))
     assert found.beta_by_form == pytest.approx(3.16, abs=0.05)
     assert found.beta == pytest.approx(3.40, abs=0.05)
     assert found.design_point[0] == pytest.approx(1.0, rel=1e-9)

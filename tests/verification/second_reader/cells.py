@@ -1,8 +1,4 @@
-"""Cells of a row as the script needs them, from the tables of the input workbook.
-
-What a net type, the site and its ground say, stands beside what the row says; per
-cent, ranges and the meaning of a link's force are worked out here once more.
-"""
+"""Cells of a row as the script needs them, from the tables of the input workbook."""
 
 import math
 from dataclasses import dataclass

@@ -135,11 +135,7 @@ def find_pull_out(row, cells):
 
 
 def bend_anchor(row, cells, angle, *, is_held):
-    """A bar, or the tube at its head, pulled beside its axis (A7).
-
-    The ground adds the lever that a solid bar of its diameter has; a tube bends by its
-    own stiffness in the same ground.
-    """
+    """A bar, or the tube at its head, pulled beside its axis (A7)."""
     loss = find_loss(row, cells)
     wall = cells.get("tube_wall")
     if wall is None:
@@ -187,10 +183,7 @@ def lift_ground(row, member, cells):
 
 
 def find_chain(row, name, angle, steel):
-    """Weakest link of a type: by its strength, or by its working load limit (R17).
-
-    Nobody says that all of them are listed: least and largest, with a usual one (R17a).
-    """
+    """Weakest link of a type: by its strength, or by its working load limit (R17)."""
     values, found = row.values, []
     for link in row.cells.lines["Links"]:
         if link["type"] != name:
@@ -296,11 +289,7 @@ def find_falls(row, member):
 
 
 def find_foot_share(row, position):
-    """Pull along the row over that in the section, at the net's foot.
-
-    The ropes' unbalanced pull over the foot's is largest in some case of little load,
-    which only a solve knows: it lies above that of the largest forces.
-    """
+    """Pull along the row over that in the section, at the net's foot."""
     share = row.values["lateral.share"]
     if position != "second":
         return share

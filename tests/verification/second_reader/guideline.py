@@ -1,9 +1,4 @@
-"""The guideline's load on a net as a closed form of its own: forces on one support.
-
-kN, m, t/m3, rad. Load case 1 is the snow of a height H of the density of the altitude;
-load case 2 the whole resultant of case 1 on the lower 0.77 of its height; the
-dimensioning form takes N f_c H_K^2 f_s along the slope instead.
-"""
+"""The guideline's load on a net as a closed form of its own: forces on one support."""
 
 import math
 from dataclasses import dataclass
@@ -143,11 +138,7 @@ def find_floor(row, *, dimensioned, parts=8):
 
 
 def press_plane(row, density=None):
-    """Mean pressure on a plane across the slope, without f_s [kPa].
-
-    Of a density [t/m3] at the snow's own height; without one the largest of both load
-    cases at H_K: all of S'_N on 0.77 of its height.
-    """
+    """Mean pressure on a plane across the slope, without f_s [kPa]."""
     snow, part = (row.full, SETTLED) if density is None else (row.snow, 1.0)
     density = density or 0.27 * row.factor
     weight = density * GRAVITY * snow**2 / 2.0

@@ -1,8 +1,4 @@
-"""Every check of a net row's forces, redone from plain numbers; nothing of the program.
-
-Read are the workbook's cells, the files of a limit profile, and of
-study.json what only a solve knows: forces, pulls on the head, angles of pulls.
-"""
+"""Checks of a net row redone from plain numbers, with nothing of the program."""
 
 import itertools
 import math
@@ -146,11 +142,7 @@ class Row:
 
     @property
     def widths(self):
-        """Loaded widths of the last, the second and the supports inside [m].
-
-        With n posts the other end adds its share of support n - 1 to the last one, of
-        n - 2 to the second. The third, whose types are those of the second, has less.
-        """
+        """Loaded widths of the last, the second and the supports inside [m]."""
         spacing = self.net["post_spacing"]
         ratio, length = self.end_effect
         extra = [*spread_end_effect(ratio, length, spacing), *[0.0] * 100]
@@ -168,11 +160,7 @@ class Row:
 
     @property
     def shared_widths(self):
-        """Widths of anchors that two supports share: 0|1, 1|2, inside [m].
-
-        In a row of four 1|2 stands between the two supports beside an end, and so it
-        may where nobody gives the number.
-        """
+        """Widths of anchors that two supports share: 0|1, 1|2, inside [m]."""
         last, inside = (self.widths[one] for one in ("edge", "intermediate"))
         second = self.widths.get("second", last)
         extra = [*spread_end_effect(*self.end_effect, inside), *[0.0] * 100]
@@ -238,10 +226,7 @@ class Row:
         return self.find_along("upper"), math.radians(self.end["end_guy_angle"])
 
     def push(self):
-        """What the end guy's pull across the row brings post and uphill guy [kN].
-
-        Its largest over the net's inclinations.
-        """
+        """What the end guy's pull across the row brings post and uphill guy [kN]."""
         along, angle = self.end_guy
         across = statics.pull_of_end_guy(angle)
         found = [statics.hold(across, section) for section in self.sections]
@@ -251,10 +236,7 @@ class Row:
     # -- demands ----------------------------------------------------------------
 
     def demand(self, member, law, pushed=0.0):
-        """Largest of section, panel and guideline, by a law of force and head's pull.
-
-        The head holds the end guy's push, whatever tells the net's pull on it.
-        """
+        """Largest of section, panel and guideline, by a law of force and pull."""
         floor = np.full(3, self.floor[FLOORS.get(member, member)])
         section = law(self.solved[member], self.head, pushed)
         panel = law(self.solved[f"panel_{member}"], self.head, pushed)
@@ -325,12 +307,7 @@ class Row:
         return self.study["end_guy"][f"{side}_guy_kN"]
 
     def bracket_truss(self):
-        """Outer guys of the end by a truss of the least and of the largest pull [kN].
-
-        Of the net's pull on the head largest forces are known, no directions: guys
-        have most of it without the post's force, and a downhill guy most without that
-        of the uphill one. The error of a force is at most the largest of all.
-        """
+        """Outer guys of the end by trusses of the least and the largest pull [kN]."""
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
         width *= self.floor_scale("head")  # the guideline's pull on the head, (B4)
         along, angle = self.end_guy
@@ -365,11 +342,7 @@ class Row:
         return tuple({k: max(one[k]) for k in one} for one in (low, high))
 
     def list_stiffnesses(self):
-        """EA of guys, end guy and post [kN]: ropes whose EA nobody types are alike.
-
-        Of one construction, EA is the same multiple of their breaking forces: that of
-        the ropes that have both, else either end of what is built.
-        """
+        """EA of guys, end guy and post [kN]: ropes whose EA nobody types are alike."""
         members = {
             "uphill": "uphill_guy",
             "downhill": "downhill_guy",
@@ -409,11 +382,7 @@ class Row:
         return self.values.get("anchors.sum") == "scalar"
 
     def load_anchor(self, side, position):
-        """Anchor that two neighbouring supports share, a guy of each (S20).
-
-        A force that one guy alone has besides - half of the end guy's push, or the
-        rope's unbalanced pull - draws the anchor along that guy.
-        """
+        """Anchor that two neighbouring supports share, a guy of each (S20)."""
         splay = self.angle("guy_splay")
         width = self.grow(self.shared_widths[position])
         part = 2.0 * self.share(side) / math.sin(splay) * self.values["lateral.share"]
