@@ -1,11 +1,7 @@
 """Kills runs of ``check`` at random steps; says what each one left.
 
-A program of its own, ``python tests/faults/kill_runs.py SITE FOLDER KILLS SEED``: the
-solver is imported once, each run is a fork of it. A run tells down a pipe each of the
-steps below, before and after it is carried out. At the step drawn it either kills
-itself, or is killed from outside a moment later, in the midst of what comes next. No
-moment is counted from the start, so that no run ends unharmed on a slow machine. Every
-second kill finds old outputs there.
+``python tests/faults/kill_runs.py SITE FOLDER KILLS SEED``: each run is a fork. No
+moment is counted from the start, so that none ends unharmed on a slow machine.
 """
 
 import contextlib

@@ -1,9 +1,4 @@
-"""Solves many cases of many net rows; says what memory and file handles come to.
-
-A program of its own: ``python tests/faults/soak.py CASES PROCESSES``. Each net row has
-an upslope length of its own, hence meshes of its own; the cases of a row follow each
-other, all of them go through one store. A line a twentieth of the way.
-"""
+"""Solves many cases of many net rows; says what memory and file handles come to."""
 
 import json
 import math

@@ -1,9 +1,4 @@
-"""Full disks, places that cannot be written, two runs at once, clocks, Ctrl-C.
-
-What is the same for any bytes is tested in ``tests/edge/test_output.py``, dying
-workers in ``tests/solving/test_workers.py``, damaged stores in
-``tests/solving/test_store.py``.
-"""
+"""Full disks, places that cannot be written, two runs at once, clocks, Ctrl-C."""
 
 import json
 import os

@@ -1,7 +1,4 @@
-"""Runs of ``check`` killed with SIGKILL; the long form kills a hundred, in minutes::
-
-python -m pytest -m faults -s tests/faults
-"""
+"""Runs of ``check`` killed with SIGKILL; by ``-m faults`` a hundred of them."""
 
 import json
 import os

@@ -1,7 +1,4 @@
-"""Thousands of cases: memory and file handles stay flat; the long form takes minutes::
-
-python -m pytest -m faults -s tests/faults/test_soak.py
-"""
+"""Thousands of cases: memory and file handles stay flat; by ``-m faults`` 20,000."""
 
 import json
 import subprocess

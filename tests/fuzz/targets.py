@@ -1,10 +1,4 @@
-"""What is fuzzed: inputs made from sound ones and from noise, and how each may end.
-
-Each target draws an input and hands it to the program. A sound end is a result whose
-numbers are finite, or an error of the program's own with the exit code of a refused
-input and a message that a terminal only shows. Anything else is a find: an exception
-of another kind, a warning, a hang, a wrong exit code.
-"""
+"""What is fuzzed: inputs made from sound ones and from noise, and how each may end."""
 
 from __future__ import annotations
 

@@ -1,12 +1,7 @@
 """``python -m tests.golden``: what must stay equal, one part after another.
 
-G1 and G3 compare numbers and verdicts, G4 the workbook in LibreOffice: a difference
-is a failure. G2 prints how the example's reports differ from those stored. Where
-formulas change, ``python -m tests.golden --write`` stores all of it anew once what
-differs was read; the changelog says which verdicts turned. Time (G5) is measured by
-hand, this version beside the wheel of another one, in turns in one run:
-``netdesign bench --against netdesign-0.1.0-py3-none-any.whl``; nothing may be more than
-5 % slower.
+Where formulas change, ``--write`` stores all anew once what differs was read; the
+changelog says which verdicts turned.
 """
 
 import sys

@@ -1,8 +1,4 @@
-"""Forty drawn sites, and their studies as they were once.
-
-Regression, not truth. The tables of the sites are stored, so that a change of the
-drawing moves no number here.
-"""
+"""Forty drawn sites, and their studies as they were once: regression, not truth."""
 
 import json
 import lzma

@@ -1,8 +1,4 @@
-"""Lists as offices send them, and drawn sites: verdicts under four profiles.
-
-Five lists of offices (German, French, English; xlsx and csv), by their answered
-headings alone; ten drawn sites have tests one by one, and rows that others go on into.
-"""
+"""Lists as offices send them, and drawn sites: verdicts under four profiles."""
 
 import tempfile
 from dataclasses import replace

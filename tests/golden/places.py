@@ -1,8 +1,4 @@
-"""Leaves of a study by the place at which they stand, and what must never move.
-
-Whoever changes how a study is written, changes `state_places` and `state_verdicts`:
-fields of ``study.json`` are named here alone.
-"""
+"""Leaves of a study by the place at which they stand, and what must never move."""
 
 from collections import Counter
 

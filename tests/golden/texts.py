@@ -1,7 +1,4 @@
-"""What the page, the workbook and the Word file of a study say, line by line.
-
-A line names its place first: section of the page, sheet, heading of the document.
-"""
+"""What the page, the workbook and the Word file of a study say, line by line."""
 
 import re
 from html.parser import HTMLParser

@@ -39,10 +39,7 @@ def home(tmp_path_factory):
 
 @pytest.fixture
 def verify(home, call, tmp_path, monkeypatch):
-    """Verifies the study after it, or its site, was changed by hand.
-
-    Each case is solved again once, not for each of the tests.
-    """
+    """Verifies the study after it, or its site, was changed by hand."""
     monkeypatch.setattr(workers, "solve_scene", solve_once)
     text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
 

@@ -16,6 +16,7 @@ from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import FlowLayer
 from netdesign.snow.mesh import MeshSize, build_template
+from tests.each import each
 
 ASPECT = 5.0
 # Fine enough for a heap that is read off the surface's vertices.
@@ -41,10 +42,7 @@ def on_net(body):
 
 
 def creep(body, seed=5):
-    """Vertices after some creep that leaves all four sides straight and the net alone.
-
-    The snow shears and slides towards the net; the inside is stirred at random.
-    """
+    """Vertices after some creep that leaves all sides straight and the net alone."""
     topology = body.topology
     distance, height = topology.template.nodes[:, : topology.template.n_vertices]
     away = np.minimum(1.0, distance)  # 0 at the net
@@ -161,7 +159,7 @@ def test_rigid_shift_along_the_slope(a_flow_problem, tops):
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
 @pytest.mark.parametrize("level", [0, 1])
-def test_mass_is_kept_to_rounding(a_flow_problem, head_x, level):
+def test_mass_and_its_heat_are_kept_to_rounding(a_flow_problem, head_x, level):
     """The four sides are straight, so that mending them cuts nothing off."""
     body = uneven(a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
     displaced = creep(body)
@@ -171,12 +169,6 @@ def test_mass_is_kept_to_rounding(a_flow_problem, head_x, level):
     assert fallen == pytest.approx(0.0, abs=ROUNDING)
     assert moved.mass.sum() == pytest.approx(body.mass.sum(), rel=ROUNDING)
     assert moved.mass.min() > 0.0
-
-
-@pytest.mark.parametrize("head_x", STRAIGHT)
-def test_heat_is_kept_with_the_mass(a_flow_problem, head_x):
-    body = uneven(a_body(a_flow_problem(), head_x=head_x))
-    moved, _ = move_body(body, creep(body), on_net(body), on_net(body)[:, -1])
     heat = (body.mass * body.warmth).sum()
     assert (moved.mass * moved.warmth).sum() == pytest.approx(heat, rel=ROUNDING)
     # donor cells mix, so they stay between the extremes
@@ -273,15 +265,38 @@ def steepness(vertices, body, head):
 # --- inversion ---------------------------------------------------------------
 
 
-def test_snow_that_turns_a_triangle_over_is_refused(a_flow_problem):
-    body = a_body(a_flow_problem())
-    displaced = body.vertices.copy()
-    inner = body.topology.triangles[0, 0]
-    displaced[0, inner] += 1.0
-    assert compute_areas(body.topology, displaced).min() < 0.0
-    net = on_net(body)
-    with pytest.raises(SolveError, match="the mesh of the snow folds over") as failure:
-        move_body(body, displaced, net, net[:, -1])
+def turn_a_triangle(body, net):
+    """A vertex moved across its triangle."""
+    moved = body.vertices.copy()
+    moved[0, body.topology.triangles[0, 0]] += 1.0
+    assert compute_areas(body.topology, moved).min() < 0.0
+    return moved, net
+
+
+def flow_over_the_head(body, net):
+    moved = body.vertices.copy()
+    moved[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : moved.shape[1]]
+    return moved, net
+
+
+def leave_no_room(body, net):
+    net[0, 1:-1] -= 4.0
+    return body.vertices, net
+
+
+@each(
+    "spoil, said, level",
+    [
+        (turn_a_triangle, "the mesh of the snow folds over", 1),
+        (flow_over_the_head, "flows over the net's head", 0),
+        (leave_no_room, "cannot be repaired", 1),
+    ],
+)
+def test_snow_that_cannot_be_moved_is_refused(a_flow_problem, spoil, said, level):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[level])
+    vertices, net = spoil(body, on_net(body))
+    with pytest.raises(SolveError, match=said) as failure:
+        move_body(body, vertices, net, net[:, -1])
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
 
 
@@ -289,21 +304,3 @@ def test_start_that_folds_over_is_refused(a_flow_problem):
     with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
         a_body(a_flow_problem(), sag=-8.0)
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
-
-
-def test_snow_that_flows_over_the_head_is_refused(a_flow_problem):
-    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[0])
-    displaced = body.vertices.copy()
-    displaced[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : displaced.shape[1]]
-    net = on_net(body)
-    with pytest.raises(SolveError, match="flows over the net's head") as failure:
-        move_body(body, displaced, net, net[:, -1])
-    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
-
-
-def test_a_net_that_leaves_no_room_is_refused(a_flow_problem):
-    body = a_body(a_flow_problem())
-    net = on_net(body)
-    net[0, 1:-1] -= 4.0
-    with pytest.raises(SolveError, match="cannot be repaired"):
-        move_body(body, body.vertices, net, net[:, -1])

@@ -1,7 +1,4 @@
-"""Histories of scenes with untidy numbers: they run, and a horizon decides nothing.
-
-The suite takes a few draws; ``python -m pytest -m robustness`` takes four hundred.
-"""
+"""Histories of scenes with untidy numbers: they run, and a horizon decides nothing."""
 
 import math
 from dataclasses import replace

@@ -61,22 +61,6 @@ def initial_state() -> CableState:
     return build_cable_state(final, initial_lengths(), STIFFNESS)
 
 
-def test_sticking_node_by_hand():
-    """The paper's Eq. 10 with dlo = 0."""
-    state = build_cable_state(np.array([1.01, 1.01]), np.ones(2), STIFFNESS)
-    step = advance_increment(
-        state,
-        np.array([1.012, 1.009]),
-        np.array([1.0]),
-        friction=1.0,
-        stiffness=STIFFNESS,
-    )
-    assert find_signs(state, step) == [0]
-    expected = STIFFNESS * np.array([0.01 + 0.002, 0.01 - 0.001])
-    np.testing.assert_allclose(step.tensions, expected, rtol=1e-10)
-    np.testing.assert_array_equal(step.unstressed_lengths, 1.0)
-
-
 def test_gliding_node_by_hand():
     """Eqs 10, 13, 14 with two unknowns, solved as they stand."""
     final, beta = np.array([1.03, 1.005]), 0.2

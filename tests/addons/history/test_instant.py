@@ -211,17 +211,24 @@ def test_given_forces_and_base_drag_are_in_balance(a_scene):
     assert pulled + dragged == pytest.approx(weight, rel=1e-9)
 
 
-def test_too_few_iterations_are_an_error(a_scene):
-    problem, state = begin(a_scene())
-    few = {**TIGHT, "max_iterations": 2}
-    with pytest.raises(SolveError, match="a step of snow and net") as failure:
-        advance(problem, state, STEP, **few)
-    assert failure.value.outcome is Outcome.MAX_ITERATIONS
+def few(problem, state):
+    advance(problem, state, STEP, **TIGHT | {"max_iterations": 2})
 
 
-def test_exchange_with_too_few_iterations_is_an_error(a_scene):
-    problem, state = begin(a_scene(), base_drag=0.05)
-    few = {**EXCHANGE, "max_iterations": 2}
-    with pytest.raises(SolveError, match="under the net's forces") as failure:
-        advance_under(problem, state, 1e-5, held(problem, state), **few)
+def few_under_given_forces(problem, state):
+    given = EXCHANGE | {"max_iterations": 2}
+    advance_under(problem, state, 1e-5, held(problem, state), **given)
+
+
+@each(
+    "step, drag, said",
+    [
+        (few, 0.0, "a step of snow and net"),
+        (few_under_given_forces, 0.05, "under the net's forces"),
+    ],
+)
+def test_too_few_iterations_are_an_error(a_scene, step, drag, said):
+    problem, state = begin(a_scene(), base_drag=drag)
+    with pytest.raises(SolveError, match=said) as failure:
+        step(problem, state)
     assert failure.value.outcome is Outcome.MAX_ITERATIONS

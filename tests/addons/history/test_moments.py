@@ -104,10 +104,7 @@ def test_a_plateau_that_is_left_is_none(drift, reached, sign):
 @pytest.mark.parametrize("is_guessed", [False, True])
 @pytest.mark.parametrize("rate", [1e-4, 2e-2])
 def test_pulls_count_while_the_snow_is_the_scenes(is_guessed, rate):
-    """However long the history; a guessed start's only once its plateau is proven.
-
-    At the slower rate the plateau begins with the strain, at the faster one later.
-    """
+    """However long the history; a guessed start's only once its plateau is proven."""
     times = np.geomspace(1e-2, 1e4, 500)
     moments = [
         moment(time, 1.0 + math.exp(-time) + 1e-5 * time, strain=rate * time)

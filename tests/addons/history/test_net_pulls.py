@@ -48,35 +48,6 @@ def test_forces_and_pulls_are_in_balance(friction, spread):
     assert moment == pytest.approx(0.0, abs=1e-12 * size)
 
 
-def test_net_pushes_the_snow_back():
-    """Convex to the valley, so its forces point upslope."""
-    points = arc_points(9)
-    lengths = strained(points, 0.05)
-    net = slide_on(points, lengths, 0.3, STIFFNESS)
-    assert (net.forces[0] < 0.0).all()
-    assert net.foot_pull[0] > 0.0
-    assert net.head_pull[0] > 0.0
-
-
-@pytest.mark.parametrize("friction", [0.1, 0.4])
-def test_sliding_net_tends_to_the_capstan(friction):
-    """Euler and Eytelwein: T2 / T1 = exp(tan(phi) angle), at order 2."""
-    opening, errors = 1.2, []
-    for count in (8, 16, 32):
-        points = arc_points(count, opening=opening)
-        # all of the strain is at the foot, as after a long slide
-        lengths = strained(points, 0.05, spread=0.999)
-        net = slide_on(points, lengths, friction, STIFFNESS)
-        assert (net.slide_signs == net.slide_signs[0]).all()
-        assert net.slide_signs[0] != 0
-        ratio = np.hypot(*net.foot_pull) / np.hypot(*net.head_pull)
-        wrap = opening * count / (count + 1)  # between first and last segment
-        errors.append(abs(ratio / math.exp(friction * wrap) - 1.0))
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert errors[-1] < 1e-4
-    np.testing.assert_allclose(orders, 2.0, atol=0.25)
-
-
 @pytest.mark.parametrize("exponent", [1.0, 1.5], ids=["even", "graded"])
 def test_arcs_of_a_circle_converge_at_order_four(exponent):
     opening, errors = 1.2, []

@@ -110,11 +110,7 @@ def test_head_above_the_snow_leaves_a_free_segment(a_scene, start):
 
 @pytest.mark.parametrize(("stiffness", "clear"), [(2e3, False), (2e4, True)])
 def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
-    """Its sag over the chord, against that at which a parabola's end is level.
-
-    At its foot the parabola leaves the chord, 90 - 40 degrees above the ground, by
-    atan(4 sag): 0.298 would be level.
-    """
+    """Its sag over the chord, against that at which a parabola's end is level."""
     scene = a_scene(inclination_deg=40.0, slack=0.15, stiffness_kN_per_m=stiffness)
     if clear:
         problem, state = begin(scene, "sagged", LEVEL)

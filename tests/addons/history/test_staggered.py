@@ -33,10 +33,7 @@ def foot(moments):
 
 
 def test_steps_are_all_alike(a_scene):
-    """Explicit: one length for all, half as long with half the share or half the drag.
-
-    A stiffer net needs shorter ones (time of a spring and a dashpot).
-    """
+    """Explicit: one length for all, half of it with half the share or half the drag."""
     short = replace(SETTINGS, horizon=0.002)
     first, half, light = (
         run_exchange(a_scene(), settings).moments

@@ -115,20 +115,9 @@ def test_guess_of_what_glides_does_not_matter():
         np.testing.assert_array_equal(other.slide_signs, first.slide_signs)
 
 
-def test_tension_without_friction_is_uniform():
-    place = bulge(11)
-    response, _ = settle(yielding_nodes(place, 1e-3), place, lengths_of(place), 0.0)
-    tensions = response.tensions
-    np.testing.assert_allclose(tensions, tensions[0], rtol=1e-9)
-
-
 @pytest.mark.parametrize("push", [1e-6, 1e-3, 0.1])
 def test_straight_net_takes_up_its_load(push):
-    """One node in the middle, yielding across the net: one equation, by bisection.
-
-    Half-segments of length l = h sqrt(1 + (w / h)^2), h half the chord, turn by
-    b = 2 atan(w / h) and are longer by b^2 / 24 of (C21); T = ES (l / h - 1).
-    """
+    """One node in the middle, yielding across the net: one equation, by bisection."""
     half = float(np.hypot(*HEAD)) / 2.0
     outward = np.array([HEAD[1], -HEAD[0]]) / (2.0 * half)
     softness = 1e-4

@@ -45,10 +45,7 @@ def tell(name, variation, **more):
 
 @pytest.fixture(scope="module")
 def searched(tmp_path_factory):
-    """Site of one row that glides and one that does not, and its cases.
-
-    Both are proven; the second support governs one, the end the other.
-    """
+    """Site of one row that glides and one that does not, and its cases."""
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
     own = {"foot_anchor": "A57-tested", "end_anchor": "A40-tested", "end_guy": "E40"}
     ropes = {"ridge_rope": "B44", "lower_rope": "B44"}
@@ -189,10 +186,7 @@ def cut_to(known, solved, case):
 
 
 def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypatch):
-    """E = sqrt(N^2 + (k N + D)^2) of a foot, its guys with D c / sin beta; each case.
-
-    Those that are not followed are of a post, of an anchor of two guys, or by a truss.
-    """
+    """E = sqrt(N^2 + (k N + D)^2) of a foot, guys with D c / sin beta; each case."""
     followed = set()
     for task, known, *_ in follow(judge, monkeypatch):
         solved, width = task.solved.results, known.effects.find_support("second")

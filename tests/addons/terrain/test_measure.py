@@ -289,10 +289,7 @@ def test_a_top_is_still_an_end_of_the_snow():
 
 @each("seed", range(16))
 def test_the_band_holds_the_slope_of_smooth_relief(seed):
-    """Drawn waves of 40 m and more down the slope, on cells of 2 and 5 m, no noise.
-
-    The exact slope is the mean of atan(z') along the ground.
-    """
+    """Drawn waves of 40 m and more down the slope, on cells of 2 and 5 m, no noise."""
     rng = np.random.default_rng([61, 10, 1, seed])
     rise, wave = math.tan(rng.uniform(0.55, 0.8)), float(rng.uniform(40.0, 70.0))
     size, phase = float(rng.uniform(0.02, 0.035)) * wave, float(rng.uniform(0.0, 6.28))

@@ -1,7 +1,4 @@
-"""Chain with memory: each new snow is laid against the net as the old snow left it.
-
-What is kept is the net's curve and where its material sits; the snow is new.
-"""
+"""Chain with memory: each new snow is laid against the net as the old snow left it."""
 
 from dataclasses import replace
 
@@ -18,10 +15,7 @@ from tests.addons.history.starts import begin
 
 
 def follow_scenes(scenes, creep_times, steps=12):
-    """Pulls on foot and head [N/m] at the end of each scene's time, (n_scenes, 2).
-
-    Net, slope and thickness are the same in all; ``creep_times`` are of each scene.
-    """
+    """Pulls on foot and head [N/m] at the end of each scene's time, (n_scenes, 2)."""
     points, places = None, None  # of the net: where it is, and unstressed lengths
     pulls = []
     for scene, creep_time in zip(scenes, creep_times, strict=True):

@@ -10,10 +10,7 @@ from tests.addons.history.starts import begin
 
 
 def follow_lengths(scene, times, shares):
-    """Pulls on foot and head [N/m], (n, 2), of a net of these shares of its length.
-
-    ``times`` in creep time; it starts as it hangs at rest, and the snow keeps its law.
-    """
+    """Pulls on foot and head [N/m], (n, 2), of a net of these shares of its length."""
     problem, state = begin(scene, "steady", densifies=False)
     full, before, share_before, pulls = problem.length, 0.0, 1.0, []
     for time, share in zip(times, shares, strict=True):

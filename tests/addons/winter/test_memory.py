@@ -1,7 +1,4 @@
-"""Past of the net: a chain that keeps the net's curve against states at rest.
-
-Spoilt: a net that is given no time to follow (a creep time of 1e-7) fails this file.
-"""
+"""Past of the net: a chain that keeps the net's curve against states at rest."""
 
 import numpy as np
 import pytest

@@ -1,8 +1,4 @@
-"""Ropes that the day's air cools, against histories of the net that they are.
-
-Ten kelvin of a net of 2e4 kN/m are 2.4 kN/m at once. Spoilt: an expansion of twice its
-size, and a half time without its load over the stiffness, make this file fail.
-"""
+"""Ropes that the day's air cools, against histories of the net that they are."""
 
 import math
 from dataclasses import replace

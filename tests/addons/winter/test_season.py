@@ -21,11 +21,7 @@ ACCURACY = 0.013
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErringSolver(DaySolver):
-    """Formulas in error by the accuracy at most, each day in its own way.
-
-    The head's force and the post's peak on other days than the foot's. Days of
-    ``failing`` have no force once the accuracy is full.
-    """
+    """Formulas in error by the accuracy at most, each day in its own way."""
 
     failing: frozenset = frozenset()
 
@@ -92,11 +88,7 @@ GROUNDS = [None, GroundLaw(kind="free"), slides(1.6, 2.0)]
 @pytest.mark.long
 @each("number", [1, 18, 20, 21, 35, 69])
 def test_the_governing_day_is_that_of_all_days(number):
-    """Winters with plateaus, where many days pull nearly as much, and with thaws.
-
-    Of winters drawn, where a gain taken from the whole curve misses the governing day:
-    by 0.6 to 11 % but for the first.
-    """
+    """Winters with plateaus, where many days pull nearly as much, and with thaws."""
     heights = draw_heights(Random(700 + number))
     packs = dict(enumerate(follow_heights(heights, DELTA_SNOW)))
     solver = a_solver(GROUNDS[number % 3])

@@ -1,10 +1,4 @@
-"""Lines through the space of scenes: forces may not jump by more than their errors.
-
-A line is a random scene in which one quantity goes through its whole range. Two
-meshes that agree by accident state an error that is too small; on a line that shows
-as a jump between neighbours, wherever on the line it happens. A jump stays as large
-where it is closed in on; a bend, as where the creep law changes its branch, does not.
-"""
+"""Lines through the space of scenes: forces may not jump by more than their errors."""
 
 import copy
 from collections.abc import Callable
@@ -167,11 +161,7 @@ def follow(base, parameter, values, settings):
 
 
 def find_jumps(points):
-    """Every step of a line against its neighbours' mean, over the stated errors.
-
-    A step from point to point may differ from the mean of the steps before and after
-    it by the errors of its two ends. Only four solved points in a row say something.
-    """
+    """Every step of a line against its neighbours' mean, over the stated errors."""
     for four in zip(points, points[1:], points[2:], points[3:], strict=False):
         if four[3].place - four[0].place != 3:
             continue
@@ -192,10 +182,7 @@ def compare(scene, settings):
 
 
 def study_line(number, seed):
-    """Jumps of a line; true over stated errors of some points, and how many lack one.
-
-    These are solved on meshes finer than any level.
-    """
+    """Jumps of a line; true over stated errors of some points; how many lack one."""
     parameter = PARAMETERS[number % len(PARAMETERS)]
     base, values = draw_base(number, seed), parameter.list_values(POINTS)
     solved, steps = follow(base, parameter, values, ACCURACY)

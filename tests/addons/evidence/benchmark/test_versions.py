@@ -23,10 +23,7 @@ SIZE = Size(repeats=3, scenes=("paper-0",), rows=1)
 
 @pytest.fixture(scope="module")
 def compared():
-    """Runs as asked for, and what was told as they ended.
-
-    The other takes 3, 5, 4 s by the processor, this one 2 s.
-    """
+    """Runs as asked for, and what was told as they ended."""
     order, done, others = [], [], itertools.cycle((3.0, 5.0, 4.0))
 
     def measure(python, figure, folder):
