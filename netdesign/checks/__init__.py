@@ -5,12 +5,12 @@ from netdesign.checks.comparison import check_member, find_resistance
 from netdesign.checks.geometry import Approval, RowGeometry, StatedValue, check_geometry
 from netdesign.checks.loader import (
     Standard,
-    StandardValue,
     list_standards,
     load_default,
     load_standard,
 )
 from netdesign.checks.result import Band, Declaration, GivenResistance, Proof
+from netdesign.checks.schema import StandardValue
 
 __all__ = [
     "Approval",

@@ -13,7 +13,7 @@ from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
 from netdesign.checks.check import Check, Open, OpenKind
 from netdesign.checks.forces import rate, resist_by_tests
-from netdesign.checks.loader import Standard, StandardValue
+from netdesign.checks.loader import Standard
 from netdesign.checks.result import GivenResistance
 from netdesign.checks.schema import (
     ACCEPTANCE_TEST,
@@ -21,6 +21,7 @@ from netdesign.checks.schema import (
     CORRELATION_LEAST,
     CORRELATION_MEAN,
     TEST_COUNT,
+    StandardValue,
     list_action_factors,
 )
 from netdesign.outcome import Verdict

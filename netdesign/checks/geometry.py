@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from netdesign.checks.check import Check, OpenKind, judge
 from netdesign.checks.comparison import compare, leave_open
-from netdesign.checks.loader import Standard, StandardValue
+from netdesign.checks.loader import Standard
 from netdesign.checks.result import Proof
 from netdesign.checks.schema import (
     GROUND_FRICTION,
@@ -21,6 +21,7 @@ from netdesign.checks.schema import (
     MIN_SLOPE,
     MOST_PLAUSIBLE_SLOPE,
     SPACING_CAP,
+    StandardValue,
 )
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.units import degree_from_radian, radian_from_percent

@@ -4,30 +4,26 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from netdesign.checks.schema import (
-    ChoiceEntry,
     ChoicesFile,
+    ChoiceTable,
     DocumentFile,
-    Entry,
-    FactorEntry,
     FactorsFile,
     FileT,
     Floor,
     LimitsFile,
-    LoadTable,
     ModelFile,
     SharedSum,
-    TableEntry,
+    StandardTable,
+    StandardValue,
     TablesFile,
     check_table,
-    find_bounds,
 )
 from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
@@ -38,97 +34,13 @@ from netdesign.edge.input_files import (
     read_bounded,
 )
 from netdesign.outcome import StandardError
-from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say
 
-EntryT = TypeVar("EntryT", FactorEntry, TableEntry)
+EntryT = TypeVar("EntryT", StandardValue, StandardTable)
 
 _FILES = ("document.toml", "limits.toml", "factors.toml")
-_OPTIONAL = ("model.toml", "tables.toml", "choices.toml")
+_ACCEPTED = (*_FILES, "model.toml", "tables.toml", "choices.toml")
 _HASHED_SUFFIXES = (".toml", ".md")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StandardValue:
-    """One value of a profile.
-
-    Attributes
-    ----------
-    id, clause, text, source : str
-        What it is and where it comes from; clause "-" where there is none.
-    value : float
-        As printed, in ``unit``.
-    unit : str
-        Such as "deg", "m" or "-".
-    status : str
-        "read" in the document, from a "secondary" source, "assumed", or "user".
-    reason_beyond : str
-        Why it may lie beyond what any document has, as a factor below 1; else "".
-    """
-
-    id: str
-    clause: str
-    text: str
-    value: float
-    unit: str
-    status: str
-    source: str
-    reason_beyond: str = ""
-
-    @property
-    def value_si(self) -> float:
-        """The value with degrees as radians; all else as printed."""
-        return radian_from_degree(self.value) if self.unit == "deg" else self.value
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StandardTable:
-    """Values of a profile by a count, such as the number of tests.
-
-    Attributes
-    ----------
-    id, clause, text, status, source, reason_beyond : str
-        As for a `StandardValue`.
-    over : str
-        What is counted: "tests".
-    rows : tuple of (int, float, float)
-        From, to (both included; the last may be infinite), value [-].
-    """
-
-    id: str
-    clause: str
-    text: str
-    over: str
-    status: str
-    source: str
-    rows: tuple[tuple[int, float, float], ...]
-    reason_beyond: str = ""
-
-    def find(self, count: int) -> float | None:
-        """Value at a count [-]; None outside the table: no extrapolation."""
-        return next(
-            (value for low, high, value in self.rows if low <= count <= high), None
-        )
-
-    @property
-    def values(self) -> tuple[StandardValue, ...]:
-        """Each row as a value of its own, for lists: ``id[from]``."""
-        least, most = find_bounds(self.id)
-        return tuple(
-            StandardValue(
-                id=f"{self.id}[{low}]",
-                clause=self.clause,
-                text=f"{self.text} {self.over.capitalize()}: {low}"
-                + (" and more" if high == math.inf else f" to {high:g}")
-                * (high != low),
-                value=value,
-                unit="-",
-                status=self.status,
-                source=self.source,
-                reason_beyond="" if least <= value <= most else self.reason_beyond,
-            )
-            for low, high, value in self.rows
-        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -262,68 +174,44 @@ def _load_folder(folder: Path) -> Standard:
         return check_table(shape, *_parse(contents, name, folder))
 
     document = read(DocumentFile, "document.toml")
-    choice: ChoiceEntry | None = None
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
-    if document.choice and "choices.toml" not in contents:
+    model = read(ModelFile, "model.toml").value if "model.toml" in contents else []
+    tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
+    choice_text = ""
+    if "choices.toml" in contents:
+        choice = _find_choice(document, read(ChoicesFile, "choices.toml"), folder)
+        factors = _take_from_choice(factors, choice.factor, choice.without)
+        tables = _take_from_choice(tables, choice.table)
+        choice_text = choice.text
+    elif document.choice:
         raise StandardError(
             say("standard.lacks_choices", folder=str(folder), choice=document.choice)
         )
-    if "choices.toml" in contents:
-        choices = read(ChoicesFile, "choices.toml")
-        choice = _find_choice(document.choice, choices, folder)
-        factors = _take_from_choice(factors, choice.factor, choice.without)
-    entries: list[Entry] = [*limits.limit, *factors]
-    if "model.toml" in contents:
-        entries += read(ModelFile, "model.toml").value
-    tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
-    if choice is not None:
-        tables = _take_from_choice(tables, choice.table)
+    scope = document.scope.model_dump().items()
     return Standard(
         **document.model_dump(exclude={"load", "scope", "anchors"}),
-        choice_text=choice.text if choice else "",
-        **_read_load(document.load, folder),
+        choice_text=choice_text,
+        floor=document.load.floor,
+        has_maker_floor=document.load.maker == "floor",
+        is_by_guideline=document.load.governs == "guideline",
         shared_sum=document.anchors.sum,
-        not_checked=tuple(
-            topic
-            for topic, said in document.scope.model_dump().items()
-            if said == "not checked"
-        ),
-        values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
-        tables=tuple(
-            StandardTable(
-                **table.model_dump(exclude={"rows", "unit"}),
-                rows=tuple((row.from_, row.to, row.value) for row in table.rows),
-            )
-            for table in tables
-        ),
+        not_checked=tuple(topic for topic, said in scope if said == "not checked"),
+        values=(*limits.limit, *factors, *model),
+        tables=tuple(tables),
         sha256=_hash(contents),
     )
 
 
-def _read_load(load: LoadTable, folder: Path) -> dict[str, Any]:
-    """Which load governs, as a profile says it."""
-    if (load.floor, load.governs) == ("none", "guideline"):
-        raise StandardError(say("standard.nothing_governs", folder=str(folder)))
-    return {
-        "floor": load.floor,
-        "has_maker_floor": load.maker == "floor",
-        "is_by_guideline": load.governs == "guideline",
-    }
-
-
-def _find_choice(name: str, choices: ChoicesFile, folder: Path) -> ChoiceEntry:
+def _find_choice(
+    document: DocumentFile, choices: ChoicesFile, folder: Path
+) -> ChoiceTable:
     options = {choice.name: choice for choice in choices.choice}
-    if name not in options:
-        raise StandardError(
-            say(
-                "standard.unknown_choice",
-                file=str(folder / "document.toml"),
-                choice=name,
-                known=tuple(options),
-            )
-        )
-    return options[name]
+    if document.choice not in options:
+        file, choice = str(folder / "document.toml"), document.choice
+        key, known = "standard.unknown_choice", tuple(options)
+        raise StandardError(say(key, file=file, choice=choice, known=known))
+    return options[document.choice]
 
 
 def _take_from_choice(
@@ -331,54 +219,33 @@ def _take_from_choice(
 ) -> list[EntryT]:
     """Entries with those of the chosen set in place of their namesakes."""
     replaced = {entry.id for entry in chosen} | set(without)
-    kept: list[EntryT] = [entry for entry in entries if entry.id not in replaced]
-    kept.extend(chosen)
-    return kept
+    kept = [entry for entry in entries if entry.id not in replaced]
+    return kept + chosen
 
 
 def _read_files(folder: Path) -> dict[str, bytes]:
     """Files of the folder by name, with line ends as on Unix."""
     try:
-        _require_known_files(folder)
+        paths = [path for path in sorted(folder.iterdir()) if path.is_file()]
+        named = [path.name for path in paths if path.suffix == ".toml"]
+        missing = tuple(name for name in _FILES if name not in named)
+        foreign = tuple(name for name in named if name not in _ACCEPTED)
+        if missing or foreign:
+            key = "standard.lacks_files" if missing else "standard.foreign_files"
+            wrong = {"names": missing or foreign}
+            wrong["accepted"] = _FILES if missing else _ACCEPTED
+            raise StandardError(say(key, folder=str(folder), **wrong))
         return {
-            path.name: _read_unix(path)
-            for path in sorted(folder.iterdir())
-            if path.is_file() and path.suffix in _HASHED_SUFFIXES
+            path.name: read_bounded(path, MAX_TOML_BYTES)
+            .replace(b"\r\n", b"\n")
+            .replace(b"\r", b"\n")
+            for path in paths
+            if path.suffix in _HASHED_SUFFIXES
         }
     except (OSError, ValueError) as error:
         raise StandardError(
             say("standard.unreadable", folder=str(folder), cause=explain(error))
         ) from error
-
-
-def _require_known_files(folder: Path) -> None:
-    missing = [name for name in _FILES if not (folder / name).is_file()]
-    if missing:
-        raise StandardError(
-            say(
-                "standard.lacks_files",
-                folder=str(folder),
-                missing=tuple(missing),
-                needed=_FILES,
-            )
-        )
-    accepted = (*_FILES, *_OPTIONAL)
-    foreign = [p.name for p in folder.glob("*.toml") if p.name not in accepted]
-    if foreign:
-        raise StandardError(
-            say(
-                "standard.foreign_files",
-                folder=str(folder),
-                foreign=tuple(sorted(foreign)),
-                accepted=accepted,
-            )
-        )
-
-
-def _read_unix(path: Path) -> bytes:
-    """Content with line ends as on Unix."""
-    content = read_bounded(path, MAX_TOML_BYTES)
-    return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def _parse(

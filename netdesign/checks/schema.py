@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass
 from importlib.resources import files
 from typing import Annotated, Any, Literal, Self, TypeVar, get_args
 
@@ -14,6 +15,7 @@ from pydantic import (
     ConfigDict,
     Field,
     FiniteFloat,
+    Strict,
     ValidationError,
     model_validator,
 )
@@ -21,6 +23,7 @@ from pydantic_core import ErrorDetails
 
 from netdesign.edge.input_files import explain_shape
 from netdesign.outcome import ContentError, StandardError
+from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say
 
 ACTION_FACTOR = "action.snow"
@@ -65,7 +68,7 @@ _VALUES: Mapping[str, Mapping[str, Mapping[str, Any]]] = tomllib.loads(
     files(__package__).joinpath("values.toml").read_text(encoding="utf-8")
 )
 LIMIT_UNITS = {name: value["unit"] for name, value in _VALUES["limits"].items()}
-# The load model of a guideline; values that start alike are given all or none.
+# The load model of a guideline.
 MODEL_UNITS = {name: value["unit"] for name, value in _VALUES["model"].items()}
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {name: value["over"] for name, value in _VALUES["tables"].items()}
@@ -77,6 +80,12 @@ _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
     (MIN_SLOPE, MAX_SLOPE),
     (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE),
+)
+# Values that are given all or none.
+_GROUPS = (
+    *_PAIRS,
+    tuple(name for name in MODEL_UNITS if name.startswith("snow.")),
+    tuple(name for name in MODEL_UNITS if name.startswith("end.")),
 )
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
@@ -91,18 +100,6 @@ def list_action_factors(mode: str) -> tuple[str, ...]:
     return (UPLIFT_FACTOR, ACTION_FACTOR) if mode == "tension" else (ACTION_FACTOR,)
 
 
-def _is_one_of(accepted: Iterable[str]) -> AfterValidator:
-    """Refuse an id that is none of those that are accepted."""
-    words = tuple(accepted)
-
-    def check(text: str) -> str:
-        if text not in words:
-            raise ContentError(say("standard.one_of", accepted=words))
-        return text
-
-    return AfterValidator(check)
-
-
 class _Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, strict=True, str_strip_whitespace=True
@@ -110,6 +107,129 @@ class _Table(BaseModel):
 
 
 Text = Annotated[str, Field(min_length=1)]
+Status = Literal["read", "secondary", "assumed", "user"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StandardValue:
+    """One value of a profile, as its file has it.
+
+    Attributes
+    ----------
+    id, clause, text, source : str
+        What it is and where it comes from; clause "-" where there is none.
+    value : float
+        As printed, in ``unit``.
+    unit : str
+        Such as "deg", "m" or "-".
+    status : str
+        "read" in the document, from a "secondary" source, "assumed", or "user".
+    reason_beyond : str
+        Why it may lie beyond what any document has, as a factor below 1; else "".
+    """
+
+    id: Text
+    clause: Text
+    text: Text
+    value: Annotated[FiniteFloat, Strict()]
+    unit: Text
+    status: Status
+    source: Text
+    reason_beyond: str = ""
+
+    @property
+    def value_si(self) -> float:
+        """The value with degrees as radians; all else as printed."""
+        return radian_from_degree(self.value) if self.unit == "deg" else self.value
+
+
+def _is_of(units: Mapping[str, str]) -> AfterValidator:
+    """Refuse a value whose id, unit or size is none that its file may have."""
+
+    def check(entry: StandardValue) -> StandardValue:
+        if entry.id not in units:
+            raise ContentError(say("standard.id", id=entry.id, accepted=tuple(units)))
+        if entry.unit != units[entry.id]:
+            needed = units[entry.id]
+            raise ContentError(
+                say("standard.unit", unit=entry.unit, needed=needed, id=entry.id)
+            )
+        # some coefficients of a polynomial are negative
+        if entry.value <= 0 and not entry.id.startswith("snow.creep."):
+            raise ContentError(say("standard.above_zero", value=entry.value))
+        _require_bounds(entry.id, entry.value, entry.reason_beyond)
+        return entry
+
+    return AfterValidator(check)
+
+
+class TableRow(_Table):
+    """Value [-] from one count to another, both included; ``to`` may be inf."""
+
+    from_: Annotated[int, Field(ge=1, alias="from")]
+    to: float
+    value: Annotated[FiniteFloat, Field(gt=0)]
+
+
+class StandardTable(_Table):
+    """Values of a profile by a count, such as the number of tests, without a gap.
+
+    Counts outside the rows have no value. ``over`` says what is counted; all else is
+    as of a `StandardValue`.
+    """
+
+    id: Text
+    clause: Text
+    text: Text
+    over: Text
+    unit: Literal["-"]
+    status: Status
+    source: Text
+    reason_beyond: str = ""
+    rows: Annotated[list[TableRow], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.id not in TABLE_COUNTS:
+            accepted = tuple(TABLE_COUNTS)
+            raise ContentError(say("standard.id", id=self.id, accepted=accepted))
+        needed = TABLE_COUNTS[self.id]
+        if self.over != needed:
+            raise ContentError(say("standard.over", over=self.over, needed=needed))
+        least = float(self.rows[0].from_)
+        for number, row in enumerate(self.rows, 1):
+            _require_bounds(self.id, row.value, self.reason_beyond)
+            is_whole = row.to == math.inf or row.to.is_integer()
+            if not (row.from_ == least <= row.to and is_whole):
+                place = {"number": number, "start": row.from_, "end": row.to}
+                raise ContentError(say("standard.row", **place, least=least))
+            least = row.to + 1.0
+        return self
+
+    def find(self, count: int) -> float | None:
+        """Value at a count [-]; None outside the table: no extrapolation."""
+        values = (row.value for row in self.rows if row.from_ <= count <= row.to)
+        return next(values, None)
+
+    @property
+    def values(self) -> tuple[StandardValue, ...]:
+        """Each row as a value of its own, for lists: ``id[from]``."""
+        least, most = find_bounds(self.id)
+        return tuple(
+            StandardValue(
+                id=f"{self.id}[{row.from_}]",
+                clause=self.clause,
+                text=f"{self.text} {self.over.capitalize()}: {row.from_}"
+                + (" and more" if row.to == math.inf else f" to {row.to:g}")
+                * (row.to != row.from_),
+                value=row.value,
+                unit=self.unit,
+                status=self.status,
+                source=self.source,
+                reason_beyond="" if least <= row.value <= most else self.reason_beyond,
+            )
+            for row in self.rows
+        )
 
 
 class LoadTable(_Table):
@@ -118,6 +238,12 @@ class LoadTable(_Table):
     floor: Floor = "guideline"
     maker: Literal["floor", "none"] = "floor"  # anchor forces that a net's maker states
     governs: Literal["larger", "guideline"] = "larger"  # of guideline and coupled force
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.floor, self.governs) == ("none", "guideline"):
+            raise ContentError(say("standard.nothing_governs"))
+        return self
 
 
 Checked = Literal["checked", "not checked"]
@@ -141,10 +267,13 @@ class AnchorsTable(_Table):
     sum: SharedSum = "vector"
 
 
+NAME = r"^[a-z0-9][a-z0-9._-]*$"  # of a profile, and of a choice
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
-    id: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
+    id: Annotated[str, Field(pattern=NAME)]
     version: Annotated[str, Field(pattern=r"^[0-9]+(\.[0-9]+)*$")]
     title: Text
     edition: Text
@@ -159,188 +288,87 @@ class DocumentFile(_Table):
     anchors: AnchorsTable = AnchorsTable()
 
 
-class Entry(_Table):
-    """One value: as printed, with clause, source and how well it is known."""
+class _ListTable(_Table):
+    """A table with lists of values."""
 
-    id: Text
-    clause: Text  # "-" where there is none
-    text: Text
-    value: Annotated[FiniteFloat, Field(gt=0)]
-    unit: Text
-    status: Literal["read", "secondary", "assumed", "user"]
-    source: Text
-    reason_beyond: str = ""  # of a value beyond what any document has, or below 1
+    model_config = ConfigDict(strict=False)  # or values have to be made before
 
 
-class LimitEntry(Entry):
-    """A limit of geometry."""
-
-    id: Annotated[str, _is_one_of(LIMIT_UNITS)]
-
-    @model_validator(mode="after")
-    def _check(self) -> LimitEntry:
-        _require_unit(self, LIMIT_UNITS[self.id])
-        _require_bounds(self.id, self.value, self.reason_beyond)
-        return self
+Factor = Annotated[StandardValue, _is_of(dict.fromkeys(FACTOR_IDS, "-"))]
 
 
-class FactorEntry(Entry):
-    """A partial factor on actions or resistances; below 1 only with a reason."""
-
-    id: Annotated[str, _is_one_of(FACTOR_IDS)]
-    unit: Literal["-"]
-
-    @model_validator(mode="after")
-    def _check(self) -> FactorEntry:
-        _require_bounds(self.id, self.value, self.reason_beyond)
-        return self
-
-
-class ModelEntry(Entry):
-    """A number of a guideline's load model."""
-
-    id: Annotated[str, _is_one_of(MODEL_UNITS)]
-    # some coefficients of a polynomial are negative
-    value: FiniteFloat
-
-    @model_validator(mode="after")
-    def _check(self) -> ModelEntry:
-        _require_unit(self, MODEL_UNITS[self.id])
-        if self.value <= 0 and not self.id.startswith("snow.creep."):
-            raise ContentError(say("standard.above_zero", value=self.value))
-        _require_bounds(self.id, self.value, self.reason_beyond)
-        return self
-
-
-class TableRow(_Table):
-    """Value from one count to another, both included; ``to`` may be inf."""
-
-    from_: Annotated[int, Field(ge=1, alias="from")]
-    to: float
-    value: Annotated[FiniteFloat, Field(gt=0)]
-
-
-class TableEntry(_Table):
-    """Values by a count: rows in order, without overlap and without a gap.
-
-    Counts below those of the first row have no value.
-    """
-
-    id: Annotated[str, _is_one_of(TABLE_COUNTS)]
-    clause: Text
-    text: Text
-    over: Text
-    unit: Literal["-"]
-    status: Literal["read", "secondary", "assumed", "user"]
-    source: Text
-    reason_beyond: str = ""
-    rows: Annotated[list[TableRow], Field(min_length=1)]
-
-    @model_validator(mode="after")
-    def _check(self) -> TableEntry:
-        for row in self.rows:
-            _require_bounds(self.id, row.value, self.reason_beyond)
-        if self.over != TABLE_COUNTS[self.id]:
-            needed = TABLE_COUNTS[self.id]
-            raise ContentError(say("standard.over", over=self.over, needed=needed))
-        expected = float(self.rows[0].from_)
-        for number, row in enumerate(self.rows, 1):
-            if row.from_ != expected:
-                raise ContentError(_describe_gap(number, row.from_, expected))
-            is_whole = row.to == math.inf or float(row.to).is_integer()
-            if not (is_whole and row.to >= row.from_):
-                raise ContentError(
-                    say("standard.row_end", number=number, end=row.to, least=row.from_)
-                )
-            expected = row.to + 1.0
-        return self
-
-
-class ChoiceEntry(_Table):
+class ChoiceTable(_ListTable):
     """A named set of factors and tables that take the place of their namesakes.
 
     ``without`` names factors that the set does not have.
     """
 
-    name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
+    name: Annotated[str, Field(pattern=NAME)]
     text: Text
-    factor: list[FactorEntry]
-    table: list[TableEntry] = []
-    without: list[Annotated[str, _is_one_of(FACTOR_IDS)]] = []
+    factor: list[Factor]
+    table: list[StandardTable] = []
+    without: list[str] = []
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for name in self.without:
+            if name not in FACTOR_IDS:
+                raise ContentError(say("standard.id", id=name, accepted=FACTOR_IDS))
+        return self
 
 
-class _ListFile(_Table):
+class _ListFile(_ListTable):
     """A file with one list, whose entries have ids or names of their own."""
 
     @model_validator(mode="after")
-    def _require_unique(self) -> Self:
+    def _check(self) -> Self:
         (entries,) = (getattr(self, key) for key in type(self).model_fields)
         ids = [getattr(entry, "id", None) or entry.name for entry in entries]
         twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
         if twice:
             raise ContentError(say("standard.twice", ids=twice))
+        for group in _GROUPS:
+            missing = tuple(name for name in group if name not in ids)
+            if 0 < len(missing) < len(group):
+                given = next(name for name in group if name in ids)
+                raise ContentError(
+                    say("standard.only_with", given=given, missing=missing)
+                )
+        values = {entry.id: entry.value for entry in entries if hasattr(entry, "value")}
+        for least, most in _PAIRS:
+            if least in values and not values[least] < values[most]:
+                raise ContentError(say("standard.must_be_less", least=least, most=most))
         return self
 
 
 class LimitsFile(_ListFile):
     """``limits.toml``: ``[[limit]]`` tables; ``limit = []`` if there are none."""
 
-    limit: list[LimitEntry]
-
-    @model_validator(mode="after")
-    def _check(self) -> LimitsFile:
-        by_id = {entry.id: entry.value for entry in self.limit}
-        for least, most in _PAIRS:
-            if (least in by_id) != (most in by_id):
-                raise ContentError(
-                    say("standard.only_together", least=least, most=most)
-                )
-            if least in by_id and not by_id[least] < by_id[most]:
-                raise ContentError(say("standard.must_be_less", least=least, most=most))
-        return self
+    limit: list[Annotated[StandardValue, _is_of(LIMIT_UNITS)]]
 
 
 class FactorsFile(_ListFile):
     """``factors.toml``: ``[[factor]]`` tables; ``factor = []`` if there are none."""
 
-    factor: list[FactorEntry]
+    factor: list[Factor]
 
 
 class ModelFile(_ListFile):
     """``model.toml``, optional: ``[[value]]`` tables of a guideline's load model."""
 
-    value: list[ModelEntry]
-
-    @model_validator(mode="after")
-    def _check(self) -> ModelFile:
-        ids = [entry.id for entry in self.value]
-        for group in ("snow.", "end."):
-            needed = [name for name in MODEL_UNITS if name.startswith(group)]
-            missing = tuple(name for name in needed if name not in ids)
-            if missing and len(missing) < len(needed):
-                raise ContentError(
-                    say("standard.all_or_none", group=group, missing=missing)
-                )
-        return self
+    value: list[Annotated[StandardValue, _is_of(MODEL_UNITS)]]
 
 
 class TablesFile(_ListFile):
     """``tables.toml``, optional: ``[[table]]`` tables of values by a count."""
 
-    table: list[TableEntry]
+    table: list[StandardTable]
 
 
 class ChoicesFile(_ListFile):
     """``choices.toml``, optional: ``[[choice]]`` tables, sets of factors by name."""
 
-    choice: list[ChoiceEntry]
-
-
-def _require_unit(entry: Entry, unit: str) -> None:
-    if entry.unit != unit:
-        raise ContentError(
-            say("standard.unit", unit=entry.unit, needed=unit, id=entry.id)
-        )
+    choice: list[ChoiceTable]
 
 
 def find_bounds(name: str) -> tuple[float, float]:
@@ -357,11 +385,6 @@ def _require_bounds(name: str, value: float, reason: str) -> None:
         raise ContentError(
             say("standard.beyond", id=name, value=value, low=low, high=high, key=key)
         )
-
-
-def _describe_gap(number: int, start: int, expected: float) -> Message:
-    key = "standard.row_overlaps" if start < expected else "standard.row_leaves"
-    return say(key, number=number, start=start, expected=expected)
 
 
 FileT = TypeVar("FileT", bound=_Table)
@@ -403,7 +426,7 @@ def _describe(file: str, shape: type[BaseModel], detail: ErrorDetails) -> Messag
     """One line from one complaint: where, what is accepted, what stands there."""
     parts = tuple(_name(part) for part in detail["loc"])
     place = say("standard.place", parts=parts or (say("standard.whole_file"),))
-    if detail["type"] == "extra_forbidden":
+    if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         keys = _list_keys(shape, detail)
         return say("standard.unknown_key", file=file, place=place, accepted=keys)
     if detail["type"] == "missing":
@@ -420,10 +443,11 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     at: Any = shape
     for part in detail["loc"][:-1]:
-        if isinstance(part, int):
-            (at,) = get_args(at)
-        else:
-            at = at.model_fields[part].annotation
+        at = at.model_fields[part].annotation if isinstance(part, str) else at
+        while get_args(at):  # of a list, or of a value with its check
+            at = get_args(at)[0]
+    if is_dataclass(at):
+        return tuple(field.name for field in fields(at))
     return tuple(field.alias or name for name, field in at.model_fields.items())
 
 

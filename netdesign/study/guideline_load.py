@@ -167,7 +167,7 @@ def list_assumed(row: NetRow) -> list[Message]:
 def load_glide_limits() -> tuple[float, float]:
     """Least and largest glide factor of the guideline's tables [-]."""
     tables = [table for table in load_guideline().tables if table.id in GLIDE_FACTORS]
-    factors = [value for table in tables for _, _, value in table.rows]
+    factors = [row.value for table in tables for row in table.rows]
     return min(factors), max(factors)
 
 

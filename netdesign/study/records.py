@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from netdesign.checks.check import CasePoint, Check, OpenKind
-from netdesign.checks.loader import StandardValue
+from netdesign.checks.schema import StandardValue
 from netdesign.edge.json_text import (
     Items,
     hash_values,

@@ -156,14 +156,14 @@ def test_consequence_class_3_is_stricter(folder):
             "tables.toml",
             "{ from = 2, to = 2, value = 1.3 }",
             "{ from = 3, to = 3, value = 1.3 }",
-            "'from' = 3: leaves 2 without a value",
+            "'rows' entry 2: 'from' = 3, 'to' = 3: must begin at 2",
         ),
         (
             "eurocode",
             "tables.toml",
             "{ from = 2, to = 2, value = 1.3 }",
             "{ from = 1, to = 2, value = 1.3 }",
-            "'from' = 1: overlaps the row before",
+            "'rows' entry 2: 'from' = 1, 'to' = 2: must begin at 2",
         ),
     ],
 )
@@ -183,7 +183,7 @@ def test_half_a_group_is_refused(folder):
     kept = [one for one in blocks if 'id = "end.isolated_gap"' not in one]
     path.write_text("[[value]]".join(kept), "utf-8")
     with pytest.raises(
-        StandardError, match=r"end\.\* are given all or none; lacks end"
+        StandardError, match=r"end\.constant is only accepted with end\.isolated_gap"
     ):
         load_standard(mine)
 

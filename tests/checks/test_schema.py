@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 
 import pytest
 
@@ -121,7 +122,8 @@ def test_blank_text_is_refused(key, blank):
 @each("value", [0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None])
 def test_value_must_be_a_positive_finite_number(value):
     message = refusal(FactorsFile, {"factor": [an_entry(value=value)]})
-    assert f"my.toml: 'factor' entry 1 'value' = {value!r}: " in message
+    place = rf"my\.toml: 'factor' entry 1:? 'value' = {re.escape(repr(value))}: "
+    assert re.match(place, message)
 
 
 def test_smallest_positive_value_is_accepted():
@@ -201,8 +203,8 @@ def test_same_id_twice_is_refused():
 
 def test_one_end_of_a_range_alone_is_refused():
     assert refusal(LimitsFile, {"limit": some_limits()[:1]}) == (
-        "my.toml: whole file: geometry.inclination.min and geometry.inclination.max "
-        "are only accepted together"
+        "my.toml: whole file: geometry.inclination.min is only accepted with "
+        "geometry.inclination.max"
     )
 
 

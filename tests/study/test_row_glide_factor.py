@@ -74,7 +74,7 @@ def test_no_factor_lies_below_the_least_of_the_guideline_s_tables():
     """Typed, of a slip length or of a ground without slip; limits from the profile."""
     tables = load_standard("swiss-guideline-2007").tables
     rows = [one.rows for one in tables if one.id.startswith("glide.factor")]
-    factors = [value for table in rows for _, _, value in table]
+    factors = [row.value for table in rows for row in table]
     assert load_glide_limits() == (min(factors), max(factors)) == (1.2, 3.2)
     for glide in (1.0, 1.0004, 1.1999):
         assert find_row_glide_factor(a_row(glide_factor=glide)) == 1.2
