@@ -428,15 +428,12 @@ def _list_profile(study: Study) -> Named:
 
 
 def _list_quantities(study: Study) -> Named:
-    """Numbers of pieces by type, and the area of the nets, as far as they are known."""
+    """Numbers of anchors by type, as far as they are known."""
     counts: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
     for part in (piece for row in study.rows for piece in row.parts):
-        if part.part == "net":
-            what, more = say("diff.net_area"), part.size
-        else:
-            what, more = say("diff.pieces", type=part.type_id), part.count
-        if more is not None:
-            counts[what] = round(counts.get(what, 0.0) + more, 1)
+        what = say("diff.pieces", type=part.type_id)
+        if part.count is not None:
+            counts[what] = counts.get(what, 0) + part.count
     return counts
 
 

@@ -15,7 +15,7 @@ from netdesign.structure.anchors import PullRange
 from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
 from netdesign.units import radian_from_degree
-from netdesign.words.message import Message, Text
+from netdesign.words.message import Text
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,12 +70,8 @@ class GuidelineCase:
     name: str
     load_kN_per_m: float | None  # along the slope on the net
     foot_anchor_kN: float | None
-    uphill_guy_kN: float | None
-    post_kN: float | None
     reason: Text | None = None  # why a force is None
     density_kg_m3: float
-    height_vertical_m: float
-    creep_factor: float | None
     glide_factor: float | None
     loaded_share: float = 1.0  # of the net's height, from the foot
 
@@ -95,24 +91,10 @@ class GuidelineRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class FloorForceRecord:
-    """Largest force of the guideline's load in one member, inside the row.
-
-    With the load on the net that brings it, for each metre of width.
-    """
+    """Largest force of the guideline's load in one member, inside the row."""
 
     load_case: str  # "load_case_1" or "load_case_2"
-    normal_share: float = 0.35  # a of (G4): of the normal part
-    inclination_deg: float  # of the net, where a force is largest
-    snow_thickness_m: float  # of the snow that is held, there as well
-    density_kg_m3: float
-    height_vertical_m: float
-    creep_factor: float
-    glide_factor: float
-    load_along_kN_per_m: float  # on the net, downslope, with the prism
-    load_across_kN_per_m: float  # out of the ground
-    stiffness_kN_per_m: float
-    slack: float
-    chord_tension_kN_per_m: float
+    inclination_deg: float  # of the net, where the force is largest
     member: str
     force_kN: float  # characteristic
 
@@ -227,15 +209,3 @@ class EndGuyRecord:
     # of the outer guy by a linear truss; None where there is no second guy on a side
     uphill_guy_kN: float | None = None
     downhill_guy_kN: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class PanelRecord:
-    """Panel between two posts of a row, inside it.
-
-    Where columns are ``assumed``, since they are empty, forces are the largest of all
-    panels that were tried, and the anchors in mid-panel are those of the first.
-    """
-
-    has_mid_anchors: bool
-    assumed: Items[Message] = field(default_factory=list)

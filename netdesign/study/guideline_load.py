@@ -268,7 +268,7 @@ def record_floor(
     row: NetRow,
     factors: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> FloorRecord | None:
-    """Floor of a row in engineer's units, each force with what it follows from.
+    """Floor of a row in engineer's units.
 
     ``factors`` are those on lower rope, ridge rope and heads.
     """
@@ -287,23 +287,11 @@ def record_floor(
 
 
 def _record_force(force: FloorForce) -> FloorForceRecord:
-    net, (along, across) = force.net, force.load.resultant
     return FloorForceRecord(
         member=force.member,
         force_kN=kilonewton_from_newton(force.force),
         load_case=force.case.name,
-        normal_share=force.case.normal_share,
-        inclination_deg=given_degree_from_radian(net.inclination),
-        snow_thickness_m=net.snow_thickness,
-        density_kg_m3=force.case.density,
-        height_vertical_m=force.case.height_vertical,
-        creep_factor=force.load.creep_factor,
-        glide_factor=force.load.glide_factor,
-        load_along_kN_per_m=kilonewton_from_newton(along),
-        load_across_kN_per_m=kilonewton_from_newton(across),
-        stiffness_kN_per_m=kilonewton_from_newton(net.stiffness),
-        slack=net.slack,
-        chord_tension_kN_per_m=kilonewton_from_newton(force.pull.chord_tension),
+        inclination_deg=given_degree_from_radian(force.net.inclination),
     )
 
 
@@ -430,21 +418,17 @@ def _name_cause(row: NetRow) -> Message:
 
 
 def _record_case(result: GuidelineResult, net: NetGeometry[float]) -> GuidelineCase:
-    snow, forces = result.load, result.anchors.member_forces if result.anchors else {}
+    snow = result.load
     along = snow.resultant[0] if snow else None
     filled = result.case.height_vertical * math.cos(net.slope_angle) / net.net_height
     return GuidelineCase(
         name=result.case.name,
         density_kg_m3=result.case.density,
-        height_vertical_m=result.case.height_vertical,
         loaded_share=result.case.settled * min(filled, 1.0),
-        creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
         reason=result.reason,
         load_kN_per_m=kilonewton_if_known(along),
-        foot_anchor_kN=kilonewton_if_known(forces.get(Member.FOOT_ANCHOR)),
-        uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
-        post_kN=kilonewton_if_known(forces.get(Member.POST)),
+        foot_anchor_kN=kilonewton_if_known(result.foot),
     )
 
 

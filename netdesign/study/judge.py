@@ -12,7 +12,6 @@ from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
-from netdesign.study.case_records import PanelRecord
 from netdesign.study.conditions import list_conditions, merge_conditions
 from netdesign.study.governing_case import (
     record_drawing,
@@ -133,7 +132,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         checks=checks,
         cases=cases,
         inputs=list(row.inputs),
-        parts=list_parts(forces.row, task.site.ranges["inclination"]),
+        parts=list_parts(forces.row),
         drawing=record_drawing(forces.row, governing),
         questions=list(row.questions),
         assumed=[
@@ -145,7 +144,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         guideline=record_guideline(forces.row, foot, task.standard),
         floor=forces.floor,
         model_form=model_form,
-        panel=_record_panel(row),
         notes=list_judged_notes(forces, checks, cases, governing),
         held_sideways=forces.along_row,
         tilt=forces.tilt,
@@ -155,13 +153,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
             condition for each in variants for condition in list_conditions(each.forces)
         ),
     )
-
-
-def _record_panel(row: NetRow) -> PanelRecord | None:
-    if not row.panels:
-        return None
-    has_mid_anchors = row.panels[0].has_mid_anchors
-    return PanelRecord(has_mid_anchors=has_mid_anchors, assumed=list(row.panel_assumed))
 
 
 def _find_worst_variant(row_checks: RowChecks, variants: Sequence[Variant]) -> Variant:

@@ -33,7 +33,6 @@ from netdesign.study.case_records import (
     GuidelineRecord,
     HeldSidewaysRecord,
     LargestForce,
-    PanelRecord,
     PullRecord,
 )
 from netdesign.study.conditions import Condition, merge_conditions
@@ -172,12 +171,11 @@ class RowStudy:
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: Items[Text] = field(default_factory=list)
     independent: Items[IndependentRecord] = field(default_factory=list)
-    panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     end_guy: EndGuyRecord | None = None  # None without one, or where nothing holds it
     tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
-    parts: Items[PartRecord] = field(default_factory=list)  # that it is built of
+    parts: Items[PartRecord] = field(default_factory=list)  # anchors by type
     conditions: Items[Condition] = field(default_factory=list)  # beside the numbers
     reliability: ReliabilityRecord | None = None  # None without --reliability
 

@@ -316,36 +316,36 @@ def study_floor(study):
 
 
 def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
-    """By (G1) to (G9), from the record and the row's own geometry alone."""
+    """By (G1) to (G9), from its load and the row's own geometry alone."""
     _, study = judge(solved)
-    foot = study.rows[0].floor.forces[0]
-    share = {"load_case_1": 1.0, "load_case_2": 0.77}[foot.load_case]
-    lean, slope = math.radians(foot.inclination_deg), ROW.slope_angle
-    height = foot.height_vertical_m
-    assert foot.snow_thickness_m / math.cos(slope) == pytest.approx(height)
-    unit = foot.density_kg_m3 * 10.0 / 1e3
-    along = 0.4 * unit * height**2 * foot.creep_factor * foot.glide_factor
+    stated, foot = study.rows[0].floor.forces[0], a_floor().forces[0]
+    assert stated.load_case == foot.case.name
+    share = {"load_case_1": 1.0, "load_case_2": 0.77}[stated.load_case]
+    lean, slope = math.radians(stated.inclination_deg), ROW.slope_angle
+    height, snow = foot.case.height_vertical, foot.load
+    assert foot.net.snow_thickness / math.cos(slope) == pytest.approx(height)
+    unit = foot.case.density * 10.0 / 1e3
+    along = 0.4 * unit * height**2 * snow.creep_factor * snow.glide_factor
     prism = 0.5 * unit * (height * math.cos(slope)) ** 2 * math.tan(lean)
-    down = along * foot.normal_share / (foot.glide_factor * math.tan(slope))
+    down = along * foot.case.normal_share / (snow.glide_factor * math.tan(slope))
     down += prism * math.cos(slope)
     along += prism * math.sin(slope)
-    assert foot.load_along_kN_per_m == pytest.approx(along, rel=1e-9)
-    assert foot.load_across_kN_per_m == pytest.approx(-down, rel=1e-9)
+    load_along, load_across = (part / 1e3 for part in snow.resultant)
+    assert load_along == pytest.approx(along, rel=1e-9)
+    assert load_across == pytest.approx(-down, rel=1e-9)
     across = along * math.cos(lean) + down * math.sin(lean)
-    k = share * foot.snow_thickness_m / ROW.net_height
+    k = share * foot.net.snow_thickness / ROW.net_height
     v1, v2 = 1.0 - 0.5 * k, 0.5 * k
     square = k * (v1**2 - v1 * v2 + v2**2) / 3.0 + (1.0 - k) * v2**2
-    tension = foot.chord_tension_kN_per_m
-    stretch = (1.0 + foot.slack) * tension / foot.stiffness_kN_per_m
+    tension = foot.pull.chord_tension / 1e3
+    stretch = (1.0 + foot.net.slack) * tension / (foot.net.stiffness / 1e3)
     needed = 0.5 * square * (across / tension) ** 2
-    assert needed == pytest.approx(foot.slack + stretch, rel=1e-9)
-    x = (1.0 - share / 2.0) * foot.load_along_kN_per_m
-    y = (1.0 - share / 2.0) * foot.load_across_kN_per_m
-    x += foot.chord_tension_kN_per_m * math.sin(lean)
-    y += foot.chord_tension_kN_per_m * math.cos(lean)
+    assert needed == pytest.approx(foot.net.slack + stretch, rel=1e-9)
+    x = (1.0 - share / 2.0) * load_along + tension * math.sin(lean)
+    y = (1.0 - share / 2.0) * load_across + tension * math.cos(lean)
     again = math.hypot(x, y) * ROW.layout.post_spacing
-    assert foot.member == Member.FOOT_ANCHOR
-    assert foot.force_kN == pytest.approx(again, rel=1e-9)
+    assert stated.member == foot.member == Member.FOOT_ANCHOR
+    assert stated.force_kN == pytest.approx(again, rel=1e-9)
     assert isinstance(a_floor(), Floor)
 
 

@@ -39,7 +39,6 @@ from netdesign.words.catalogue import round_force_up
 
 _FLAT_DEG = 10.0  # below the horizontal, of a bore that is hard to fill
 _UPRIGHT_DEG = 90.0
-_PARTS = {"mid_anchor": "foot_anchor"}  # counted with another part
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,9 +93,7 @@ def _build_line(
     study: Study,
 ) -> AnchorLine:
     parts = [
-        part
-        for part in row.parts
-        if _PARTS.get(part.part, part.part) == member and part.type_id == type_id
+        part for part in row.parts if part.part == member and part.type_id == type_id
     ]
     counts = [part.count for part in parts if part.count is not None]
     pulls = [pull for pull in row.pulls if pull.anchor == member]
