@@ -113,13 +113,6 @@ class GuidelineResult:
     reason: Message | None = None
 
     @property
-    def solved(self) -> tuple[SnowLoad[float], NetPull[float], AnchorForces] | None:
-        """Load, pull and anchors; None unless there are all."""
-        if self.load is None or self.pull is None or self.anchors is None:
-            return None
-        return self.load, self.pull, self.anchors
-
-    @property
     def foot(self) -> float | None:
         """Force of the foot anchor [N]; None where the support has no equilibrium."""
         if self.anchors is None:
@@ -293,47 +286,19 @@ def solve_load_case(
     glide_factor : float
         N [-].
     """
-    return hold_net(net, load_net(model, net, case, glide_factor))
-
-
-def load_net(
-    model: LoadModel,
-    net: NetGeometry[float],
-    case: LoadCase[float],
-    glide_factor: float,
-) -> GuidelineResult:
-    """Load and pulls of one load case, whatever support holds them."""
     try:
         load, pull = find_pulls(model, net, case, glide_factor)
-    except ModelError as error:
-        return GuidelineResult(case=case, reason=error.message)
-    return GuidelineResult(case=case, load=load, pull=pull)
-
-
-def hold_net(net: NetGeometry[float], loaded: GuidelineResult) -> GuidelineResult:
-    """Forces on the support of a net that hold its pulls.
-
-    Parameters
-    ----------
-    net : NetGeometry
-        Net row.
-    loaded : GuidelineResult
-        Of `load_net`; of a net that differs in nothing but its layout.
-    """
-    if loaded.pull is None:
-        return loaded
-    try:
         anchors = compute_anchor_forces(
             place_support(net.layout, place_head(net)),
-            foot_pull_per_m=loaded.pull.foot,
-            head_pull_per_m=loaded.pull.head,
+            foot_pull_per_m=pull.foot,
+            head_pull_per_m=pull.head,
             post_spacing=net.layout.post_spacing,
         )
     except ModelError as error:
-        return GuidelineResult(case=loaded.case, reason=error.message)
+        return GuidelineResult(case=case, reason=error.message)
     if isinstance(anchors, FailedSupport):
-        return replace(loaded, reason=anchors.reason)
-    return replace(loaded, anchors=anchors)
+        return GuidelineResult(case=case, load=load, pull=pull, reason=anchors.reason)
+    return GuidelineResult(case=case, load=load, pull=pull, anchors=anchors)
 
 
 def find_pulls(

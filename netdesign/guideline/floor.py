@@ -15,10 +15,9 @@ from netdesign.guideline.comparison import (
     LoadCase,
     NetGeometry,
     find_pulls,
-    hold_net,
     list_load_cases,
-    load_net,
     place_head,
+    solve_load_case,
 )
 from netdesign.guideline.load_model import (
     LoadModel,
@@ -46,6 +45,7 @@ _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
 _HEAD, _TURN = "head_pull", "foot_turn"
 
 Span = tuple[float, float]
+Tried = Mapping[str, Floats]  # by layout, load case, end of the tension and point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,12 +183,11 @@ def find_floors(
             return [Floor(reason=failed.reason)]
         alone = (find_floors(model, ranges, altitude, (one,)) for one in layouts)
         return [floor for (floor,) in alone]
-    reached, count, load = scan.try_points(points), len(layouts), cache(scan.load_one)
-    own = zip(np.split(points, count, axis=1), np.split(largest, count), strict=True)
-    tried = np.split(np.arange(points.shape[1]), count)
+    count, tried = len(layouts), scan.try_points(points)
+    own = np.split(np.arange(points.shape[1]), count)
     return [
-        _take_floor(layout, load, of_layout, _pick(reached, place, tried[place]))
-        for (place, layout), of_layout in zip(enumerate(layouts), own, strict=True)
+        _take_floor(scan, place, points, largest[own[place]], own[place], tried)
+        for place in range(count)
     ]
 
 
@@ -219,48 +218,33 @@ def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
     )
 
 
-_Loaded = tuple[NetGeometry[float], GuidelineResult]
-_LoadOne = Callable[[tuple[float, ...], int, int], _Loaded]
-
-
 def _take_floor(
-    layout: SupportLayout,
-    load: _LoadOne,
-    found: tuple[Floats, Floats],
-    reached: Mapping[str, Floats],
+    scan: _Scan, layout: int, points: Floats, largest: Floats, own: Ints, tried: Tried
 ) -> Floor:
-    """Floor on one of the layouts, from the points found for it and what they bring."""
-    points, largest = found
+    """Floor on one of the layouts, from its own points and what they bring."""
     # members are often largest at the same place
-    hold = cache(lambda *place: _hold(*load(*place), layout))
+    solve = cache(scan.solve_one)
     forces: list[FloorForce] = []
-    for member, sizes in reached.items():
-        case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
-        point = tuple(map(float, points[:, number]))
-        net, result = hold(point, int(case), int(end))
-        if result.solved is None:
+    for member in _LOADED:
+        sizes = np.broadcast_to(tried[member], tried[Member.POST].shape)[layout]
+        sizes = sizes[..., own]
+        case, end, place = np.unravel_index(sizes.argmax(), sizes.shape)
+        point = tuple(points[:, own[place]].tolist())
+        net, result = solve(point, int(case), int(end), layout)
+        if result.load is None or result.pull is None or result.anchors is None:
             return Floor(reason=_explain(net, result))
-        snow, pull, anchors = result.solved
-        of_members = {**anchors.member_forces, NetPart.MESH: pull.largest_tension}
+        of_members = result.anchors.member_forces
+        of_members[NetPart.MESH] = result.pull.largest_tension
         force = FloorForce(
             member=member,
             force=of_members[member],
             net=net,
             case=result.case,
-            load=snow,
-            pull=pull,
+            load=result.load,
+            pull=result.pull,
         )
         forces.append(force)
     return Floor(forces=tuple(forces), head=_measure_head(largest))
-
-
-def _pick(tried: Mapping[str, Floats], place: int, own: Ints) -> dict[str, Floats]:
-    """Forces of the members on one layout, at some of what was tried [N]."""
-    shape = tried[Member.POST].shape
-    return {
-        member: np.broadcast_to(tried[member], shape)[place][..., own]
-        for member in _LOADED
-    }
 
 
 def _measure_head(largest: Floats) -> HeadSpan:
@@ -406,8 +390,10 @@ class _Scan:
         points: Floats = least + share * (largest - least)
         return points
 
-    def load_one(self, point: tuple[float, ...], case: int, end: int) -> _Loaded:
-        """One net under one load case as everywhere else, on the row's own layout."""
+    def solve_one(
+        self, point: tuple[float, ...], case: int, end: int, layout: int
+    ) -> tuple[NetGeometry[float], GuidelineResult]:
+        """One net on one layout, under one load case as everywhere else."""
         inclination, thickness, share = point
         stiffness, slack = _list_ends(self.ranges)[end]
         net = replace(
@@ -416,32 +402,24 @@ class _Scan:
             inclination=inclination,
             stiffness=stiffness,
             slack=slack,
+            layout=self.layouts[layout],
         )
         snow = list_load_cases(self.model, net, self.altitude)[case]
         depth = thickness if snow.creep_factor is None else net.net_height
         glide = float(self._find_glide(np.array([depth]), np.array([share]))[0])
-        net = replace(net, snow_thickness=depth)
-        return net, load_net(self.model, net, snow, glide)
+        result = solve_load_case(self.model, net, snow, glide)
+        return replace(net, snow_thickness=depth), result
 
     def _find_failed(self, points: Floats) -> _FailedAtError:
         """First of the points at which a load case fails, and why."""
-        ends = range(len(_list_ends(self.ranges)))
-        count = len(list_load_cases(self.model, self.ranges.net, self.altitude))
-        tried = product(points.T, range(count), ends, self.layouts)
-        for point, case, end, layout in tried:
-            loaded = self.load_one(tuple(map(float, point)), case, end)
-            net, result = _hold(*loaded, layout)
+        cases = list_load_cases(self.model, self.ranges.net, self.altitude)
+        ends, layouts = _list_ends(self.ranges), self.layouts
+        places = product(*(range(len(each)) for each in (cases, ends, layouts)))
+        for point, place in product(points.T.tolist(), places):
+            net, result = self.solve_one(tuple(point), *place)
             if result.anchors is None:
                 return _FailedAtError(_explain(net, result))
         raise AssertionError  # what fails for many fails for one of them
-
-
-def _hold(
-    net: NetGeometry[float], loaded: GuidelineResult, layout: SupportLayout
-) -> _Loaded:
-    """A loaded net on a layout, and the forces there."""
-    net = replace(net, layout=layout)
-    return net, hold_net(net, loaded)
 
 
 class _FailedAtError(Exception):

@@ -123,43 +123,30 @@ def read_load_model(standard: Standard, dimensioning: float | None = None) -> Lo
     StandardError
         If the profile has none.
     """
-
-    def read(name: str) -> float:
-        value = standard.find(f"snow.{name}")
-        if value is None:
-            raise StandardError(
-                say("standard.no_value", profile=standard.id, value=f"snow.{name}")
-            )
-        return value.value
-
-    return LoadModel(
-        gravity=read("gravity"),
-        creep=(
-            read("creep.constant"),
-            read("creep.linear"),
-            read("creep.square"),
-            read("creep.cube"),
-        ),
-        density=1e3 * read("density"),
-        altitude_base=read("altitude.base"),
-        altitude_top=read("altitude.top"),
-        altitude_rate=read("altitude.rate") / 100.0,
-        case_2_height=read("case_2.height"),
-        flexible=read("flexible"),
-        normal=read("normal"),
-        normal_loose=read("normal.loose"),
-        normal_dense=read("normal.dense"),
-        dimensioning=dimensioning,
-    )
+    values = _read_group(standard, "snow.")
+    if not values:
+        value = "snow.gravity"
+        raise StandardError(say("standard.no_value", profile=standard.id, value=value))
+    powers = ("constant", "linear", "square", "cube")
+    c0, c1, c2, c3 = (values.pop(f"creep_{power}") for power in powers)
+    values["density"] *= 1e3
+    values["altitude_rate"] /= 100.0
+    return LoadModel(creep=(c0, c1, c2, c3), dimensioning=dimensioning, **values)
 
 
 def read_end_effect(standard: Standard) -> EndEffectRule | None:
     """End effect of a profile; None if it has none."""
-    if standard.find("end.constant") is None:
-        return None
-    fields = EndEffectRule.__dataclass_fields__
-    values = {name: standard.find(f"end.{name}") for name in fields}
-    return EndEffectRule(**{n: v.value for n, v in values.items() if v is not None})
+    values = _read_group(standard, "end.")
+    return EndEffectRule(**values) if values else None
+
+
+def _read_group(standard: Standard, group: str) -> dict[str, float]:
+    """Values whose ids start alike, which a profile has all or none, by their names."""
+    return {
+        value.id.removeprefix(group).replace(".", "_"): value.value
+        for value in standard.values
+        if value.id.startswith(group)
+    }
 
 
 def compute_creep_factor(
