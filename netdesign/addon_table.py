@@ -30,6 +30,13 @@ METHODS = {
     "transient": "history.settings:build_transient",
     "staggered": "history.settings:build_staggered",
 }
+# Readers of sheets of the workbook, and those on which the record of a row hangs.
+SHEETS = {
+    "Monitoring": "winter.monitoring_sheet:read_monitoring",
+    "Winter": "winter.winter_sheet:read_winter",
+    "Uncertainty": "reliability.uncertainty_sheet:read_uncertain",
+}
+OF_ROWS = ("Uncertainty",)
 # Function that makes a record of a row, by the field that has it.
 ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
 # Addition to the reports of a study whose rows have that field.

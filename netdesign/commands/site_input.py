@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.addon_table import OF_ROWS
 from netdesign.commands.options import (
     refuse_delimiter,
     refuse_jobs,
@@ -138,8 +139,9 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
             for row in site.rows
         )
         # what no check reads is no part of the comparison either
+        of_addons = {x: y for x, y in site.of_addons.items() if x in OF_ROWS}
         bare = replace(site, what_if=(), rows=tuple(rows), findings=(), notes=())
-        return replace(bare, winter=None, monitoring=())
+        return replace(bare, of_addons=of_addons)
 
     whole = read_bare(instead) if instead else None
     for cell in instead:

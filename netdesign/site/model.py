@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 from netdesign.checks import Approval, Declaration
 from netdesign.coupling.scene import is_overtopped
@@ -20,7 +20,6 @@ from netdesign.site.bearing import RowEnd as RowEnd
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.heights import HeightSeries
 from netdesign.snow.snowpack import (
     Layer,
     compute_mean_density,
@@ -32,10 +31,6 @@ from netdesign.structure.members import EndMember, Member, NetPart
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, Text, say
-
-if TYPE_CHECKING:
-    from netdesign.site.further_sheets import MonitoringSeries, UncertainQuantity
-
 
 # What a row takes of a case, beside the usual three; glide if its ground slides.
 _GLIDE = frozenset(("slip_length", "glide_factor"))
@@ -244,50 +239,6 @@ class NetRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StationWinter:
-    """Series of a station, and how it reaches the rows.
-
-    Attributes
-    ----------
-    series : HeightSeries
-        Snow heights [m] and air temperatures [K], gaps closed.
-    station : str
-        Its name; may be empty.
-    altitude : float or None
-        [m].
-    height_factor : float or None
-        f_H of the rows that have none of their own [-]; None where none is given.
-    row_factors : mapping of str to float
-        f_H of single rows by their id [-].
-    source : str
-        First cell.
-    file : str
-        Name of the file of a station alone; empty for sheet Winter of a site.
-    notes : tuple of Message
-        What was filled, what looks odd.
-    """
-
-    series: HeightSeries
-    station: str = ""
-    altitude: float | None = None
-    height_factor: float | None = None
-    row_factors: Mapping[str, float] = field(default_factory=dict)
-    source: str = ""
-    file: str = ""
-    notes: tuple[Message, ...] = ()
-
-    def find_factor(self, row_id: str) -> float | None:
-        """f_H of a row [-]; None where none is given.
-
-        Parameters
-        ----------
-        row_id : str
-            As in sheet Rows.
-        """
-        return self.row_factors.get(row_id, self.height_factor)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """Identification printed on every output.
 
@@ -318,7 +269,6 @@ class Site:
     findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
-    monitoring: tuple[MonitoringSeries, ...] = ()
     declared: tuple[Declaration, ...] = ()
     confirmed: tuple[str, ...] = ()  # cells of numbers, on sheet Declared
     map_file: str = ""  # answers to headings, where there are any
@@ -326,12 +276,12 @@ class Site:
     library_file: str = ""  # of further net types, where there is one
     library_sha256: str = ""
     text_format: TextFormat = UNDECLARED  # with which the file was read
-    winter: StationWinter | None = None
     catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
     links: Mapping[str, tuple[Link, ...]] = field(default_factory=dict)  # by type
     what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
     left_out: tuple[str, ...] = ()  # ids of net rows that are not to be checked
-    uncertain: tuple[UncertainQuantity, ...] = ()  # for the notional reliability alone
+    # what add-ons read, by sheet
+    of_addons: Mapping[str, Any] = field(default_factory=dict)
 
     def take_rows(self, ids: Container[str]) -> Site:
         """Site with some of its net rows; it says which were left out."""
@@ -344,11 +294,6 @@ class Site:
         if not row.ranges.intervals:
             return self
         return replace(self, ranges=self.ranges.replaced_by(row.ranges))
-
-    def find_uncertain(self, row_id: str, name: str) -> UncertainQuantity | None:
-        """What is known of the scatter of a quantity: of the row, else of all."""
-        found = {one.row_id: one for one in self.uncertain if one.name == name}
-        return found.get(row_id, found.get(""))
 
     @property
     def questions(self) -> tuple[Message, ...]:

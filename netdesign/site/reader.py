@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
+from netdesign.addon_table import SHEETS, is_there, load
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import (
@@ -19,16 +21,12 @@ from netdesign.site.cells.cells import (
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
-    MONITORING,
     QUIET_SHEETS,
-    UNCERTAINTY,
-    WINTER,
     load_old_plans,
 )
 from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
-from netdesign.site.further_sheets import read_monitoring, read_uncertain
 from netdesign.site.headings import count_known
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
@@ -44,7 +42,7 @@ from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
 from netdesign.site.office.sheets import is_old, is_read
 from netdesign.site.plausible import ask
-from netdesign.site.snow_sheets import check_layers, read_winter
+from netdesign.site.snow_sheets import check_layers
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.titles import list_meant
 from netdesign.site.type_lines import read_links
@@ -137,13 +135,11 @@ def _read_list(path: Path, found: ListMap, text_format: TextFormat) -> Workbook:
 def _build_site(
     lines: Lines, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
 ) -> Site:
-    workbook, further, ranges = lines.workbook, lines.further, lines.ranges
+    workbook, ranges = lines.workbook, lines.ranges
     net_rows = build_net_rows(lines, findings)
     if ranges.ranges:
         check_layers(net_rows, lines.snow, ranges.ranges, findings)
-    monitoring = read_monitoring(further[MONITORING.name], lines.places, findings)
-    winter = read_winter(further[WINTER.name], lines.places, findings)
-    uncertain = read_uncertain(further[UNCERTAINTY.name], lines.places, findings)
+    of_addons = _read_further(lines, findings)
     links = read_links(lines.links, lines.types, findings)
     declared, confirmed = read_declared(
         lines.declared, workbook, lines.places, findings
@@ -164,8 +160,6 @@ def _build_site(
         findings=tuple(findings),
         range_inputs=ranges.inputs,
         project_cells=lines.project_cells,
-        monitoring=monitoring,
-        winter=winter,
         declared=declared,
         confirmed=tuple(sorted(confirmed)),
         map_file=workbook.answers.file,
@@ -175,8 +169,21 @@ def _build_site(
         catalogue=list_catalogue(lines.types),
         links=links,
         what_if=replaced,
-        uncertain=uncertain,
+        of_addons=of_addons,
     )
+
+
+def _read_further(lines: Lines, findings: list[Finding]) -> dict[str, Any]:
+    """What add-ons read of their sheets; that of an add-on that is gone is told."""
+    values = {}
+    for name, table in lines.further.items():
+        if table is not None and is_there(SHEETS[name]):
+            read = load(name, SHEETS[name])
+            values[name] = read(table, lines.places, findings)
+        elif table is not None:
+            file = lines.workbook.file
+            findings.append(note_file(file, say("table.not_read"), name))
+    return {name: value for name, value in values.items() if value}
 
 
 def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:

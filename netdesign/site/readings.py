@@ -291,24 +291,6 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
                 refuse(reading, rule, lacking.field.accepted, findings)
 
 
-def choose_given(
-    row: Row, keys: tuple[str, str], findings: list[Finding]
-) -> Reading | None:
-    """The one of two columns that a line gives; None with a finding."""
-    first, second = (row[key] for key in keys)
-    if "faulty" in (first.state, second.state):
-        return None
-    if first.state == second.state == "given":
-        refuse_beside(second, first, findings)
-        return None
-    if "given" not in (first.state, second.state):
-        seen = first if first.cell is not None else second
-        rule = say("cell.neither", names=(first.field.name, second.field.name))
-        refuse(seen, rule, say("accepted.exactly_one"), findings)
-        return None
-    return first if first.state == "given" else second
-
-
 def refuse_stored(cell: Cell) -> Refusal | None:
     """Reason why the stored content of a cell is of no use; None if it is of use."""
     if cell.is_error:

@@ -42,7 +42,8 @@ def list_site_notes(
 
     ``accuracy`` is the one asked for [-].
     """
-    without_winter = bool(site.monitoring) and site.winter is None
+    sheets = site.of_addons
+    without_winter = "Monitoring" in sheets and "Winter" not in sheets
     measured = [say("monitoring.needs_winter")] if without_winter else []
     return [
         *site.notes,

@@ -14,6 +14,7 @@ from functools import partial
 from itertools import chain
 from pathlib import Path
 
+from netdesign.addon_table import OF_ROWS
 from netdesign.checks import Standard
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import Fault, catch_fault
@@ -41,7 +42,6 @@ def cut_site(site: Site, row: NetRow) -> Site:
     What is not listed here decides nothing of a row. The notes of a site, its file and
     the rest of its project stand beside the rows.
     """
-    monitoring = tuple(series for series in site.monitoring if series.row_id == row.id)
     return Site(
         project=Project(
             snow_document=site.project.snow_document,
@@ -51,19 +51,15 @@ def cut_site(site: Site, row: NetRow) -> Site:
         rows=(row,),
         file_name="",
         sha256="",
-        monitoring=monitoring,
         declared=tuple(
             declaration
             for declaration in site.declared
             if declaration.row_id in ("", row.id)
         ),
         confirmed=site.confirmed,
-        winter=site.winter if monitoring else None,
         catalogue=site.catalogue,
         links=site.links,
-        uncertain=tuple(
-            quantity for quantity in site.uncertain if quantity.row_id in ("", row.id)
-        ),
+        of_addons={x: y for x, y in site.of_addons.items() if x in OF_ROWS},
     )
 
 

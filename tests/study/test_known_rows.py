@@ -6,14 +6,13 @@ import random
 import sqlite3
 from collections.abc import Mapping
 from contextlib import closing
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from datetime import date, timedelta
 
 import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Fault, Outcome, SiteDataError
-from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
@@ -226,13 +225,23 @@ def test_a_confirmed_number_is_in_the_part_and_in_the_name_of_a_row(tmp_path):
     assert names[0] != names[1]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Scatter:
+    """What an add-on reads of its sheet."""
+
+    row_id: str
+    name: str
+    variation: float
+    period: float | None = None
+
+
 def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
     """60 drawn from all plain values of a row's part, two profiles and the settings."""
     write_rows(tmp_path / "site.xlsx", ["R5"])
     site = read_site(tmp_path / "site.xlsx")
-    known = {"row_id": "R5", "name": "model", "variation": 0.11, "source": "tests"}
-    scatter = UncertainQuantity(**known)
-    part = cut_site(replace(site, uncertain=(scatter,)), site.rows[0])
+    scatter = Scatter(row_id="R5", name="model", variation=0.11)
+    typed = replace(site, of_addons={"Uncertainty": (scatter,)})
+    part = cut_site(typed, site.rows[0])
     decides = [part, STANDARDS, RUN.settings, RUN.creep_law]
     ways = [way for way in list_leaves(decides) if way[:2] != (0, "project")]
     beside = {(0, one) for one in ("file_name", "sha256", "text_format")}
@@ -255,8 +264,8 @@ def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
 UNSEEN = {
     (0, name)
     for name in ("notes", "findings", "range_inputs", "project_cells", "map_file",
-                 "map_sha256", "library_file", "library_sha256", "winter", "what_if",
-                 "monitoring", "declared", "text_format")
+                 "map_sha256", "library_file", "library_sha256", "what_if",
+                 "declared", "text_format")
 }  # fmt: skip
 
 

@@ -3,15 +3,11 @@
 import math
 import random
 from dataclasses import replace
-from datetime import date
 
 import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.site.further_sheets import MonitoringSeries
-from netdesign.site.model import StationWinter
-from netdesign.snow.heights import HeightSeries
 from netdesign.study.judge import gather_study
 from netdesign.study.notes import bear_snow, describe_model_code, list_site_notes
 from tests.small_site import RANGES, ROWS, RUN, build_row, build_site
@@ -87,16 +83,8 @@ def test_the_note_stands_in_the_study():
 
 
 def test_measured_forces_without_a_winter_say_what_they_need():
-    series = MonitoringSeries(
-        row_id="R1",
-        member="foot_anchor",
-        times=(0.0, 43200.0),
-        tensions=(10e3, None),
-        air_temperatures=(263.15, None),
-        source="Monitoring!A2",
-    )
-    heights = HeightSeries(first_day=date(2003, 1, 1), heights=(0.0,))
-    for winter, count in ((None, 1), (StationWinter(series=heights), 0)):
-        site = build_site(*ROWS, monitoring=(series,), winter=winter)
+    for sheets, count in (({"Monitoring"}, 1), ({"Monitoring", "Winter"}, 0)):
+        of_addons = dict.fromkeys(sheets, ("series",))
+        site = build_site(*ROWS, of_addons=of_addons)
         notes = [one.key for one in list_site_notes(site, (), RUN.creep_law, 0.01)]
         assert notes.count("monitoring.needs_winter") == count

@@ -13,8 +13,8 @@ from netdesign.addons.evidence.verification.winters import (
     read_weissfluhjoch,
 )
 from netdesign.addons.winter.command import snowpack
+from netdesign.addons.winter.heights import name_winter
 from netdesign.addons.winter.settling import MODELS, follow_heights
-from netdesign.snow.heights import name_winter
 
 FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series
 

@@ -18,6 +18,10 @@ import numpy as np
 
 from netdesign.addons.reliability.check_by_case import CheckByCase
 from netdesign.addons.reliability.response import Line
+from netdesign.addons.reliability.uncertainty_sheet import (
+    UncertainQuantity,
+    find_uncertain,
+)
 from netdesign.checks.check import Check
 from netdesign.envelope.ranges import PARAMETERS
 from netdesign.numerics.arrays import Floats
@@ -27,7 +31,6 @@ from netdesign.outcome import (
     require_positive,
     require_within,
 )
-from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.words.message import Message, say
@@ -282,7 +285,7 @@ def list_variables(
     ModelError
         If one has no distribution, neither typed nor assumed.
     """
-    find, case = partial(site.find_uncertain, check.row.id), check.governing
+    find, case = partial(find_uncertain, site, check.row.id), check.governing
     variables = [_find_height(find, check.row)]
     for name, span in check.ranges.intervals:
         if span.low < span.high:

@@ -39,7 +39,8 @@ if TYPE_CHECKING:
 
     from netdesign.addons.winter.document import WinterRun
     from netdesign.addons.winter.settling import DayPack
-    from netdesign.site.model import Site, StationWinter
+    from netdesign.addons.winter.winter_sheet import StationWinter
+    from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.words.message import Message
 
@@ -115,16 +116,17 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
         complete_by_sheet,
         read_height_file,
     )
-    from netdesign.snow.heights import smooth
+    from netdesign.addons.winter.heights import smooth
 
-    station = site.winter
+    of_site: StationWinter | None = site.of_addons.get("Winter")
+    station = of_site
     if asked["heights"] is not None:
         ids, form = [row.id for row in site.rows], build_text_format(asked)
         columns = build_columns(asked)
         station, remarks = read_height_file(asked["heights"], form, ids, columns)
         for remark in remarks:
             tell(remark.message, err=True)
-        station, note = complete_by_sheet(station, site.winter)
+        station, note = complete_by_sheet(station, of_site)
         if note:
             tell(note, err=True)
     elif station is None and asked["example"]:
@@ -257,10 +259,10 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
     from netdesign.addons.winter.height_file import build_columns, read_height_file
+    from netdesign.addons.winter.heights import smooth
     from netdesign.addons.winter.season import FIRST_DENSITY
     from netdesign.addons.winter.settling import MODELS as KNOWN
     from netdesign.addons.winter.settling import follow_heights
-    from netdesign.snow.heights import smooth
 
     refuse_delimiter(height_file)
     if not asked["as_json"]:

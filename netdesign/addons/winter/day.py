@@ -14,13 +14,14 @@ from typing import Literal
 import numpy as np
 
 from netdesign.addons.winter.settling import DayPack
+from netdesign.addons.winter.winter_sheet import StationWinter
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.panel_forces import spread_out
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.outcome import ModelError, require_within
-from netdesign.site.model import NetRow, Site, StationWinter
+from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.solving.runner import Runner

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from netdesign.addons.winter.day import ASSUMED_FACTOR, RowDay, WinterRow
+from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
     Comparison,
@@ -29,8 +30,8 @@ from netdesign.addons.winter.statistics import (
     Sample,
     fit_gumbel,
 )
-from netdesign.site.model import Site, StationWinter
-from netdesign.snow.heights import HeightSeries
+from netdesign.addons.winter.winter_sheet import StationWinter
+from netdesign.site.model import Site
 from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,

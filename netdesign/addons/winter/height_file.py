@@ -14,6 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from netdesign.addons.winter.winter_sheet import StationWinter, read_winter
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import (
     UNDECLARED,
@@ -27,8 +28,6 @@ from netdesign.site.cells.numbers import is_moment
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import WINTER
 from netdesign.site.columns.fields import split_heading
-from netdesign.site.model import StationWinter
-from netdesign.site.snow_sheets import read_winter
 from netdesign.site.tables import find_table
 from netdesign.words.message import Message, say
 

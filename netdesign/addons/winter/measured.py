@@ -11,12 +11,15 @@ from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 
 from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
+from netdesign.addons.winter.heights import HeightSeries, name_winter
+from netdesign.addons.winter.monitoring_sheet import (
+    MonitoringSeries,
+    list_monitoring,
+)
 from netdesign.addons.winter.season import RowWinters, Season
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
-from netdesign.site.further_sheets import MonitoringSeries
 from netdesign.site.model import Site
-from netdesign.snow.heights import HeightSeries, name_winter
 from netdesign.words.message import Message, say
 
 
@@ -243,9 +246,7 @@ def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:
     row_id : str
         Of the row.
     """
-    dated = [
-        _date_readings(series) for series in site.monitoring if series.row_id == row_id
-    ]
+    dated = [_date_readings(series) for series in list_monitoring(site, row_id)]
     return tuple(pulls for pulls in dated if pulls is not None and pulls.forces)
 
 
@@ -304,8 +305,8 @@ def explain_unused(
     """
     messages = []
     used = {comparison.pulls.source for comparison in compared if comparison.computed}
-    for series in site.monitoring:
-        if series.row_id != row_id or series.source in used:
+    for series in list_monitoring(site, row_id):
+        if series.source in used:
             continue
         if not any(force is not None for force in series.tensions):
             continue

@@ -13,6 +13,7 @@ from datetime import date
 import numpy as np
 
 from netdesign.addons.winter.day import DaySolver, RowDay
+from netdesign.addons.winter.heights import HeightSeries, split_winters
 from netdesign.addons.winter.maxima import (
     AnnualMaximum,
     find_annual_maximum,
@@ -27,7 +28,6 @@ from netdesign.addons.winter.settling import (
 )
 from netdesign.addons.winter.statistics import Sample, choose_sample
 from netdesign.addons.winter.uniform_table import UniformTable
-from netdesign.snow.heights import HeightSeries, split_winters
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
 CURVE_STEP = 4  # days between those of the curve

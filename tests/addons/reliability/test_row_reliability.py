@@ -10,9 +10,9 @@ from netdesign.addons.reliability.check_by_case import find_check_by_case
 from netdesign.addons.reliability.reliability import follow_design_point
 from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import rate_reliability
+from netdesign.addons.reliability.uncertainty_sheet import UncertainQuantity
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.site.further_sheets import UncertainQuantity
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import compare_densities
@@ -63,7 +63,7 @@ def searched(tmp_path_factory):
 def judge(searched):
     def judge(*uncertain, run=WITH):
         site, solved = searched
-        site = replace(site, uncertain=uncertain)
+        site = replace(site, of_addons={"Uncertainty": uncertain})
         solver = CaseSolver(run.settings, run.creep_law)
         return judge_site(site, solved, STANDARD, run, solver)
 
@@ -318,7 +318,7 @@ def test_a_stored_study_has_it_and_contradicts_nothing(study):
 
 def test_the_store_keeps_rows_with_and_without_it_apart(searched):
     site, _ = searched
-    typed = replace(site, uncertain=(tell("model", 0.19),))
+    typed = replace(site, of_addons={"Uncertainty": (tell("model", 0.19),)})
     pairs = [(site, RUN), (site, WITH), (typed, WITH)]
     names = [name_rows(one, [STANDARD], run)["R2"] for one, run in pairs]
     assert len(set(names)) == 3

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from netdesign.addons.winter.height_file import HeightColumns, read_height_file
+from netdesign.addons.winter.heights import smooth, split_winters
 from netdesign.addons.winter.season import follow_station, list_complete
 from netdesign.addons.winter.settling import MODELS
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
-from netdesign.snow.heights import smooth, split_winters
 from tests.each import each
 
 # Each way of a publisher: how a day is written, separator, unit, words for no reading.

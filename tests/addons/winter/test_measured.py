@@ -10,6 +10,7 @@ from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.figure import (
     draw_measured,
 )
+from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
     MeasuredPulls,
@@ -19,11 +20,10 @@ from netdesign.addons.winter.measured import (
     list_measured_pulls,
     name_measured_winters,
 )
+from netdesign.addons.winter.monitoring_sheet import MonitoringSeries
 from netdesign.addons.winter.season import Season
 from netdesign.checks.result import Band
 from netdesign.report.words import Words
-from netdesign.site.further_sheets import MonitoringSeries
-from netdesign.snow.heights import HeightSeries
 from tests import small_site
 from tests.addons.winter.made_up_row import a_solver
 
@@ -111,7 +111,7 @@ def a_site(**changes):
         "start": datetime(2003, 2, 18, 4),
     }
     series = MonitoringSeries(**{**values, **changes})
-    return small_site.build_site(*small_site.ROWS, monitoring=(series,))
+    return small_site.build_site(*small_site.ROWS, of_addons={"Monitoring": (series,)})
 
 
 def test_readings_keep_their_moments():

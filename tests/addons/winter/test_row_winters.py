@@ -4,6 +4,7 @@ from datetime import date
 
 import pytest
 
+from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.season import (
     follow_station,
     follow_winters,
@@ -11,7 +12,6 @@ from netdesign.addons.winter.season import (
     split_packs,
 )
 from netdesign.addons.winter.settling import HS2SWE, MODELS
-from netdesign.snow.heights import HeightSeries
 from tests.addons.winter.made_up_row import a_formula_solver
 
 

@@ -4,7 +4,7 @@ from datetime import date
 
 import pytest
 
-from netdesign.snow.heights import (
+from netdesign.addons.winter.heights import (
     HeightSeries,
     build_series,
     find_gaps,

@@ -23,7 +23,7 @@ def days(*heights, first=1):
 
 def test_series_is_read_in_metres_and_kelvin(sheets, save):
     lines = [["2003-02-01", 0, None], [datetime(2003, 2, 2), 37.5, -4.5]]
-    winter = read_site(save(with_lines(sheets, *lines))).winter
+    winter = read_site(save(with_lines(sheets, *lines))).of_addons["Winter"]
     assert winter.series.first_day == date(2003, 2, 1)
     assert winter.series.heights == (0.0, 0.375)
     assert winter.series.air_temperatures == (None, pytest.approx(268.65))
@@ -43,7 +43,7 @@ def test_head_of_the_station_stands_on_the_first_line(sheets, save):
     headings[3] = "Höhe über Meer [m]"
     lines = [["2003-02-01", 0.0, "Weissfluhjoch", 2540, 0.85], ["2003-02-02", 0.2]]
     sheets = with_lines(sheets, *lines, headings=headings)
-    winter = read_site(save(sheets)).winter
+    winter = read_site(save(sheets)).of_addons["Winter"]
     assert (winter.station, winter.altitude) == ("Weissfluhjoch", 2540.0)
     assert winter.height_factor == 0.85
 
@@ -51,7 +51,9 @@ def test_head_of_the_station_stands_on_the_first_line(sheets, save):
 def test_short_gap_in_snow_is_filled_and_told(sheets, save):
     lines = [*days(0, 80), ["2003-02-05", 110, None]]
     site = read_site(save(with_lines(sheets, *lines)))
-    assert site.winter.series.heights == pytest.approx((0, 0.8, 0.9, 1.0, 1.1))
+    assert site.of_addons["Winter"].series.heights == pytest.approx(
+        (0, 0.8, 0.9, 1.0, 1.1)
+    )
     told = [str(note) for note in site.notes if "straight line" in str(note)]
     assert len(told) == 1
     assert "2003-02-03, 2003-02-04" in told[0]
@@ -90,7 +92,7 @@ def test_spikes_and_a_start_in_snow_are_told(sheets, save):
     told = " ".join(map(str, site.notes))
     assert "2003-02-02: the snow rises or falls by more than 0.6 m" in told
     assert "300 kg/m³ (assumed)" in told
-    assert len(site.winter.notes) == 3  # it ends in snow, too
+    assert len(site.of_addons["Winter"].notes) == 3  # it ends in snow, too
 
 
 WITH_ROWS = [*HEADINGS, "height factor [-]", "net row"]
@@ -103,11 +105,15 @@ def rows_of(*factors):
 
 def test_a_row_has_its_own_height_factor(sheets, save):
     lines = rows_of((0.93, None), (1.21, "R1"), (None, None))
-    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
+    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).of_addons[
+        "Winter"
+    ]
     assert winter.find_factor("R1") == 1.21
     assert winter.find_factor("another") == 0.93
     lines = rows_of((1.21, "R1"), (None, None), (None, None))
-    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).winter
+    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).of_addons[
+        "Winter"
+    ]
     assert winter.find_factor("R1") == 1.21
     assert winter.find_factor("another") is None
 

@@ -25,7 +25,7 @@ def test_series_are_read_by_row_and_member(sheets, save):
             )
         )
     )
-    uphill, foot = site.monitoring
+    uphill, foot = site.of_addons["Monitoring"]
     assert (uphill.row_id, uphill.member) == ("R1", "uphill_guy")
     assert uphill.times == (0.0, 0.25 * 86400.0)
     assert uphill.tensions == (31500.0, None)
@@ -48,8 +48,8 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
     headings = ["net row", "member", "date and time", "tension [kN]"]
     lines = [["R1", "post", moment, 10.0] for moment in moments]
     site = read_site(save(with_lines(sheets, *lines, headings=headings)))
-    assert site.monitoring[0].times == (0.0, 43200.0)
-    assert site.monitoring[0].start == datetime(2003, 2, 18, 6)
+    assert site.of_addons["Monitoring"][0].times == (0.0, 43200.0)
+    assert site.of_addons["Monitoring"][0].start == datetime(2003, 2, 18, 6)
 
 
 @pytest.mark.parametrize(

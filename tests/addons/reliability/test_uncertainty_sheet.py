@@ -2,6 +2,7 @@
 
 import pytest
 
+from netdesign.addons.reliability.uncertainty_sheet import find_uncertain
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from tests.each import each
@@ -23,15 +24,15 @@ def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
     of_all = [None, "model factor", None, 0.23, None, None, "judgement"]
     site = read_site(save(with_lines(sheets, HEIGHT, of_all, MODEL)))
     first, second = (one.id for one in site.rows)
-    height = site.find_uncertain(second, "snow_height")
+    height = find_uncertain(site, second, "snow_height")
     assert (height.variation, height.period) == (0.27, 80.0)
     assert (height.distribution, height.mean_ratio) == ("", None)
     assert height.source == "station 1964-2019"
-    own, general = (site.find_uncertain(one, "model") for one in (first, second))
+    own, general = (find_uncertain(site, one, "model") for one in (first, second))
     assert (own.variation, own.mean_ratio) == (0.17, 1.08)
     assert own.distribution == "lognormal"
     assert general.variation == 0.23
-    assert site.find_uncertain(first, "density") is None
+    assert find_uncertain(site, first, "density") is None
 
 
 @each(

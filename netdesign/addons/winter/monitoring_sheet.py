@@ -1,4 +1,4 @@
-"""Sheets beside those of net rows and types: Monitoring and Uncertainty."""
+"""Sheet Monitoring: forces and temperatures measured on members of net rows."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from netdesign.site.cells.numbers import read_moment
 from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
-from netdesign.site.readings import Row, choose_given, refuse
+from netdesign.site.model import Site
+from netdesign.site.readings import Reading, Row, refuse, refuse_beside
 from netdesign.site.tables import read_rows
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
 _EPOCH = datetime(1970, 1, 1)
-
-
 _MEMBERS = {normalise(one): str(one) for one in Member}  # by their words
 
 
@@ -50,37 +49,6 @@ class MonitoringSeries:
     air_temperatures: tuple[float | None, ...]
     source: str
     start: datetime | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class UncertainQuantity:
-    """What is known of the scatter of one quantity, of one net row or of all.
-
-    Attributes
-    ----------
-    row_id : str
-        Empty for all net rows.
-    name : str
-        "snow_height", "model", "resistance", ...: a line of ``assumed.toml``.
-    distribution : str
-        "gumbel", "lognormal" or "normal"; empty for that which is usual.
-    mean_ratio : float or None
-        Mean over the value of the workbook [-].
-    variation : float
-        Coefficient of variation [-].
-    period : float or None
-        Return period of the snow height of the workbook [a].
-    source : str
-        Where it is from, as typed.
-    """
-
-    row_id: str
-    name: str
-    variation: float
-    source: str
-    distribution: str = ""
-    mean_ratio: float | None = None
-    period: float | None = None
 
 
 def read_monitoring(
@@ -141,49 +109,30 @@ def _build(
 
 def _read_time(line: Row, findings: list[Finding]) -> float | None:
     """Time of a line [s], from days or from a date; None with a finding."""
-    given = choose_given(line, ("time", "date"), findings)
+    given = _choose_time(line, findings)
     if given is None or given.field.key == "time":
         return given.si if given else None
     moment = read_moment(given.word)
     return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()
 
 
-def read_uncertain(
-    table: Table | None, places: Mapping[str, str], findings: list[Finding]
-) -> tuple[UncertainQuantity, ...]:
-    """Scatter of some quantities, each of one net row or of all.
+def _choose_time(line: Row, findings: list[Finding]) -> Reading | None:
+    """Days or date, of which a line gives one; None with a finding."""
+    first, second = line["time"], line["date"]
+    if "faulty" in (first.state, second.state):
+        return None
+    if first.state == second.state == "given":
+        refuse_beside(second, first, findings)
+        return None
+    if "given" not in (first.state, second.state):
+        seen = first if first.cell is not None else second
+        rule = say("cell.neither", names=(first.field.name, second.field.name))
+        refuse(seen, rule, say("accepted.exactly_one"), findings)
+        return None
+    return first if first.state == "given" else second
 
-    It serves the notional reliability alone; no check hangs on it.
 
-    Parameters
-    ----------
-    table : Table or None
-        Sheet Uncertainty, if there is one.
-    places : mapping of str to str
-        Cells of the ids of sheet Rows.
-    findings : list of Finding
-        Appended to: unknown rows, a quantity that comes twice.
-    """
-    found: dict[tuple[str, str], UncertainQuantity] = {}
-    lines = read_rows(table, findings)
-    if places:
-        refuse_unknown_ids((one["row"] for one in lines), places, findings)
-    for line in lines:
-        if any(one.state == "faulty" for one in line.values()):
-            continue
-        word = line["variable"].word
-        quantity = UncertainQuantity(
-            row_id=line["row"].word,
-            name="model" if word == "model factor" else word.replace(" ", "_"),
-            distribution=line["distribution"].word.lower(),
-            mean_ratio=line["mean_ratio"].given_si,
-            variation=line["variation"].si,
-            period=line["period"].given_si,
-            source=line["source"].word,
-        )
-        key = (quantity.row_id, quantity.name)
-        if key in found:
-            rule = say("uncertainty.twice")
-            refuse(line["variable"], rule, say("uncertainty.once"), findings)
-        found[key] = quantity
-    return tuple(found.values())
+def list_monitoring(site: Site, row_id: str) -> tuple[MonitoringSeries, ...]:
+    """Series that sheet Monitoring has of a net row."""
+    of_site: tuple[MonitoringSeries, ...] = site.of_addons.get("Monitoring", ())
+    return tuple(series for series in of_site if series.row_id == row_id)
