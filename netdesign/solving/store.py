@@ -200,6 +200,8 @@ def _describe(value: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
         fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
         return [type(value).__name__, fields]
+    if hasattr(value, "model_dump"):  # of a profile, read by pydantic
+        return [type(value).__name__, value.model_dump()]
     if isinstance(value, MappingProxyType):
         return dict(value)
     if isinstance(value, date):  # a datetime is one, too
