@@ -5,7 +5,8 @@ can state what it expects. Some texts attack the outputs.
 """
 
 import math
-from dataclasses import replace
+import random
+from dataclasses import MISSING, fields, replace
 from itertools import product
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
@@ -98,6 +99,7 @@ def build_study(*, samples: int = 3, rows: int = 3) -> Study:
 
 def build_profile() -> ProfileRecord:
     """Limit profile with confirmed and assumed values."""
+    names = ("id", "clause", "text", "value", "status")
     rows = [
         ("factor.action", "5.2", "Partial factor of snow pressure", 1.5, "assumed"),
         ("factor.tendon", "6.1", "Partial factor of a tendon", 1.35, "assumed"),
@@ -112,15 +114,11 @@ def build_profile() -> ProfileRecord:
         sha256="b1946ac92492d2347c6235b4d2611184d5b6b5e8b0e2a5a3a2b0a6f0a3d5c1e2",
         values=[
             StandardValue(
-                id=key,
-                clause=clause,
-                text=text,
-                value=value,
-                unit="°" if key.startswith("inclination") else "-",
-                status=status,
+                **dict(zip(names, row, strict=True)),
+                unit="°" if row[0].startswith("inclination") else "-",
                 source="secondary literature, see NOTES.md",
             )
-            for key, clause, text, value, status in rows
+            for row in rows
         ],
     )
 
@@ -175,55 +173,36 @@ def build_row(
         model_form=build_model_form(extremes[0]),
         floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
-        pulls=build_pulls(),
-        held_sideways=build_held_sideways(),
+        pulls=[
+            fill(PullRecord, anchor="foot_anchor", position="intermediate", kind="bar")
+        ],
+        held_sideways=fill(HeldSidewaysRecord),
     )
 
 
-def build_pulls() -> list[PullRecord]:
-    """Directions at one anchor."""
-    return [
-        PullRecord(
-            anchor="foot_anchor",
-            position="intermediate",
-            kind="bar",
-            least_deg=17.12345678,
-            largest_deg=31.7654321,
-            axis_deg=20.0,
-            is_axis_given=True,
-            angle_deg=13.0123,
-            dip_deg=12.3,
-        )
-    ]
-
-
-def build_held_sideways() -> HeldSidewaysRecord:
-    """Load along the row, without a floor of the tension."""
-    return HeldSidewaysRecord(
-        share=0.1,
-        splay_deg=29.7,
-        pull_low_kN=127.09771,
-        pull_kN=127.44672,
-        pull_high_kN=128.44577,
-        least_tension_kN=23.254122,
-        uphill_part=0.5326683943,
-        downhill_part=0.5,
-        post_part=0.681464,
-    )
+def fill(kind, /, **given):
+    """Record of a kind; numbers that are neither given nor known are drawn."""
+    draw = random.Random(kind.__name__)
+    for one in fields(kind):
+        number = round(draw.uniform(1.1, 9.7), 7)
+        drawn = {"float": number, "int": draw.randrange(2, 90), "bool": True}
+        type_ = one.type.partition(" ")[0]
+        if one.name not in given and one.default in (MISSING, None, 0):
+            given |= {one.name: drawn[type_]} if type_ in drawn else {}
+    return kind(**given)
 
 
 def build_floor(extreme: LargestForce) -> FloorRecord:
     """One member of a floor."""
+    force = fill(
+        FloorForceRecord,
+        member=extreme.quantity,
+        force_kN=0.4 * extreme.value_kN / 1.1,
+        load_case="load_case_1",
+    )
     return FloorRecord(
         profile="swiss-guideline-2007",
-        forces=[
-            FloorForceRecord(
-                member=extreme.quantity,
-                force_kN=0.4 * extreme.value_kN / 1.1,
-                load_case="load_case_1",
-                inclination_deg=35.0,
-            )
-        ],
+        forces=[force],
         altitude_factor=1.3,
         assumed=[say("row.altitude_assumed", factor=1.3)],
     )
@@ -231,38 +210,24 @@ def build_floor(extreme: LargestForce) -> FloorRecord:
 
 def build_independent() -> list[IndependentRecord]:
     """Laws that the drawn case obeys."""
-    laws = [
-        ("global_balance", 3.1e-12, 1e-3),
-        ("friction_excess", 0.0, 1e-3),
-        ("end_direction", 0.004, 0.02),
-        ("capstan_ratio", 1.2, 1.9),
-        ("tension_share", 0.7, 0.0),
-    ]
+    names = ("global_balance", "friction_excess", "end_direction", "capstan_ratio")
     return [
-        IndependentRecord(name=name, value=value, limit=limit, is_met=True)
-        for name, value, limit in laws
+        fill(IndependentRecord, name=name, is_met=True)
+        for name in (*names, "tension_share")
     ]
 
 
 def build_guideline(extreme: LargestForce) -> GuidelineRecord:
     """One load case with numbers, one without."""
-    numbers = {
-        "glide_factor": 1.0,
-        "load_kN_per_m": 12.0,
-        "foot_anchor_kN": 90.0,
-    }
-    return GuidelineRecord(
+    nothing = dict.fromkeys(("glide_factor", "load_kN_per_m", "foot_anchor_kN"))
+    told = as_given(f"the support fails {SCRIPT}")
+    return fill(
+        GuidelineRecord,
         case=extreme.case,
-        solved_load_kN_per_m=15.0,
         solved_foot_anchor_kN=extreme.value_kN,
         cases=[
-            GuidelineCase(name="same_snow", density_kg_m3=450.0, **numbers),
-            GuidelineCase(
-                name="load_case_2",
-                density_kg_m3=400.0,
-                **dict.fromkeys(numbers),
-                reason=as_given(f"the support fails {SCRIPT}"),
-            ),
+            fill(GuidelineCase, name="same_snow"),
+            fill(GuidelineCase, name="load_case_2", reason=told, **nothing),
         ],
         sentence=as_given(f"They differ because {SCRIPT}."),
     )
@@ -270,6 +235,7 @@ def build_guideline(extreme: LargestForce) -> GuidelineRecord:
 
 def build_model_form(extreme: LargestForce) -> ModelFormRecord:
     """One variant with a force, one without."""
+    told = as_given(f"it shrinks {SCRIPT}")
     return ModelFormRecord(
         case=extreme.case,
         member="foot_anchor",
@@ -277,62 +243,31 @@ def build_model_form(extreme: LargestForce) -> ModelFormRecord:
         utilisation=0.78,
         variants=[
             VariantRecord(creep_law="zwinger-2007", ratio=0.907),
-            VariantRecord(
-                creep_law="gagliardini-1997",
-                ratio=None,
-                reason=as_given(f"it shrinks {SCRIPT}"),
-            ),
+            VariantRecord(creep_law="gagliardini-1997", ratio=None, reason=told),
         ],
     )
 
 
 def build_reliability(check: str) -> ReliabilityRecord:
     """Notional reliability of one check, by a made-up analysis."""
-    return ReliabilityRecord(
+    typed, assumed = say("source.typed", text="fit"), say("source.reference_case")
+    names = {"snow_height": "height_vertical_m", "model": "", "resistance": ""}
+    return fill(
+        ReliabilityRecord,
         check=check,
         reason=None,
         variables=[
-            build_variable("snow_height", "height_vertical_m", 0.471),
-            build_variable("density", "density_kg_m3", 0.129, mean=347.0),
-            build_variable("model", "", 0.25, text="fit 2026"),
-            build_variable("resistance", "", 0.15),
+            fill(
+                VariableRecord,
+                name=name,
+                key=key,
+                distribution="gumbel" if key else "lognormal",
+                source=typed if name == "model" else assumed,
+                is_assumed=name != "model",
+            )
+            for name, key in names.items()
         ],
-        beta=3.4271,
-        standard_error=0.0137,
-        beta_by_form=3.3189,
-        beta_at_full=3.1273,
-        action_factor=1.7133,
-        resistance_factor=1.1877,
-        profile_action_factor=1.5,
-        profile_resistance_factor=1.35,
-        design_point=CasePoint(
-            density_kg_m3=417.0,
-            friction_deg=23.0,
-            inclination_deg=31.0,
-            thickness_m=2.71,
-        ),
-        force_ratio=1.217,
-        force_ratio_by_model=1.236,
-        samples=4000,
-        solves=7,
-    )
-
-
-def build_variable(
-    name: str, key: str, share: float, *, mean: float = 1.0, text: str = ""
-) -> VariableRecord:
-    """Random variable of that analysis, typed where it has a text."""
-    typed, assumed = say("source.typed", text=text), say("source.reference_case")
-    return VariableRecord(
-        name=name,
-        key=key,
-        distribution="gumbel" if name == "snow_height" else "lognormal",
-        mean=mean,
-        variation=0.2,
-        source=typed if text else assumed,
-        is_assumed=not text,
-        alpha_squared=share,
-        at_design_point=1.437,
+        design_point=fill(CasePoint),
     )
 
 
@@ -364,13 +299,12 @@ def build_case(point: CasePoint, scale: float) -> CaseRecord:
 
 def build_failed_case(point: CasePoint) -> CaseRecord:
     """Case without a result."""
+    unknown = (*(f"{one}_kN" for one in MEMBERS), "error_percent", "balance_residual")
     return CaseRecord(
         case=point,
         outcome=Outcome.MAX_ITERATIONS,
         reason=as_given("60 iterations, residual 2e-3."),
-        **{f"{member}_kN": None for member in MEMBERS},
-        error_percent=None,
-        balance_residual=None,
+        **dict.fromkeys(unknown),
     )
 
 
