@@ -24,6 +24,7 @@ from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.study.document import compute_digest, read_document, write_document
+from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 from tests.report.build_study import build_study
 
@@ -38,7 +39,7 @@ ATTACKS = (
     "<img src=x onerror=alert(1)>",
     "<svg onload=alert(1)><foreignObject/></svg>",
     "]]></style><script>1</script><!--",
-    "{{ 7 * 7 }}{% raw %}",
+    "{{ 7 * 7 }}{% raw %}{0}{what}%s",
     "\x1b[31mred\x1b]0;title\x07\x1b[2J",
     "\x9b31mred",
     "abc\u202egnp.exe\u2066",
@@ -112,7 +113,8 @@ def plain():
 
 def test_a_page_holds_tags_of_the_program_alone(text, plain):
     """The same tags and attributes whatever the texts are; none that acts."""
-    page = render_html(spoilt_study(text))
+    language = LANGUAGES[len(text) % len(LANGUAGES)]
+    page = render_html(spoilt_study(text), language)
     reader = TagReader()
     reader.feed(page)
     assert reader.tags <= plain.tags

@@ -6,6 +6,7 @@ contrast of their words is measured here.
 
 import random
 import re
+from itertools import product
 from xml.etree import ElementTree
 
 import pytest
@@ -23,24 +24,22 @@ TEXT = "{http://www.w3.org/2000/svg}text"
 SNOW = (0xF3, 0xF5, 0xF7)  # ground of some labels
 
 
-@pytest.mark.long
+PAGES = list(product(LANGUAGES, [False, True], [PHONE_PX, 1100]))
+IN_SUITE = [("fr", True, 1100), ("de", False, PHONE_PX)]
+
+
 @pytest.mark.parametrize(
-    ("language", "has_annexes", "width"),
-    [("fr", True, 1100), ("de", False, PHONE_PX)],
+    ("rows", "page"),
+    [
+        *(pytest.param(1, one, marks=pytest.mark.long) for one in IN_SUITE),
+        *(pytest.param(3, one, marks=pytest.mark.robustness) for one in PAGES),
+    ],
 )
-def test_axe_finds_no_violation(language, has_annexes, width, tmp_path):
-    page = render_html(build_study(rows=1), language, has_annexes=has_annexes)
-    assert list_violations(page, tmp_path, width) == []
-
-
-@pytest.mark.robustness
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("has_annexes", [False, True])
-@pytest.mark.parametrize("width", [PHONE_PX, 1100])
-def test_axe_finds_no_violation_anywhere(language, has_annexes, width, tmp_path):
+def test_axe_finds_no_violation(rows, page, tmp_path):
     """All pages: python -m pytest -m robustness tests/report/test_accessible.py."""
-    page = render_html(build_study(), language, has_annexes=has_annexes)
-    assert list_violations(page, tmp_path, width) == []
+    language, has_annexes, width = page
+    shown = render_html(build_study(rows=rows), language, has_annexes=has_annexes)
+    assert list_violations(shown, tmp_path, width) == []
 
 
 def test_words_in_drawings_have_contrast():

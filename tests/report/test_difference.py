@@ -309,18 +309,6 @@ def test_what_got_worse_stands_before_what_is_gone(way):
     assert all(place < gone for place in worse)
 
 
-def test_a_basis_is_told_in_words_and_kept_as_a_key():
-    old = build_study()
-    row = replace(old.rows[0], checks=[
-        replace(one, resistance_basis="tested") for one in old.rows[0].checks
-    ])  # fmt: skip
-    bare = replace(row, checks=[replace(c, resistance_basis="") for c in row.checks])
-    changes = compare_studies(replace(old, rows=[row]), replace(old, rows=[bare]))
-    told = {(one.old, one.new) for one in changes if one.area != "other"}
-    assert told == {("tested", "")}
-    assert changes[0].tell("de").endswith("durch Versuche belegt -> kein Wert")
-
-
 def test_two_plans_differ_by_their_quantities():
     study = build_study(rows=2)
     parts = [

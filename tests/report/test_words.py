@@ -16,7 +16,6 @@ from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
-from tests.report.build_study import build_check, build_extreme, build_row
 
 
 def test_every_verdict_has_its_own_word_sign_and_exit_code():
@@ -104,14 +103,6 @@ def test_a_utilisation_that_is_not_one_does_not_read_as_one(value):
     shown = words.ENGLISH.show_number("utilisation", value)
     assert len(shown.removeprefix(">")) == len("1.000")
     assert (value > 1) == (shown.startswith(">") or float(shown) > 1)
-
-
-def test_names_of_checks_and_cases():
-    row = build_row("A", 2, scale=0.6)
-    check = build_check("foot_anchor", "pull_out", row.member_forces[0], 480.0)
-    assert words.show_check(words.ENGLISH, check) == "Net anchor (foot), pull-out"
-    worst = build_extreme("post", row.cases).case
-    assert words.ENGLISH.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
 
 
 @pytest.mark.parametrize("law", CREEP_LAWS.values(), ids=str)

@@ -1,4 +1,4 @@
-"""Checks on lines: nothing is lost, and what does not pass says why."""
+"""Checks on lines, and what would make them pass: nothing is lost."""
 
 from dataclasses import replace
 
@@ -7,8 +7,10 @@ from netdesign.report.sections.checks import (
     describe_briefly,
     describe_cause,
     describe_resistance,
+    list_changes,
 )
 from netdesign.report.words import Words
+from netdesign.study.remedies import CLOSE
 from netdesign.study.scopes import find_governing, find_highest
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
@@ -58,3 +60,36 @@ def test_a_resistance_names_type_basis_and_cell():
     told = describe_resistance(check, ENGLISH)
     assert check.resistance_cell in told
     assert check.resistance_type in told
+
+
+ROW = build_study().rows[0]
+
+
+USED = (None, 0.371, 0.8999, 0.9001, 1.07)
+PAIRS = [  # of a verdict and a utilisation that allows it
+    (verdict, used)
+    for verdict in Verdict
+    for used in USED
+    if not used or (used > 1.0) is (verdict is Verdict.FAIL)
+]
+
+
+@each("language", LANGUAGES)
+@each("verdict, used", PAIRS)
+def test_a_row_without_changes_needs_none_only_where_all_is_well(
+    verdict, used, language
+):
+    """An overtopped row has checks that are not proven, and no change for them."""
+
+    steps = [replace(one, low=None, high=None) for one in ROW.checks[0].steps]
+    check = replace(ROW.checks[0], steps=steps, changes=[])
+    bare = next(one for one in ROW.checks if not one.is_of_force)
+    checks = [
+        turn(check, Verdict.PASS, utilisation=0.4),
+        turn(check, verdict, utilisation=used) if used else turn(bare, verdict),
+    ]
+    words = Words(language)
+    is_well = verdict is Verdict.PASS and (used is None or used < CLOSE)
+    key = "no_change" if is_well else "no_change_alone"
+    pairs = [(ROW.id, one) for one in checks]
+    assert list_changes(pairs, words) == [words(f"show.{key}")]

@@ -10,7 +10,6 @@ import pytest
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.annexes import name_verification
-from netdesign.report.sections.decision import show_decision
 from netdesign.report.words import ENGLISH, VERDICTS, Words
 from netdesign.study.scopes import Scope
 from netdesign.words.catalogue import LANGUAGES
@@ -79,11 +78,6 @@ def test_a_row_that_nothing_resists_shows_it():
     assert "∞" in " ".join(read_matrix(study)[row.id])
 
 
-def test_study_without_rows_is_shown():
-    study = replace(STUDY, rows=[])
-    assert ENGLISH("heading.no_rows") in render_html(study)
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_each_verdict_has_a_title_of_its_own(language):
     words, titles = Words(language), set()
@@ -103,15 +97,3 @@ def test_the_built_in_example_is_verified_without_a_site_file():
     run = replace(STUDY.provenance, site_file="example.xlsx")
     command = name_verification(replace(STUDY, provenance=run))
     assert command == "netdesign verify --study study.json"
-
-
-def test_rows_left_out_are_told_on_the_first_page():
-    study = replace(STUDY, left_out=["N7", "N8"])
-    told = " ".join(
-        one.text
-        for block in show_decision(study, ENGLISH).blocks
-        if getattr(block, "look", "") == "meaning"
-        for one in [block]
-    )
-    assert "N7" in told
-    assert "N8" in told

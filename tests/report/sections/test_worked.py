@@ -107,7 +107,3 @@ def test_one_reason_of_many_checks_of_a_row_stands_once_in_the_annex():
     assert len(items.items) == len(clauses) < len(checks)
     for one in checks:
         assert any(show_check(ENGLISH, one) in line for line in items.items)
-
-
-def test_without_annexes_there_is_none():
-    assert not any(x.startswith("annex") for x in PageReader(render_html(STUDY)).ids)

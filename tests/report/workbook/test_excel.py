@@ -29,11 +29,6 @@ COLUMNS = {-1: "G", 0: "H", 1: "I"}  # of low end, value and high end
 SEED = 9000
 
 
-@pytest.fixture(scope="module")
-def content():
-    return render_workbook(STUDY)
-
-
 def judge(path):
     site, standard = read_site(path), load_standard("nf-p-95-304-style")
     return judge_site(site, solve_site(site, RUN), standard, RUN)
@@ -95,6 +90,11 @@ def books(studies):
     """The built study in each language, each other study in one."""
     named = [("built", one) for one in LANGUAGES] + [("drawn", "fr"), ("example", "de")]
     return {name: render_workbook(studies[name[0]], name[1]) for name in named}
+
+
+@pytest.fixture(scope="module")
+def content(books):
+    return books["built", "en"]
 
 
 @pytest.fixture(scope="module")
@@ -190,9 +190,9 @@ def test_what_is_no_number_gives_no_utilisation(changes, fresh):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_verdict_is_text(language):
+def test_every_verdict_is_text(language, books):
     words = Words(language)
-    book = read_workbook(render_workbook(STUDY, language), formulas=True)
+    book = read_workbook(books["built", language], formulas=True)
     summary, checks = book[words("heading.decision")], book[words("heading.checks")]
     cells = [cell for line in summary.iter_rows() for cell in line]
     cells += [cell for cell in checks["C"] if cell.value]
@@ -226,8 +226,10 @@ def test_line_of_a_row_leads_to_its_first_check(content):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_first_sheet_names_the_study_and_the_last_how_it_is_verified(language):
-    sheets = list(read_workbook(render_workbook(STUDY, language)))
+def test_the_first_sheet_names_the_study_and_the_last_how_it_is_verified(
+    language, books
+):
+    sheets = list(read_workbook(books["built", language]))
     first, last = (
         [str(cell.value) for line in sheet.iter_rows() for cell in line]
         for sheet in (sheets[0], sheets[-1])
@@ -269,9 +271,9 @@ def test_sheets_are_ready_to_read_and_print(content):
     assert book["Checks"].auto_filter.ref.startswith("A4:K")
 
 
-def test_no_text_runs_out_of_its_sheet():
+def test_no_text_runs_out_of_its_sheet(books):
     """One that does makes the whole sheet small on paper, down to 4 pt as seen."""
-    book = read_workbook(render_workbook(STUDY, "de"))  # whose words are the longest
+    book = read_workbook(books["built", "de"])  # whose words are the longest
     for sheet in list(book)[1:]:
         table = find_table_columns(sheet)
         merged = {str(area).split(":")[0] for area in sheet.merged_cells.ranges}
@@ -293,14 +295,14 @@ def find_table_columns(sheet):
     return [sheet.column_dimensions[letter].width for letter in letters]
 
 
-def test_a_number_has_as_many_digits_as_on_the_page(content):
+def test_a_number_has_as_many_digits_as_on_the_page(books):
     """A decimal comma is a mark, too: without it a cell showed all sixteen digits."""
     english, german = (
         [
             [cell.number_format for line in sheet.iter_rows() for cell in line]
             for sheet in read_workbook(book)
         ]
-        for book in (content, render_workbook(STUDY, "de"))
+        for book in (books["built", "en"], books["built", "de"])
     )
     assert english == german
     assert sum("0.0" in form for sheet in english for form in sheet) > 500
