@@ -12,10 +12,10 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.assumed import ALTITUDE
 from netdesign.site.reader import read_site
-from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES
+from tests.grid import solve_site
 from tests.make import VERTICAL, draw_untidy, write_rows, write_site
 from tests.report.printing import (
     PAPER_PX,
@@ -48,7 +48,7 @@ def studies(tmp_path_factory):
 
 def judge(path, profile):
     site = read_site(path)
-    return judge_site(site, search_site(site, RUN), load_standard(profile), RUN)
+    return judge_site(site, solve_site(site, RUN), load_standard(profile), RUN)
 
 
 @pytest.fixture(scope="module")
