@@ -1,6 +1,8 @@
 """Grids and rows as the files that offices have, written by the libraries."""
 
 import json
+import subprocess
+import sys
 import warnings
 
 import numpy as np
@@ -8,6 +10,8 @@ import pyogrio.raw
 import rasterio
 import shapely
 from rasterio.transform import Affine
+
+from tests.peak_memory import PEAK
 
 SHORT = {"net height [m]": "net height", "post spacing [m]": "post c/c"}
 SWISS = "EPSG:2056"
@@ -66,7 +70,8 @@ def pack_shapes(drawn, kind=2, size=3):
 def write_rows(path, rows, *, kind=2, layer="rows", crs=SWISS, size=3, **special):
     """Rows of points and properties as the file that the name asks for."""
     if path.suffix == ".geojson":
-        path.write_text(json.dumps(collect(rows)), encoding="utf-8")
+        drawn = (feature(list(points), **given) for points, given in rows)
+        path.write_text(json.dumps(collect(*drawn)), encoding="utf-8")
         return path
     names = list(rows[0][1])
     columns = [stack([given[name] for _, given in rows]) for name in names]
@@ -87,18 +92,13 @@ def write_rows(path, rows, *, kind=2, layer="rows", crs=SWISS, size=3, **special
     return path
 
 
-def collect(rows):
-    return {
-        "type": "FeatureCollection",
-        "features": [
-            {
-                "type": "Feature",
-                "properties": given,
-                "geometry": {"type": "LineString", "coordinates": list(points)},
-            }
-            for points, given in rows
-        ],
-    }
+def feature(points, shape="LineString", **properties):
+    geometry = {"type": shape, "coordinates": points}
+    return {"type": "Feature", "geometry": geometry, "properties": properties}
+
+
+def collect(*features, **more):
+    return {"type": "FeatureCollection", "features": list(features)} | more
 
 
 def stack(values):
@@ -107,3 +107,38 @@ def stack(values):
     found = np.empty(len(values), dtype=object)
     found[:] = values
     return found
+
+
+WATCHED = f"""
+import sys
+from pathlib import Path
+from netdesign.outcome import TerrainError
+from netdesign.addons.terrain.MODULE import READER as read
+{PEAK}
+before = peak()
+for name in sys.argv[1:]:
+    try:
+        print(name, "read", len(getattr(read(Path(name)), "lines", ())))
+    except TerrainError as error:
+        print(str(error).splitlines()[0])
+print(before, peak())
+"""
+
+
+def watch(module, reader, names, folder):
+    """What a reader says of files in a process of its own; memory before, and most."""
+    ended = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            WATCHED.replace("MODULE", module).replace("READER", reader),
+            *names,
+        ],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert ended.stderr == ""
+    *told, memory = ended.stdout.splitlines()
+    return told, *map(int, memory.split())

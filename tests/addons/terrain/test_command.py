@@ -9,8 +9,8 @@ import pytest
 from netdesign.addons.terrain.grid import read_grid
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import write_site_workbook
+from tests.addons.terrain.map_files import collect, feature, write_tif
 from tests.addons.terrain.map_files import write_rows as write_layer
-from tests.addons.terrain.map_files import write_tif
 
 EAST, NORTH = 2_700_300.0, 1_180_200.0
 ROWS = (("A", 40, 40, 79), ("B", 62, 40, 79), ("C", 62, 80.5, 115))
@@ -28,61 +28,59 @@ def slope(tmp_path_factory):
     (folder / "slope.asc").write_text(head + lines + "\n")
     (folder / "rows.json").write_text(json.dumps(write_rows()))
     write_site_workbook(folder / "types.xlsx", example=True)
+    grid = read_grid(folder / "slope.asc")
+    (folder / "slope.tif").write_bytes(write_tif(grid, count=3, compress="deflate"))
+    *rows, zone = (
+        (one["geometry"]["coordinates"], one["properties"])
+        for one in write_rows()["features"]
+    )
+    write_layer(folder / "rows.gpkg", rows)
+    zones = [(zone[0][0], zone[1])]
+    write_layer(folder / "rows.gpkg", zones, kind=3, layer="zone")
     return folder
 
 
 def write_rows(**special):
-    features = [
-        {
-            "type": "Feature",
-            "properties": {
-                "id": name,
-                "net height [m]": 3.0,
-                "post spacing [m]": 3.0,
-                "snow thickness [m]": 2.8,
-                "glide factor N": 1.7,
-                "net stiffness [kN/m]": 12000,
-                "slack": 0.05,
-                **special,
-            },
-            "geometry": {
-                "type": "LineString",
-                "coordinates": [[EAST + a, NORTH + y], [EAST + b, NORTH + y]],
-            },
-        }
+    given = {
+        "net height [m]": 3.0,
+        "post spacing [m]": 3.0,
+        "snow thickness [m]": 2.8,
+        "glide factor N": 1.7,
+        "net stiffness [kN/m]": 12000,
+        "slack": 0.05,
+    }
+    rows = [
+        feature(
+            [[EAST + a, NORTH + y], [EAST + b, NORTH + y]],
+            **{"id": name} | given | special,
+        )
         for name, y, a, b in ROWS
     ]
     zone = [(35, 35), (120, 35), (120, 90), (35, 90), (35, 35)]
     ring = [[EAST + x, NORTH + y] for x, y in zone]
-    features.append(
-        {
-            "type": "Feature",
-            "properties": {"kind": "starting zone"},
-            "geometry": {"type": "Polygon", "coordinates": [ring]},
-        }
-    )
-    return {"type": "FeatureCollection", "features": features}
+    return collect(*rows, feature([ring], "Polygon", kind="starting zone"))
 
 
 @pytest.mark.parametrize(
-    ("language", "sheet", "heading", "note"),
+    ("grid", "drawn", "language", "sheet", "heading"),
     [
-        ("en", "Rows", "slope ψ", "line of fall of each post"),
-        ("de", "Reihen", "Hangneigung ψ", "line of fall of each post"),
+        ("slope.asc", "rows.json", "en", "Rows", "slope ψ"),
+        ("slope.tif", "rows.gpkg", "de", "Reihen", "Hangneigung ψ"),
     ],
 )
 def test_rows_become_lines_of_a_workbook_with_notes(
-    slope, tmp_path, call, language, sheet, heading, note
+    slope, tmp_path, call, grid, drawn, language, sheet, heading
 ):
     out = tmp_path / "site.xlsx"
     options = ("--out", out, "--types", slope / "types.xlsx", "--language", language)
-    ended = call("terrain", slope / "slope.asc", slope / "rows.json", *options)
+    ended = call("terrain", slope / grid, slope / drawn, *options)
     assert ended.code == 0, ended.err
+    assert ("3 bands: the first one is read" in ended.err) == (grid == "slope.tif")
     rows = openpyxl.load_workbook(out)[sheet]
     cell = rows.cell(6, find_column(rows, heading))
     assert 37.5 < cell.value < 39.0
-    assert note in cell.comment.text
-    assert "slope.asc" in cell.comment.text
+    assert "line of fall of each post" in cell.comment.text
+    assert grid in cell.comment.text
     page = (tmp_path / "terrain.html").read_text()
     assert page.count("<svg") == 2 + len(ROWS)
     assert "<script" not in page
@@ -108,61 +106,14 @@ def test_the_workbook_is_checked_as_any_other(slope, tmp_path, call):
     assert "A" in ended.out
 
 
-@pytest.fixture(scope="module")
-def other_files(slope):
-    """The same grid and rows as a GeoTIFF of three bands and as other rows."""
-    grid = read_grid(slope / "slope.asc")
-    (slope / "slope.tif").write_bytes(write_tif(grid, count=3, compress="deflate"))
-    drawn = [
-        (one["geometry"]["coordinates"], one["properties"])
-        for one in write_rows()["features"]
-    ]
-    (ring,), zone = drawn.pop()
-    for end in (".gpkg", ".shp"):
-        cut = {"snow thickness [m]": "épaisseur", "net stiffness [kN/m]": "stiffness"}
-        names = cut if end == ".shp" else {}
-        rows = [
-            (points, {names.get(key, key): value for key, value in given.items()})
-            for points, given in drawn
-        ]
-        write_layer(slope / f"rows{end}", rows)
-    write_layer(slope / "rows.gpkg", [(ring, zone)], kind=3, layer="zone")
-    return slope
-
-
-@pytest.mark.parametrize("rows", ["rows.gpkg", "rows.shp"])
-def test_files_of_other_programs_give_the_same_rows(other_files, tmp_path, call, rows):
-    told = {}
-    unequal = {"grid", "grid_sha256"}
-    if rows == "rows.shp":  # a shapefile of lines has no zone, which ends the snow
-        lengths = {"upslope_length_m", "upslope_end", "slope_mean_deg", "slope_deg"}
-        unequal |= lengths | {"slope_low_deg", "slope_high_deg"}
-    for grid, drawn in (("slope.asc", "rows.json"), ("slope.tif", rows)):
-        out = tmp_path / grid / "site.xlsx"
-        ended = call("terrain", other_files / grid, other_files / drawn, "--out", out)
-        assert ended.code == 0, ended.err
-        document = json.loads((out.parent / "rows.geojson").read_text())
-        told[grid] = [
-            {key: own for key, own in one["properties"].items() if key not in unequal}
-            for one in document["features"]
-            if one["properties"]["kind"] != "starting zone"
-        ]
-    assert told["slope.asc"] == told["slope.tif"]
-    assert document["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-    assert "3 bands: the first one is read" in ended.err
-
-
-def test_a_grid_and_rows_in_two_systems_are_refused(other_files, tmp_path, call):
+def test_a_grid_and_rows_in_two_systems_are_refused(slope, tmp_path, call):
     rows = tmp_path / "rows.geojson"
     name = {"name": "urn:ogc:def:crs:EPSG::25832"}
     named = {"crs": {"type": "name", "properties": name}}
     rows.write_text(json.dumps(write_rows() | named))
-    ended = call("terrain", other_files / "slope.tif", rows, "--json")
+    ended = call("terrain", slope / "slope.tif", rows, "--json")
     assert ended.code == 3
-    assert (
-        "(EPSG:2056) and ETRS89 / UTM zone 32N (EPSG:25832) are two reference systems"
-        in ended.err
-    )
+    assert "(EPSG:2056) and ETRS89 / UTM zone 32N (EPSG:25832)" in ended.err
 
 
 def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, call):

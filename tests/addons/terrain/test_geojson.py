@@ -6,11 +6,13 @@ import pytest
 
 from netdesign.addons.terrain.geojson import read_places
 from netdesign.outcome import TerrainError
+from tests.addons.terrain.map_files import collect, feature
 
 ZONE = [[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]
 
 
 def row(name, posts=4, **special):
+    points = [[10.0 + 3.5 * k, 20.0, 1700.0] for k in range(posts)]
     properties = {
         "kind": "net row",
         "id": name,
@@ -18,23 +20,17 @@ def row(name, posts=4, **special):
         "slope_mean_deg": 38.2,
         "grid": "slope.asc",
         "grid_sha256": "cd" * 32,
-        **special,
     }
-    points = [[10.0 + 3.5 * k, 20.0, 1700.0] for k in range(posts)]
-    geometry = {"type": "LineString", "coordinates": points}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
+    return feature(points, **properties | special)
 
 
 def zone(ring):
-    geometry = {"type": "Polygon", "coordinates": [ring]}
-    properties = {"kind": "starting zone"}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
+    return feature([ring], "Polygon", kind="starting zone")
 
 
 def write(folder, *features):
     path = folder / "rows.geojson"
-    document = {"type": "FeatureCollection", "features": list(features)}
-    path.write_text(json.dumps(document))
+    path.write_text(json.dumps(collect(*features)))
     return path
 
 

@@ -1,8 +1,6 @@
 """Rows of shapefiles and GeoPackages: those of GeoJSON; what is none is refused."""
 
 import contextlib
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -10,8 +8,8 @@ import pytest
 from netdesign.addons.terrain.grid import require_plane, require_same
 from netdesign.addons.terrain.plan import read_plan
 from netdesign.outcome import TerrainError
-from tests.addons.terrain.map_files import GIVEN, SWISS, write_rows
-from tests.peak_memory import PEAK, needs_peak
+from tests.addons.terrain.map_files import GIVEN, SWISS, watch, write_rows
+from tests.peak_memory import needs_peak
 
 DRAW = np.random.default_rng(4)
 GERMAN = {"Werkreihe": "Bödeli-1", "Netzhöhe [cm]": 350.0, "Stützenabstand [m]": 3.2}
@@ -168,19 +166,6 @@ def test_what_is_no_such_file_is_one_refusal(tmp_path, call, end, content):
     assert "GDAL" not in ended.err
 
 
-WATCHED = f"""
-import sys
-from pathlib import Path
-from netdesign.outcome import TerrainError
-from netdesign.addons.terrain.plan import read_plan
-for name in sys.argv[1:]:
-    try:
-        print(name, "read", len(read_plan(Path(name)).lines))
-    except TerrainError as error:
-        print(str(error).splitlines()[0])
-{PEAK}
-print(peak())
-"""
 # Counts of records, of points, sizes of fields: place in its file, and bytes there.
 LIES = {
     "records": (".dbf", 4, b"\xff\xff\xff\x7f"),
@@ -202,13 +187,8 @@ def test_counts_that_lie_are_refused_without_their_memory(tmp_path):
         content = bytearray(path.read_bytes())
         content[at : at + len(lie)] = lie
         path.write_bytes(content)
-    ended = subprocess.run(
-        [sys.executable, "-c", WATCHED, *names],
-        cwd=tmp_path, capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    *told, megabytes = ended.stdout.splitlines()
+    told, _, most = watch("plan", "read_plan", names, tmp_path)
     assert [one.partition(".shp")[0] for one in told] == list(LIES)
     assert all(" read " not in one or one.endswith("read 3") for one in told), told
     assert sum(" read " not in one for one in told) >= 4, told
-    assert int(megabytes) < 500
-    assert ended.stderr == ""
+    assert most < 500  # [MiB]

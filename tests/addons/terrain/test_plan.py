@@ -8,15 +8,7 @@ import pytest
 
 from netdesign.addons.terrain.plan import read_plan
 from netdesign.outcome import TerrainError
-
-
-def feature(points, shape="LineString", **properties):
-    geometry = {"type": shape, "coordinates": points}
-    return {"type": "Feature", "geometry": geometry, "properties": properties}
-
-
-def collect(*features):
-    return {"type": "FeatureCollection", "features": list(features)}
+from tests.addons.terrain.map_files import collect, feature
 
 
 @pytest.fixture

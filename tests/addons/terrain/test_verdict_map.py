@@ -21,6 +21,7 @@ from netdesign.addons.terrain.verdict_map import (
 )
 from netdesign.checks import check_member, load_standard
 from netdesign.structure.row_position import Bore
+from tests.addons.terrain.map_files import feature
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 
@@ -212,10 +213,11 @@ def draw_features(seed=3, name="R1"):
         "kind": "net row", "id": name, "kinks_at_posts": [2, 3], "row_above": None,
         "utilisation": 0.873, "verdict": "fail",
     }  # fmt: skip
-    found = [make(row, posts.tolist(), "LineString")]
+    found = [feature(posts.tolist(), **row)]
     for number, place in enumerate(posts.tolist(), 1):
         told = {"row": name, "post": number, "verdict": VERDICTS[number % 4]}
-        found.append(make({"kind": "post", "part": "Base of the post", **told}, place))
+        post = {"kind": "post", "part": "Base of the post"}
+        found.append(feature(place, "Point", **post | told))
         axis = {
             "azimuth_deg": round(float(draw.uniform(0.0, 360.0)), 1),
             "dip_deg": round(float(draw.uniform(-30.0, 90.0)), 1),
@@ -225,13 +227,8 @@ def draw_features(seed=3, name="R1"):
             "is_rising": False,
         }
         given = {"kind": "anchor", "part": "Net anchor (foot)", **told, **axis}
-        found.append(make(given, place))
+        found.append(feature(place, "Point", **given))
     return found
-
-
-def make(properties, coordinates, kind="Point"):
-    geometry = {"type": kind, "coordinates": coordinates}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
 def write(tmp_path, name, features, language="en"):
