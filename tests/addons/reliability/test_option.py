@@ -4,7 +4,7 @@ import json
 
 from tests.make import write_rows
 
-QUICK = ("--jobs", "1", "--no-cache", "--quiet", "--no-excel")
+QUICK = ("--jobs", "1", "--accuracy", "0.05", "--no-cache", "--quiet", "--no-excel")
 
 
 def test_exit_code_and_verdicts_are_the_same_and_its_study_is_verified(

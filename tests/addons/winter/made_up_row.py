@@ -5,7 +5,10 @@ import math
 from dataclasses import replace
 from importlib.resources import files
 
+import numpy as np
+
 from netdesign.addons.winter.day import DaySolver, WinterRow
+from netdesign.addons.winter.settling import DayPack
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -62,6 +65,16 @@ def read_winter():
         files("netdesign.addons.winter").joinpath("winter_2000.csv").read_text("utf-8")
     )
     return [float(line["HS [cm]"]) / 100 for line in csv.DictReader(text.splitlines())]
+
+
+def a_pack(heights, densities):
+    """Layers from the ground, the lowest the oldest."""
+    heights = np.array(heights)
+    return DayPack(
+        heights=heights,
+        masses=heights * np.array(densities),
+        ages=np.arange(heights.size)[::-1],
+    )
 
 
 class FormulaSolver(DaySolver):

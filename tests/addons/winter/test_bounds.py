@@ -15,7 +15,13 @@ from netdesign.addons.winter.maxima import (
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.snow.ground import GroundLaw
 from netdesign.words.message import say
-from tests.addons.winter.made_up_row import SLOPE, FormulaSolver, a_solver, slides
+from tests.addons.winter.made_up_row import (
+    SLOPE,
+    FormulaSolver,
+    a_formula_solver,
+    a_solver,
+    slides,
+)
 from tests.each import each
 
 
@@ -150,7 +156,7 @@ def compare(base, solver, rng):
 def test_a_bound_is_never_below_the_maximum():
     """150 drawn winters whose pulls follow a formula."""
     rng = np.random.default_rng(61)
-    solver = FormulaSolver(row=a_solver().row, settings=a_solver().settings)
+    solver = a_formula_solver()
     endings = [compare(FormulaSolver, solver, rng) for _ in range(150)]
     assert endings.count("doubtful") > 30
     assert endings.count("solved") > 30

@@ -6,21 +6,11 @@ import numpy as np
 import pytest
 
 from netdesign.addons.winter.day import RowDay, build_day_scene, merge_layers
-from netdesign.addons.winter.settling import DayPack
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.structure.layout import SupportLayout
-from tests.addons.winter.made_up_row import SLOPE, a_solver
-
-
-def a_pack(heights, densities):
-    heights = np.array(heights)
-    return DayPack(
-        heights=heights,
-        masses=heights * np.array(densities),
-        ages=np.zeros(heights.size, dtype=np.int64),
-    )
+from tests.addons.winter.made_up_row import SLOPE, a_pack, a_solver
 
 
 def prepare(pack, **changes):

@@ -11,22 +11,13 @@ from netdesign.addons.winter.settling import (
     DELTA_SNOW,
     DELTA_SNOW_AGEING,
     Ageing,
-    DayPack,
     follow_heights,
 )
+from tests.addons.winter.made_up_row import a_pack
 
 G, DAY = 9.81, 86400.0
 RHO_0, RHO_MAX = 81.19417, 401.2588
 ETA, K = 8523356.0, 0.02993175
-
-
-def a_pack(heights, densities, ages=None):
-    heights = np.array(heights)
-    return DayPack(
-        heights=heights,
-        masses=heights * np.array(densities),
-        ages=np.arange(heights.size)[::-1] if ages is None else np.array(ages),
-    )
 
 
 def settled_by_hand(heights, densities):

@@ -2,21 +2,12 @@
 
 import math
 
-import numpy as np
 import pytest
 
-from netdesign.addons.winter.settling import HS2SWE, DayPack, follow_heights
+from netdesign.addons.winter.settling import HS2SWE, follow_heights
+from tests.addons.winter.made_up_row import a_pack
 
 G, DAY = 9.81, 86400.0
-
-
-def a_pack(heights, densities):
-    heights = np.array(heights)
-    return DayPack(
-        heights=heights,
-        masses=heights * np.array(densities),
-        ages=np.arange(heights.size)[::-1],
-    )
 
 
 def densities_by_hand(heights, densities, factor=1.0):

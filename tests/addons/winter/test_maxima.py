@@ -14,7 +14,7 @@ from netdesign.addons.winter.maxima import (
 )
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.addons.winter.uniform_table import build_table
-from tests.addons.winter.made_up_row import FormulaSolver, a_solver
+from tests.addons.winter.made_up_row import a_formula_solver, a_solver
 from tests.each import each
 
 QUICK = {"accuracy": 0.03}
@@ -116,7 +116,7 @@ def test_days_outside_a_table_are_solved_beside_those_read(number):
     draw = Random(50 + number)
     heights = [0.0, *(round(draw.uniform(0.4, 2.6), 2) for _ in range(40))]
     packs = follow(heights)
-    solver = FormulaSolver(row=a_solver().row, settings=a_solver().settings)
+    solver = a_formula_solver()
     low, high = sorted(draw.uniform(0.5, 2.4) for _ in range(2))
     table = build_table(solver, (low, high + 0.05), (150.0, draw.uniform(200.0, 520.0)))
     for is_alone in (True, False):

@@ -14,8 +14,8 @@ from netdesign.addons.winter.measured import (
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
+from tests.addons.winter.histories import follow_lengths
 from tests.addons.winter.made_up_row import loaded
-from tests.addons.winter.rope_histories import follow_lengths
 
 DAY = 86400.0
 COOLED = 10.0  # [K]

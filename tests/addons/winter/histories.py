@@ -1,4 +1,4 @@
-"""Chain with memory: each new snow is laid against the net as the old snow left it."""
+"""Nets that keep their past: under snow that is new, and of lengths that change."""
 
 from dataclasses import replace
 
@@ -9,9 +9,19 @@ from netdesign.addons.history.body import build_body
 from netdesign.addons.history.instant import advance
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.transient import follow
-from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.solve import solve_steady
 from tests.addons.history.starts import begin
+
+
+def step_on(problem, state, step):
+    """State after a step, and the pulls on foot and head over the scene's scale."""
+    instant = advance(
+        *(problem, state, step),
+        tolerance=1e-4,
+        balance_tolerance=1e-9,
+        max_iterations=30,
+    )
+    state, _ = follow(problem, state, instant, step)
+    return state, np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
 
 
 def follow_scenes(scenes, creep_times, steps=12):
@@ -23,20 +33,10 @@ def follow_scenes(scenes, creep_times, steps=12):
         problem, state = begin(scene, start, TRANSIENT_LEVELS[1], densifies=False)
         if points is not None:
             state = lay(state, problem, points, places)
-        before = 0.0
-        for time in creep_time * np.geomspace(1e-3, 1.0, steps):
-            instant = advance(
-                problem,
-                state,
-                time - before,
-                tolerance=1e-4,
-                balance_tolerance=1e-9,
-                max_iterations=30,
-            )
-            state, _ = follow(problem, state, instant, time - before)
-            before = time
-        ends = np.array([instant.foot_pull, instant.head_pull])
-        pulls.append(np.hypot(*ends.T) * scene.force_scale)
+        times = creep_time * np.geomspace(1e-3, 1.0, steps)
+        for step in np.diff(times, prepend=0.0):
+            state, pull = step_on(problem, state, step)
+        pulls.append(pull * scene.force_scale)
         points = state.body.vertices[:, state.body.topology.net]
         places = np.append(0.0, np.cumsum(state.lengths))
         if places.size > points.shape[1]:  # snow that settled leaves the head free
@@ -57,10 +57,15 @@ def lay(state, problem, points, places):
     )
 
 
-def solve_alone(scenes, accuracy=5e-3):
-    """Steady pulls on foot and head [N/m], (n_scenes, 2)."""
-    found = [
-        solve_steady(one, SolverSettings(accuracy=accuracy), on_failure="raise")
-        for one in scenes
-    ]
-    return np.array([(one.foot.size, one.head.size) for one in found])
+def follow_lengths(scene, times, shares):
+    """Pulls on foot and head [N/m], (n, 2), of a net of these shares of its length."""
+    problem, state = begin(scene, "steady", densifies=False)
+    full, share_before, pulls = problem.length, 1.0, []
+    steps = np.diff(times, prepend=0.0)
+    for step, share in zip(steps, shares, strict=True):
+        problem = replace(problem, length=full * share)
+        state = replace(state, lengths=state.lengths * (share / share_before))
+        state, pull = step_on(problem, state, step)
+        share_before = share
+        pulls.append(pull)
+    return np.array(pulls) * scene.force_scale
