@@ -88,11 +88,18 @@ def last_digits(study):
     study["rows"][0]["cases"][0]["error_percent"] *= 1.0 + 1e-9
 
 
-def test_a_study_made_to_pass_ends_with_1(verify):
+def test_a_study_made_to_pass_ends_with_1_and_has_no_verified_report(
+    verify, call, home
+):
     ended = verify(to_pass)
     assert ended.code == DIFFERS
     assert "verdict: stored 'pass', again 'fail'" in ended.out
     assert "same" not in ended.out
+    options = ("--verify", "--site", home / "site.xlsx", "--out", "out")
+    reported = call("report", "study.json", *options)
+    assert reported.code == REFUSED
+    assert "verdict: stored 'pass', again 'fail'" in reported.err
+    assert call("report", "study.json", "--out", "out", "--no-excel").code == 0
 
 
 # A change of one value, and the place that is named.
@@ -137,16 +144,20 @@ def test_a_check_too_many_is_a_difference(verify):
     assert "again None" in ended.out
 
 
-def test_a_verdict_alone_altered_is_found_before_a_solve(home, call, tmp_path):
-    """Under the digest of before, and under one made anew by who altered it."""
+def test_an_altered_study_is_refused_at_reading(home, call, tmp_path):
+    """By accident; its verdict alone, under the digest of before or one made anew."""
     text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
     study = json.loads(text) | {"verdict": "pass"}
-    for digest in (study["digest"], hash_text(json.dumps(study))):
-        altered = json.dumps(study | {"digest": digest})
-        (tmp_path / "study.json").write_text(altered, encoding="utf-8")
-        ended = call("verify", "--study", "study.json", "--site", home / "site.xlsx")
-        assert ended.code == REFUSED
-        assert "altered after it was written" in ended.err
+    digests = study["digest"], hash_text(json.dumps(study))
+    altered = [json.dumps(study | {"digest": one}) for one in digests]
+    path = tmp_path / "damaged.json"
+    for content in (text.replace('"R7"', '"R8"', 1), *altered):
+        path.write_text(content, encoding="utf-8")
+        words = (("verify", "--study", path), ("report", path), ("diff", path, path))
+        ended = [call(*one) for one in words]
+        assert [one.code for one in ended] == [REFUSED] * 3
+        (told,) = {one.err for one in ended}
+        assert "damaged.json: it was altered after it was written" in told
 
 
 def test_the_last_digits_of_another_machine_are_no_difference(verify):
@@ -200,26 +211,6 @@ def test_settings_that_cannot_be_had_again_are_refused(verify):
     ended = verify(change)
     assert ended.code == REFUSED
     assert "creep law 'my own'" in ended.err
-
-
-def test_a_study_altered_by_accident_is_refused_at_reading(home, call, tmp_path):
-    text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
-    path = tmp_path / "damaged.json"
-    path.write_text(text.replace('"R7"', '"R8"', 1), encoding="utf-8")
-    words = (("verify", "--study", path), ("report", path), ("diff", path, path))
-    ended = [call(*one) for one in words]
-    assert [one.code for one in ended] == [REFUSED] * 3
-    (told,) = {one.err for one in ended}
-    assert "damaged.json: it was altered after it was written" in told
-
-
-def test_verify_refuses_reports_of_another_study(verify, call, home):
-    verify(to_pass)
-    options = ("--verify", "--site", home / "site.xlsx", "--out", "out")
-    reported = call("report", "study.json", *options)
-    assert reported.code == REFUSED
-    assert "verdict: stored 'pass', again 'fail'" in reported.err
-    assert call("report", "study.json", "--out", "out", "--no-excel").code == 0
 
 
 def test_a_row_left_out_by_hand_is_found(home, call, tmp_path, monkeypatch):
