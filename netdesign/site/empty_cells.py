@@ -6,7 +6,7 @@ No empty cell stops a row: knowing less widens its forces, and never hides them.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from netdesign.envelope.ranges import Interval, Ranges
@@ -15,16 +15,16 @@ from netdesign.guideline.load_model import (
     load_guideline,
     read_load_model,
 )
-from netdesign.site.assumed import Assumed, assume, assume_ends
+from netdesign.site.anchor_types import ANCHORS, read_axes
+from netdesign.site.assumed import Assumed, assume, assume_ends, load_assumed
 from netdesign.site.columns.fields import from_si, to_si
-from netdesign.site.ranges import SiteRanges
+from netdesign.site.lines import Lines, Types
 from netdesign.site.readings import Reading, Row
 from netdesign.site.statements import list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import find_model_code_density
 from netdesign.snow.snowpack import Layer, compute_mean_density
-from netdesign.words.message import say
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
 _SEVERE = {
@@ -33,31 +33,92 @@ _SEVERE = {
     "glide_factor": 1.0,
 }  # share of the range that pulls hardest
 _DISTANCES = ("uphill_anchor_distance", "downhill_anchor_distance")
-_SAGS = ("ridge_sag", "lower_sag")
+_OF_SITE = ("density", "friction_angle", "inclination")
+# Of these a panel has the worst that is built; no column says it.
+_ALWAYS = ("panel_system", "net_cut")
 
 
-def fill_in_assumed(row: Row) -> tuple[Row, tuple[Assumed, ...]]:
-    """Line with numbers in those empty cells that a calculation needs one of.
+def fill_in(
+    row: Row, end: Row, snow: Snow, lines: Lines
+) -> tuple[Row, tuple[Assumed, ...]]:
+    """Line of a net row with numbers in its empty cells, and what is assumed of these.
 
     Parameters
     ----------
-    row : mapping of str to Reading
-        Line of a net row.
+    row, end : Row
+        Line of a net row without a fault, and the cells that name other types at its
+        end.
+    snow : tuple of float, tuple of Layer, GroundLaw
+        Thickness, layers, on what.
+    lines : Lines
+        Of all sheets.
 
     Returns
     -------
     Row, tuple of Assumed
         A number that is filled in is the severe end of its range, or the middle where
-        none is severe; what is assumed of net and support.
+        none is severe; what is assumed, and the ranges that cells hold.
     """
-    found = tuple(_list_of_net(row))
-    filled = {one.key: _place(row[one.key], one) for one in found if one.key in row}
-    glide = (assume("glide_factor"),) if _lacks_glide(row) else ()
-    for one in glide:
-        how = say("assumed.any_class", low=one.low, high=one.high)
-        glide_factor = _place(row[one.key], one)
-        filled[one.key] = replace(glide_factor, derivation=how)
-    return {**row, **filled}, (*found, *glide, *_list_of_support(row))
+    is_open = _find_open(row, end, lines)
+    found = tuple(
+        _assume(key, row, snow)
+        for key in load_assumed()
+        if is_open.get(key, key in row and row[key].state == "blank")
+    )
+    filled = {x.key: _place(row[x.key], x) for x in found if x.key in row}
+    return {**row, **filled}, (*found, *_list_typed(row))
+
+
+def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
+    """What is open of a row by more than whether its cell is empty."""
+    gap, count = row["gap"].given_si, row["guy_count"].given_count
+    site = {one.key for one in lines.ranges.assumed}
+    of_types = set(_list_of_types([*row.values(), *end.values()], lines.types))
+    return {
+        **dict.fromkeys(_ALWAYS, True),
+        **{key: key in site for key in _OF_SITE},
+        **{key: key in of_types for key in _OF_TYPES},
+        "altitude": not row["altitude"].given_si,
+        "snow_layers": row["id"].word not in lines.snow,
+        "axial_stiffness": bool(list_open_ropes(row, lines.types["ropes"])),
+        "guy_splay": count != 1 and row["guy_splay"].state == "blank",
+        "guy_anchors": count != 1 and row["guy_anchors"].state == "blank",
+        "row_end": gap is None,
+        "end_guy_angle": gap != 0.0 and row["end_guy_angle"].state == "blank",
+        "anchor_axes": len(read_axes(row, ANCHORS, lines.types)) < len(ANCHORS),
+    }
+
+
+_OF_TYPES = ("anchor_kind", "lever_arm", "base_friction", "buckling_length")
+
+
+def _list_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
+    """What is assumed of anchors and posts that cells name, by key."""
+    anchors, posts = (
+        [types[of][x.word] for x in named if x.field.refers_to == of and x.word]
+        for of in ("anchor_types", "posts")
+    )
+    for line in anchors:
+        kind = line["kind"].word
+        if not kind:
+            yield "anchor_kind"
+        if kind != "rope anchor" and line["lever_arm"].state == "blank":
+            yield "lever_arm"
+    if not posts or any(one["base_friction"].state == "blank" for one in posts):
+        yield "base_friction"
+
+
+def _assume(key: str, row: Row, snow: Snow) -> Assumed:
+    """Range or value of an empty column, as far as it hangs on the row."""
+    thickness, layers, ground = snow
+    if key in _DISTANCES:
+        return assume(key, row["net_height"].si)
+    if key == "upslope_length":
+        return assume_upslope(thickness, ground)
+    if key == "density":
+        height = thickness / math.cos(row["slope_angle"].si)
+        return assume_density(height, row["altitude"].given_si, layers)
+    return assume(key)
 
 
 def _place(reading: Reading, assumed: Assumed) -> Reading:
@@ -65,73 +126,7 @@ def _place(reading: Reading, assumed: Assumed) -> Reading:
     share = _SEVERE.get(assumed.key, 0.5)
     value = (1.0 - share) * assumed.low + share * assumed.high
     number = from_si(value, reading.field.unit)
-    return replace(reading, state="default", value=number)
-
-
-def _list_of_net(row: Row) -> Iterator[Assumed]:
-    """Numbers of net and support that a line leaves empty."""
-    for key in ("slack", "net_stiffness"):
-        if row[key].state == "blank":
-            yield assume(key)
-    if row["post_tilt"].state == "blank":
-        yield assume("post_tilt")
-    height = row["net_height"]
-    for key in _DISTANCES:
-        if row[key].state == "blank" and isinstance(height.value, float):
-            yield assume(key, height.si)
-
-
-def _lacks_glide(row: Row) -> bool:
-    """Neither a glide factor nor free gliding is given."""
-    return row["glide_factor"].state == "blank"
-
-
-def _list_of_support(row: Row) -> Iterator[Assumed]:
-    """What is assumed of guys, and of the ropes between two posts."""
-    count = row["guy_count"]
-    if count.state == "blank":
-        yield assume("guy_count")
-    if count.given_count != 1 and row["guy_splay"].state == "blank":
-        yield assume("guy_splay")
-    yield from (assume(key) for key in _SAGS if row[key].state == "blank")
-
-
-def assume_stiffness(row: Row, ropes: Mapping[str, Row]) -> tuple[Assumed, ...]:
-    """Stiffness of border ropes, where a type of the row does not give it."""
-    return (assume("axial_stiffness"),) if list_open_ropes(row, ropes) else ()
-
-
-def fill_in_snow(
-    row: Row, snow: Snow, ranges: SiteRanges, lines: Sequence[Row]
-) -> tuple[Row, tuple[Assumed, ...]]:
-    """Line with a length of its snow, and what is assumed of its snow.
-
-    Parameters
-    ----------
-    row : mapping of str to Reading
-        Line of a net row, without a fault.
-    snow : tuple of float, tuple of Layer, GroundLaw
-        Thickness, layers, on what.
-    ranges : SiteRanges
-        Of the site, which lists what it does not give.
-    lines : sequence of Row
-        Of sheet Snow.
-    """
-    thickness, layers, ground = snow
-    altitude = row["altitude"].given_si
-    found: list[Assumed] = [] if altitude else [assume("altitude")]
-    if not lines:
-        found.append(assume("snow_layers"))
-    for one in ranges.assumed:
-        if one.key == "density":
-            height = thickness / math.cos(row["slope_angle"].si)
-            one = assume_density(height, altitude, layers)
-        found.append(one)
-    if row["upslope_length"].state != "blank":
-        return row, tuple(found)
-    length = assume_upslope(thickness, ground)
-    filled = {**row, length.key: _place(row[length.key], length)}
-    return filled, (*found, length)
+    return replace(reading, state="default", value=None if assumed.word else number)
 
 
 # Snow farther upslope than (_FROM + _MORE r^(1/3)) d adds less than 0.1 % to the pulls,
@@ -186,18 +181,15 @@ def assume_density(
     return assume_ends("density", low, high)
 
 
-# Columns that may hold a range, which counts as one that is assumed.
-_OF_TYPE = (
-    *("slack", "net_stiffness", "post_tilt", *_DISTANCES, "guy_splay"),
-    "end_guy_angle",
-)
-# Those whose range is searched with the cases.
+# Columns whose range is searched with the cases, and none of net and support.
 _OF_CASES = ("snow", "glide_factor", "upslope_length")
 
 
-def list_typed(row: Row, *, has_end: bool) -> tuple[Assumed, ...]:
+def _list_typed(row: Row) -> tuple[Assumed, ...]:
     """Ranges of net and support that cells of a row hold."""
-    keys = _OF_TYPE if has_end else _OF_TYPE[:-1]
+    keys = [key for key in load_assumed() if key in row and key not in _OF_CASES]
+    if row["gap"].given_si == 0.0:
+        keys.remove("end_guy_angle")
     return tuple(
         replace(
             assume(one.field.key),

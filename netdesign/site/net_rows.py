@@ -12,14 +12,7 @@ from netdesign.site.anchor_types import ANCHORS, read_anchor_types, read_axes
 from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
-from netdesign.site.empty_cells import (
-    Snow,
-    assume_stiffness,
-    fill_in_assumed,
-    fill_in_snow,
-    find_own_ranges,
-    list_typed,
-)
+from netdesign.site.empty_cells import Snow, fill_in, find_own_ranges
 from netdesign.site.lines import (
     Lines,
     Neighbours,
@@ -47,7 +40,6 @@ from netdesign.site.statements import (
     build_panels,
     has_same_types,
     list_assumed,
-    list_fixed,
 )
 from netdesign.site.support_types import (
     build_row_end,
@@ -187,42 +179,39 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     has_end = line["gap"].given_si != 0.0
     snow = lines.snow.get(line["id"].word, ())
     end = lines.ends[line["id"].word] if has_end else {}
-    row, assumed = fill_in_assumed(line)
-    layers = build_layers(snow, row["slope_angle"], findings)
-    thickness = _understand_thickness(row, snow, layers, findings)
-    ground = _understand_ground(row, thickness, findings)
-    _ask_for_length(row, findings)
-    for one in (row, end):
+    layers = build_layers(snow, line["slope_angle"], findings)
+    thickness = _understand_thickness(line, snow, layers, findings)
+    ground = _understand_ground(line["glide_factor"], thickness, findings)
+    _ask_for_length(line, findings)
+    for one in (line, end):
         refuse_unknown_types(one, lines, findings)
     is_refused = any(one.severity == "error" for one in findings[count_before:])
-    if is_refused or _is_faulty((row, end), lines.unreadable):
+    if is_refused or _is_faulty((line, end), lines.unreadable):
         return None
     if thickness is None or ground is None:
         return None
-    row = _round_net_height(row, thickness, findings)
-    line = {**line, "net_height": row["net_height"]}
-    if is_overtopped(row["net_height"].si, thickness):
+    held = (thickness, layers, ground)
+    row, assumed = fill_in(line, end, held, lines)
+    rounded = _round_net_height(line["net_height"], thickness, findings)
+    if is_overtopped(rounded.si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
-        refuse(row["net_height"], rule, "", findings, severity="note")
+        refuse(rounded, rule, "", findings, severity="note")
+    line, row = ({**one, "net_height": rounded} for one in (line, row))
     echoes = _echo_inputs(line, thickness, ground)
     inputs = (*echoes, *echo_layers(snow), *_echo_end(end))
-    held = (thickness, layers, ground)
-    row, further = fill_in_snow(row, held, lines.ranges, snow)
     built = _compose_net_row(row, end, lines.types, held, inputs)
-    found = (*assumed, *further, *assume_stiffness(row, lines.types["ropes"]))
-    found = (*found, *built.assumed, *list_typed(row, has_end=has_end))
-    own = find_own_ranges(found, row)
-    return replace(built, assumed=found, ranges=own)
+    return replace(built, assumed=assumed, ranges=find_own_ranges(assumed, row))
 
 
-def _round_net_height(row: Row, thickness: float, findings: list[Finding]) -> Row:
-    """Row whose net is as high as snow that is a rounding thicker; that is told."""
-    height = row["net_height"]
+def _round_net_height(
+    height: Reading, thickness: float, findings: list[Finding]
+) -> Reading:
+    """Height of a net as high as snow that is a rounding thicker; that is told."""
     if not 0.0 < thickness - height.si <= _ROUNDING:
-        return row
+        return height
     how = say("nets.rounded", typed=height.si, thickness=thickness)
     refuse(height, how, "", findings, severity="note")
-    return {**row, "net_height": replace(height, value=thickness, derivation=how)}
+    return replace(height, value=thickness, derivation=how)
 
 
 def _is_faulty(named: Sequence[Row], unreadable: Iterable[str]) -> bool:
@@ -266,7 +255,6 @@ def _compose_net_row(
         anchors=read_anchor_types(row, types),
         panels=build_panels(row, types["ropes"]),
         panel_assumed=list_assumed(row, types["ropes"]),
-        assumed=list_fixed(row, end, gap, types),
         row_end=None if gap == 0.0 else build_row_end(at_end, types),
         net_parts=find_net_parts(row, types),
         approval=read_approval(row),
@@ -289,14 +277,19 @@ def _understand_thickness(
 
 
 def _understand_ground(
-    row: Row, thickness: float | None, findings: list[Finding]
+    glide: Reading, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
-    glide = row["glide_factor"]
-    if glide.state == "faulty":
-        return None
+    """Ground of a glide factor, the largest where nobody gives it."""
     if glide.word:
         return GroundLaw(kind="free")
-    return _build_sliding_ground(glide, thickness, findings)
+    if glide.state == "faulty" or thickness is None:
+        return None
+    factor = glide.known_si or assume("glide_factor").high
+    try:
+        return build_ground_from_glide_factor(factor, thickness)
+    except ModelError as error:  # between 1 and the least factor above it
+        refuse(glide, say("nets.no_slip_length"), error.message, findings)
+        return None
 
 
 def _ask_for_length(row: Row, findings: list[Finding]) -> None:
@@ -306,18 +299,6 @@ def _ask_for_length(row: Row, findings: list[Finding]) -> None:
         rule = say("nets.free_without_length", name=length.field.name)
         at = glide if length.cell is None else length
         refuse(at, rule, say("nets.other_law_or_length"), findings)
-
-
-def _build_sliding_ground(
-    glide: Reading, thickness: float | None, findings: list[Finding]
-) -> GroundLaw | None:
-    if thickness is None:
-        return None
-    try:
-        return build_ground_from_glide_factor(glide.number, thickness)
-    except ModelError as error:  # between 1 and the least factor above it
-        refuse(glide, say("nets.no_slip_length"), error.message, findings)
-        return None
 
 
 def _build_layout(row: Row) -> SupportLayout:

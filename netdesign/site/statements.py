@@ -21,11 +21,10 @@ from netdesign.panel.inputs import (
 from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
-from netdesign.site.anchor_types import ANCHORS, name_column, read_axes
-from netdesign.site.assumed import Assumed, assume
+from netdesign.site.anchor_types import ANCHORS, name_column
 from netdesign.site.lines import Types
 from netdesign.site.model import NetRow, Resistance
-from netdesign.site.readings import Reading, Row
+from netdesign.site.readings import Row
 from netdesign.site.type_resistances import find_breaking
 from netdesign.structure.members import (
     CONNECTED,
@@ -139,59 +138,6 @@ def _find_stiffness(line: Row | None) -> Ends:
 def has_same_types(at_end: Row, row: Row) -> bool:
     """Sameness of every type at the row's end and inside."""
     return all(at_end[key].word == row[key].word for key in TYPES)
-
-
-def list_fixed(
-    row: Row, end: Row, gap: float | None, types: Types
-) -> tuple[Assumed, ...]:
-    """Words and single values that stand for empty cells of a row and its types.
-
-    Parameters
-    ----------
-    row, end : Row
-        Line of a net row, and its cells that name other types at its end.
-    gap : float or None
-        Beside the row, 0 where its nets go on; None where nobody gives it.
-    types : mapping of str to mapping of str to Row
-        Lines of types by table.
-    """
-    has_end = gap != 0.0
-    is_open = {
-        "design_life": _is_empty(row, "design_life"),
-        "panel_system": True,
-        "mid_anchors": _is_empty(row, "mid_anchors"),
-        "net_cut": True,
-        "guy_anchors": row["guy_count"].given_count != 1
-        and _is_empty(row, "guy_anchors"),
-        "row_end": gap is None,
-        "end_guy_angle": has_end and _is_empty(row, "end_guy_angle"),
-        "anchor_axes": len(read_axes(row, ANCHORS, types)) < len(ANCHORS),
-    }
-    keys = [key for key, is_empty in is_open.items() if is_empty]
-    named = [*row.values(), *end.values()]
-    found = [*keys, *_list_fixed_of_types(named, types)]
-    return tuple(assume(key) for key in dict.fromkeys(found))
-
-
-def _is_empty(line: Row, key: str) -> bool:
-    return line[key].state in ("blank", "default")
-
-
-def _list_fixed_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
-    """What is assumed of anchors and posts that cells name, by key."""
-    anchors, posts = (
-        [lines[x.word] for x in named if x.field.refers_to == table and x.word in lines]
-        for table, lines in types.items()
-        if table != "ropes"
-    )
-    for line in anchors:
-        kind = line["kind"].word
-        if not kind:
-            yield "anchor_kind"
-        if kind != "rope anchor" and _is_empty(line, "lever_arm"):
-            yield "lever_arm"
-    if not posts or any(_is_empty(one, "base_friction") for one in posts):
-        yield "base_friction"
 
 
 # Columns that verdicts lack, by mode, where they are not those of anchor types.
