@@ -146,28 +146,105 @@ class MethodSettings(Hashable, Protocol):
         """Tolerances and choices that a rerun needs."""
 
 
+# Distance from the net's foot over that of its head. Cases that slip only so far move
+# by at most a tenth of their stated error if friction grows (512 cases of a row).
+_BY_FOOT = 5e-3
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Solution:
-    """A converged state whose balances were checked. SI units.
+class SolvedState:
+    """A converged state whose balances were checked, as an envelope keeps it. SI units.
 
     Attributes
     ----------
-    scene : Scene
-        What was solved.
     method : str
         ``steady``, ``transient`` or ``staggered``.
     foot, head : EndPull
         Pulls on the net's ends: design values, the largest of a history.
-    tension_min, tension_max : float
+    tension_max : float
         Along the net [N/m].
-    sag : float
-        Largest distance of the net from its chord, normal to it [m].
     net_curve : ndarray, shape (2, n)
         Net nodes in the snow, foot to head [m].
     net_forces : ndarray, shape (2, n)
         Forces of the snow on them [N/m].
     net_slides : ndarray of bool, shape (n,)
         Where the snow slips on the net.
+    balance, cost
+        See there; of a history the worst balance of all its steps.
+    is_released : bool
+        A two-sided net contact was asked for, but the snow would pull on the net too
+        much: the one-sided one was solved.
+    """
+
+    method: Method
+    foot: EndPull
+    head: EndPull
+    tension_max: float
+    net_curve: Floats
+    net_forces: Floats
+    net_slides: Mask
+    balance: Balance
+    cost: Cost
+    is_released: bool = False
+
+    @property
+    def outcome(self) -> Outcome:
+        """Always converged: anything else is a ``FailedSolution``."""
+        return Outcome.CONVERGED
+
+    @property
+    def reason(self) -> Message | None:
+        """Remark that a reader needs; None of what was solved as asked."""
+        return RELEASED if self.is_released else None
+
+    @property
+    def head_point(self) -> tuple[float, float]:
+        """Position of the net's head [m]."""
+        x, y = self.net_curve[:, -1]
+        return float(x), float(y)
+
+    @property
+    def sticks(self) -> bool:
+        """The snow slips nowhere on the net, or only by its foot.
+
+        There, where the pressure is singular, some snow slips at any friction; more
+        friction would change next to nothing.
+        """
+        slides = np.flatnonzero(self.net_slides)
+        if not slides.size:
+            return True
+        (x, y), head = self.net_curve[:, slides[-1]], self.head_point
+        return math.hypot(x, y) <= _BY_FOOT * math.hypot(*head)
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether every number behind a force is finite, and no error is negative."""
+        parts = (
+            getattr(part, key)
+            for part in (self.foot, self.head, self.balance)
+            for key in part.__dataclass_fields__
+        )
+        numbers = [self.tension_max, *(part for part in parts if part is not None)]
+        shape = (self.net_curve, self.net_forces)
+        return (
+            all(math.isfinite(number) for number in numbers)
+            and all(bool(np.isfinite(array).all()) for array in shape)
+            and min(self.foot.error, self.head.error) >= 0.0
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Solution(SolvedState):
+    """A solved state with its scene, mesh and history. SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved; with the one-sided contact where the net ``is_released``.
+    tension_min : float
+        Along the net [N/m].
+    sag : float
+        Largest distance of the net from its chord, normal to it [m].
     mesh_nodes : ndarray, shape (2, n_nodes)
         [m].
     mesh_triangles : ndarray, shape (3, n_triangles)
@@ -177,49 +254,23 @@ class Solution:
     mesh_velocity : ndarray, shape (2, n_nodes)
         Along the slope and normal to it [m/s]; the only result that depends on the
         fluidity.
-    balance, cost
-        See there; of a history the worst balance of all its steps.
     history : FollowedHistory or None
         Of a transient or staggered solve; shapes are then those at its end.
-    is_released : bool
-        A two-sided net contact was asked for, but the snow would pull on the net too
-        much: ``scene`` has the one-sided one that was solved.
     """
 
     scene: Scene
-    method: Method
-    foot: EndPull
-    head: EndPull
     tension_min: float
-    tension_max: float
     sag: float
-    net_curve: Floats
-    net_forces: Floats
-    net_slides: Mask
     mesh_nodes: Floats
     mesh_triangles: Ints
     mesh_density: Floats
     mesh_velocity: Floats
-    balance: Balance
-    cost: Cost
     history: FollowedHistory | None = None
-    is_released: bool = False
 
     @property
     def largest_velocity(self) -> float:
         """Largest velocity of the snow [m/s]."""
         return float(np.hypot(*self.mesh_velocity).max())
-
-    @property
-    def head_point(self) -> tuple[float, float]:
-        """Position of the net's head [m]."""
-        x, y = self.net_curve[:, -1]
-        return float(x), float(y)
-
-    @property
-    def outcome(self) -> Outcome:
-        """Always converged: anything else is a ``FailedSolution``."""
-        return Outcome.CONVERGED
 
     def plot(self, path: str | Path | None = None) -> Figure:
         """Draw the net in its section, with its pulls on what holds it.

@@ -14,6 +14,7 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
+from netdesign.coupling.solution import SolvedState
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome, SolveError
 from netdesign.panel.inputs import Panel
@@ -25,7 +26,6 @@ from netdesign.panel.solve import (
     solve_strips,
 )
 from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
-from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import (
     AnchorForces,
     Ways,

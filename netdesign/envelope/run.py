@@ -10,7 +10,7 @@ import numpy as np
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.solution import FailedSolution, SolvedState
 from netdesign.envelope.panel_forces import (
     HeldPulls,
     PanelForces,
@@ -27,7 +27,7 @@ from netdesign.outcome import SENTENCE, Fault, ModelError, Outcome, catch_fault
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solve import FailedPanel
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import CaseEnd, Settings, SolvedState, describe_case
+from netdesign.solving.solve import CaseEnd, Settings, describe_case
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport

@@ -17,6 +17,7 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
+from netdesign.coupling.solution import SolvedState
 from netdesign.edge.progress import Wave
 from netdesign.envelope.result_reader import bound_lifted, name_quantities
 from netdesign.envelope.rows import (
@@ -30,7 +31,7 @@ from netdesign.envelope.run import CaseResult, resolve_case
 from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.search.surrogate import Point
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import CaseEnd, Settings, SolvedState
+from netdesign.solving.solve import CaseEnd, Settings
 from netdesign.solving.workers import Batch, Ends
 
 _End = TypeVar("_End")

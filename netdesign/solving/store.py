@@ -129,7 +129,7 @@ def _list_files(parts: tuple[str, ...], package: Path) -> Iterator[Path]:
         yield from (file for file in files if file.suffix in (".py", ".toml"))
 
 
-_LAYOUT = 7  # of the tables
+_LAYOUT = 8  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _MOST_BYTES = 2**27  # of all net rows, compressed: 1,000 rows take some 80 MB
@@ -290,7 +290,7 @@ class CaseStore:
             # entries are long: they stay in the order in which they come
             base.execute(
                 "CREATE TABLE cases (name TEXT PRIMARY KEY, numbers TEXT NOT NULL, "
-                "shape BLOB NOT NULL, seal TEXT NOT NULL)"
+                "seal TEXT NOT NULL)"
             )
             base.execute(
                 "CREATE TABLE rows (number INTEGER PRIMARY KEY, "
@@ -312,11 +312,9 @@ class CaseStore:
         for start in range(0, len(wanted), _LOOKED_UP):
             part = wanted[start : start + _LOOKED_UP]
             marks = ", ".join("?" * len(part))
-            query = (
-                f"SELECT name, numbers, shape, seal FROM cases WHERE name IN ({marks})"
-            )
-            for name, numbers, shape, seal in self._base.execute(query, part):
-                end = _unseal(name, numbers, shape, seal)
+            query = f"SELECT name, numbers, seal FROM cases WHERE name IN ({marks})"
+            for name, numbers, seal in self._base.execute(query, part):
+                end = _unseal(name, numbers, seal)
                 if end is None:
                     self._describe_damaged("store.case_damaged", name)
                     self._base.execute("DELETE FROM cases WHERE name = ?", (name,))
@@ -331,10 +329,10 @@ class CaseStore:
         """Store one finished case, in a transaction of its own."""
         if end.outcome in FORGOTTEN:
             return
-        numbers, shape = encode_end(end)
+        numbers = encode_end(end)
         self._base.execute(
-            "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?)",
-            (name, numbers, shape, seal_entry(name, numbers, shape)),
+            "INSERT OR REPLACE INTO cases VALUES (?, ?, ?)",
+            (name, numbers, seal_entry(name, numbers.encode())),
         )
 
     def find_row(self, name: str) -> list[str] | None:
@@ -353,29 +351,29 @@ class CaseStore:
         self._base.execute("BEGIN IMMEDIATE")
         self._base.execute(
             "INSERT OR REPLACE INTO rows (name, packed, seal) VALUES (?, ?, ?)",
-            (name, packed, seal_entry(name, "", packed)),
+            (name, packed, seal_entry(name, packed)),
         )
         self._base.execute(_FORGET_OLDEST, (_MOST_BYTES,))
         self._base.execute("COMMIT")
 
 
-def seal_entry(name: str, numbers: str, shape: bytes) -> str:
+def seal_entry(name: str, content: bytes) -> str:
     """Digest of an entry, by which a change of any part of it is seen."""
-    return hashlib.sha256(f"{name} {numbers}".encode() + shape).hexdigest()
+    return hashlib.sha256(f"{name} ".encode() + content).hexdigest()
 
 
-def _unseal(name: str, numbers: str, shape: bytes, seal: str) -> CaseEnd | None:
+def _unseal(name: str, numbers: str, seal: str) -> CaseEnd | None:
     """Case of an entry; None if anything in it was changed."""
-    with suppress(ValueError, KeyError, TypeError):
-        if seal_entry(name, numbers, shape) == seal:
-            return decode_end(numbers, shape)
+    with suppress(ValueError, KeyError, TypeError, AttributeError):
+        if seal_entry(name, numbers.encode()) == seal:
+            return decode_end(numbers)
     return None
 
 
 def _unpack(name: str, packed: bytes, seal: str) -> list[str] | None:
     """Texts of a net row; None if anything in the entry was changed."""
     with suppress(ValueError, TypeError, zlib.error):
-        if seal_entry(name, "", packed) != seal:
+        if seal_entry(name, packed) != seal:
             return None
         # never more than a study may have, whatever was packed there
         text = zlib.decompressobj().decompress(packed, MAX_JSON_BYTES)

@@ -12,6 +12,7 @@ from netdesign.cable.net import (
     compute_turning_angles,
 )
 from netdesign.checks.check import Check
+from netdesign.coupling.solution import SolvedState
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
@@ -22,7 +23,6 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
     load_glide_tables,
 )
-from netdesign.solving.solve import SolvedState
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
 from netdesign.study.case_records import Drawing

@@ -103,6 +103,6 @@ def _record_confirmation(
     return ConfirmationRecord(
         confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
         difference_percent=None if difference is None else 100.0 * difference,
-        elements=confirmed.elements if confirmed else None,
+        elements=confirmed.cost.elements if confirmed else None,
         reason=confirmation.confirmed.reason,
     )

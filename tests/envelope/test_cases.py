@@ -81,7 +81,7 @@ def test_rough_results_are_converged_and_state_errors_that_hold(found):
         assert result.is_converged
         assert result.solution.balance.relative_residual <= 1e-8
         exact = solve_case(build_point_task(TASK, point))
-        assert exact.solution.elements > result.solution.elements
+        assert exact.solution.cost.elements > result.solution.cost.elements
         for member, band in exact.member_forces.items():
             own = result.member_forces[member]
             assert abs(own.value - band.value) <= own.high - own.value
@@ -142,8 +142,8 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     coarsest = solve_case(
         build_point_task(task, points[0], replace(SETTINGS, levels=MESH_LEVELS[:2]))
     )
-    assert {one.solution.elements for one in results}.isdisjoint(
-        {coarsest.solution.elements}
+    assert {one.solution.cost.elements for one in results}.isdisjoint(
+        {coarsest.solution.cost.elements}
     )
 
 

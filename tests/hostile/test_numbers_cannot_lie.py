@@ -271,7 +271,7 @@ def test_entries_exchanged_in_a_store_decide_nothing(stored, tmp_path):
         names = [row[0] for row in rows]
         for name, row in zip([*names[1:], names[0]], rows, strict=True):
             base.execute(
-                "UPDATE cases SET numbers = ?, shape = ?, seal = ? WHERE name = ?",
+                "UPDATE cases SET numbers = ?, seal = ? WHERE name = ?",
                 (*row[1:], name),
             )
         base.commit()

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.solution import FailedSolution, SolvedState
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import Outcome
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import CaseEnd, SolvedState, decode_end, encode_end
+from netdesign.solving.solve import CaseEnd, decode_end, encode_end
 from netdesign.solving.store import CaseStore, name_case
 from netdesign.solving.workers import Job, solve_job
 from netdesign.words.message import say
@@ -51,7 +51,7 @@ def opened(tmp_path, said):
 
 
 def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
-    assert_same(decode_end(*encode_end(solve_one())), solve_one())
+    assert_same(decode_end(encode_end(solve_one())), solve_one())
 
 
 def test_what_is_kept_is_found_by_a_later_run(opened, said):
