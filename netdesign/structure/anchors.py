@@ -22,7 +22,6 @@ from netdesign.outcome import Outcome, require_positive, require_within
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
-    MemberSizes,
     Vector,
     compute_head_forces,
     hold_head,
@@ -158,14 +157,11 @@ class GroundForce:
 
     Attributes
     ----------
-    member : str
-        What brings the force: the net, a guy or the post.
     x, y : float
         Parts along the slope (downslope positive) and normal to it (out of the
         ground positive) [N].
     """
 
-    member: Member
     x: float
     y: float
 
@@ -193,7 +189,7 @@ class AnchorForces:
     uphill_anchor: GroundForce
     downhill_anchor: GroundForce
     post_base: GroundForce
-    head: HeadForces
+    head: HeadForces[float]
     is_foot_shared: bool
 
     @property
@@ -261,7 +257,7 @@ def compute_member_forces(
 
 
 def _list_forces(
-    head: MemberSizes[Number],
+    head: HeadForces[Number],
     *,
     foot: Number,
     out_of_ground: Number,
@@ -324,40 +320,31 @@ def compute_anchor_forces(
     head = compute_head_forces(_scale(head_pull_per_m, post_spacing), points)
     if isinstance(head, FailedSupport):
         return head
+    thrusts = (
+        (points.post_base, head.post_compression - head.post_tension),
+        (points.uphill_anchor, -head.uphill_guy_tension),
+        (points.downhill_anchor, -head.downhill_guy_tension),
+    )
+    base, uphill, downhill = (
+        _force_from_head(points.head, place, thrust) for place, thrust in thrusts
+    )
     return AnchorForces(
-        foot_anchor=GroundForce(member=Member.NET, x=foot[0], y=foot[1]),
-        uphill_anchor=_force_from_head(
-            Member.UPHILL_GUY,
-            points.head,
-            points.uphill_anchor,
-            -head.uphill_guy_tension,
-        ),
-        downhill_anchor=_force_from_head(
-            Member.DOWNHILL_GUY,
-            points.head,
-            points.downhill_anchor,
-            -head.downhill_guy_tension,
-        ),
-        post_base=_force_from_head(
-            Member.POST,
-            points.head,
-            points.post_base,
-            head.post_compression - head.post_tension,
-        ),
+        foot_anchor=GroundForce(x=foot[0], y=foot[1]),
+        uphill_anchor=uphill,
+        downhill_anchor=downhill,
+        post_base=base,
         head=head,
         is_foot_shared=points.is_foot_shared,
     )
 
 
-def _force_from_head(
-    member: Member, head: Point, place: Point, thrust: float
-) -> GroundForce:
+def _force_from_head(head: Point, place: Point, thrust: float) -> GroundForce:
     """Force of a member on ``place``; ``thrust`` [N] pushes it away from the head."""
     if thrust == 0.0:  # also where a slack guy has no length
-        return GroundForce(member=member, x=0.0, y=0.0)
+        return GroundForce(x=0.0, y=0.0)
     x, y = place[0] - head[0], place[1] - head[1]
     length = math.hypot(x, y)
-    return GroundForce(member=member, x=thrust * x / length, y=thrust * y / length)
+    return GroundForce(x=thrust * x / length, y=thrust * y / length)
 
 
 def _scale(pull_per_m: Vector[Number], width: float) -> Vector[Number]:

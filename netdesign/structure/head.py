@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import chain
 from typing import Generic, TypeAlias
 
@@ -26,11 +26,15 @@ from netdesign.words.message import Message, say
 MIN_GUY_ANGLE = math.radians(1.0)
 
 Vector: TypeAlias = tuple[Number, Number]
+_SIZES = (
+    *("post_compression", "post_tension"),
+    *("uphill_guy_tension", "downhill_guy_tension"),
+)
 _ROUNDING = 64 * sys.float_info.epsilon  # relative to the pull
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MemberSizes(Generic[Number]):
+class HeadForces(Generic[Number]):
     """Forces in the members that hold a post head, or each of many [N].
 
     Attributes
@@ -41,6 +45,10 @@ class MemberSizes(Generic[Number]):
         Pull of the post on its foot, at least 0; 0 where it is pressed.
     loose_uphill, loose_downhill : float or ndarray
         Tension of each guy at most, should the foot of a pulling post give way.
+    is_held : bool or ndarray
+        Some members can hold the head; else the forces are of no use.
+    is_uphill_along, is_downhill_along : bool or ndarray
+        That guy lies along the post.
     """
 
     post_compression: Number
@@ -49,6 +57,9 @@ class MemberSizes(Generic[Number]):
     downhill_guy_tension: Number
     loose_uphill: Number
     loose_downhill: Number
+    is_held: Truth
+    is_uphill_along: Truth
+    is_downhill_along: Truth
 
     @property
     def guy_demands(self) -> tuple[Number, Number]:
@@ -57,18 +68,6 @@ class MemberSizes(Generic[Number]):
             take_larger(self.uphill_guy_tension, self.loose_uphill),
             take_larger(self.downhill_guy_tension, self.loose_downhill),
         )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HeadForces(MemberSizes[float]):
-    """Forces in the members that hold one post head; no guy has the wrong sign."""
-
-    def __post_init__(self) -> None:
-        """Refuse negative forces, infinite ones, and NaN."""
-        require_within("post compression", self.post_compression, 0.0, math.inf)
-        require_within("post tension", self.post_tension, 0.0, math.inf)
-        require_within("uphill guy tension", self.uphill_guy_tension, 0.0, math.inf)
-        require_within("downhill guy tension", self.downhill_guy_tension, 0.0, math.inf)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +80,7 @@ class FailedSupport:
 
 def compute_head_forces(
     pull: Point, points: SupportPoints
-) -> HeadForces | FailedSupport:
+) -> HeadForces[float] | FailedSupport:
     """Find the forces in post and guys that hold the net's pull on the head.
 
     A guy only pulls. The post works with the uphill guy; where that would have to push,
@@ -99,6 +98,11 @@ def compute_head_forces(
     -------
     HeadForces or FailedSupport
         Forces at least 0 [N], or why no guy holds the head sideways.
+
+    Raises
+    ------
+    ModelError
+        If a force is too large for a number.
 
     Verified by
     -----------
@@ -118,8 +122,9 @@ def compute_head_forces(
     held = hold_head(pull, post, uphill, downhill)
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
-    sizes = {field.name: getattr(held, field.name) for field in fields(MemberSizes)}
-    return HeadForces(**sizes)
+    for size in _SIZES:
+        require_within(size.replace("_", " "), getattr(held, size), 0.0, math.inf)
+    return held
 
 
 def hold_head(
@@ -127,7 +132,7 @@ def hold_head(
     post: Vector[Number],
     uphill: Vector[Number],
     downhill: Vector[Number],
-) -> HeldHead[Number]:
+) -> HeadForces[Number]:
     """Forces in post and guys that hold the pull on a head, or on each of many.
 
     Theory: structure/THEORY.md, eqs. (S2) to (S4b).
@@ -163,7 +168,7 @@ def hold_head(
     if as_mask(is_lifted).any():
         guys = _hold_without_post(pull, (uphill, downhill), (up, down))
         loose_uphill, loose_downhill = (choose(is_lifted, guy, none) for guy in guys)
-    return HeldHead(
+    return HeadForces(
         post_compression=take_larger(in_post, 0.0),
         post_tension=take_larger(0.0 - in_post, 0.0),  # never -0
         uphill_guy_tension=choose(by_up, up.tension, none),
@@ -171,8 +176,8 @@ def hold_head(
         loose_uphill=loose_uphill,
         loose_downhill=loose_downhill,
         is_held=is_alone | by_up | by_down,
-        uphill=up,
-        downhill=down,
+        is_uphill_along=up.is_along,
+        is_downhill_along=down.is_along,
     )
 
 
@@ -298,23 +303,6 @@ class _Pair(Generic[Number]):
     holds: Truth
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HeldHead(MemberSizes[Number]):
-    """Member forces at a head, and what they follow from; valid where it is held.
-
-    Attributes
-    ----------
-    is_held : bool or ndarray
-        Some members can hold the head.
-    uphill, downhill : _Pair
-        Post and each guy.
-    """
-
-    is_held: Truth
-    uphill: _Pair[Number]
-    downhill: _Pair[Number]
-
-
 def _resolve(
     pull: Vector[Number], post: Vector[Number], guy: Vector[Number]
 ) -> _Pair[Number]:
@@ -337,17 +325,13 @@ def _resolve(
     )
 
 
-def _explain(held: HeldHead[float]) -> Message:
+def _explain(held: HeadForces[float]) -> Message:
     """Reason why nothing holds a head."""
-    return say(
-        "support.no_equilibrium",
-        uphill=_explain_pair(held.uphill),
-        downhill=_explain_pair(held.downhill),
+    uphill, downhill = (
+        say("support.guy_along_post" if is_along else "support.guy_pushes")
+        for is_along in (held.is_uphill_along, held.is_downhill_along)
     )
-
-
-def _explain_pair(pair: _Pair[float]) -> Message:
-    return say("support.guy_along_post" if pair.is_along else "support.guy_pushes")
+    return say("support.no_equilibrium", uphill=uphill, downhill=downhill)
 
 
 def cross(a: Vector[Number], b: Vector[Number]) -> Number:

@@ -184,7 +184,7 @@ def weigh_splay(points: SupportPoints) -> SplayWeights | None:
     )
 
 
-def hold_end_guy(points: SupportPoints) -> HeadForces | FailedSupport:
+def hold_end_guy(points: SupportPoints) -> HeadForces[float] | FailedSupport:
     """Forces in post and guys that hold the end guy's pull across the row.
 
     Parameters
