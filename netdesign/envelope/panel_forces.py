@@ -22,7 +22,6 @@ from netdesign.panel.solve import (
     FailedPanel,
     PanelSolution,
     SolvedPanels,
-    choose_panels,
     solve_strips,
 )
 from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
@@ -361,42 +360,37 @@ def _solve_panels(strip: Strip, panels: Sequence[Panel]) -> SolvedPanels | Faile
     solved = solve_strips(strip, panels)
     if not solved.failures:
         return solved
-    places = range(len(panels))
-    free = [place for place in places if place not in solved.failures]
     failures = [solved.failures[place] for place in sorted(solved.failures)]
+    free = [panel for k, panel in enumerate(panels) if k not in solved.failures]
     is_built = any(failure.reason.key not in _NOT_BUILT for failure in failures)
     if is_built or not free:
         return failures[0]
     sags = [(panel.upper.sag, panel.lower.sag) for panel in panels]
     least = tuple(map(min, zip(*sags, strict=True)))
-    parts, chosen = [solved], list(places)
+    hung = list(panels)
     for place in solved.failures:
-        hung = _hang_free(strip, panels[place], least)
-        chosen[place] = free[0] if hung is None else len(panels) + len(parts) - 1
-        parts += [] if hung is None else [hung]
-    return choose_panels(parts, chosen)
+        hung[place] = _hang_free(strip, panels[place], least) or free[0]
+    return solve_strips(strip, hung)
 
 
-def _hang_free(
-    strip: Strip, panel: Panel, least: tuple[float, ...]
-) -> SolvedPanels | None:
+def _hang_free(strip: Strip, panel: Panel, least: tuple[float, ...]) -> Panel | None:
     """Panel with the largest sags up to its own with which it hangs free."""
-    solved: SolvedPanels | None = None
+    hung: Panel | None = None
     free, lying, share = 0.0, 1.0, 0.0
     for _ in range(_HALVINGS + 1):
         upper, lower = (
             replace(rope, sag=sag + share * (rope.sag - sag))
             for rope, sag in zip((panel.upper, panel.lower), least, strict=True)
         )
-        trial = solve_strips(strip, (replace(panel, upper=upper, lower=lower),))
-        if trial.failures:
+        trial = replace(panel, upper=upper, lower=lower)
+        if solve_strips(strip, (trial,)).failures:
             lying = share
         else:
-            solved, free = trial, share
-        if solved is None:
+            hung, free = trial, share
+        if hung is None:
             return None
         share = 0.5 * (free + lying)
-    return solved
+    return hung
 
 
 def _build_strip(net: Net, state: SolvedState) -> tuple[Strip, float]:

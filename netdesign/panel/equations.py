@@ -161,9 +161,9 @@ class PanelsAlike:
 @lru_cache(maxsize=64)  # a row asks for the same ones in every case
 def liken_panels(panels: tuple[Panel, ...], count: int) -> PanelsAlike:
     """Panels of one spacing and kind of anchors, at so many stations of each."""
-    first = panels[0]
-    stations = build_stations(count, has_mid_anchors=first.has_mid_anchors)
-    half, spans = first.post_spacing / 2.0, (stations.lower, stations.upper)
+    ((spacing, has_mid),) = {(x.post_spacing, x.has_mid_anchors) for x in panels}
+    stations = build_stations(count, has_mid_anchors=has_mid)
+    half, spans = spacing / 2.0, (stations.lower, stations.upper)
     ropes = [(panel.lower, panel.upper) for panel in panels]
     return PanelsAlike(
         panels=panels,

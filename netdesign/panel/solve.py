@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from netdesign.structure.layout import Point
 from netdesign.words.message import Message, say
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RopeForces:
     """A border rope under load.
 
@@ -44,14 +44,11 @@ class RopeForces:
         T, at the support where it is largest [N].
     mid_displacement : tuple of float, shape (2,)
         (x, y) in mid-panel, from the straight line between the supports [m].
-    tensions : ndarray, shape (24,)
-        Tension at ``ROPE_POINTS``, from mid-panel to the post [N].
     """
 
     along: float
     tension: float
     mid_displacement: Point
-    tensions: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -119,8 +116,6 @@ class SolvedPanels:
         H and T of lower and upper rope [N].
     mid_displacement : ndarray, shape (n, 2, 2)
         (x, y) of each rope in mid-panel [m].
-    tensions : ndarray, shape (n, 2, 24)
-        Of each rope at ``ROPE_POINTS`` [N].
     stations, curves, balance, steps : ndarray, shape (n, ..)
         As a `PanelSolution` has them.
     """
@@ -133,7 +128,6 @@ class SolvedPanels:
     along: Floats
     tension: Floats
     mid_displacement: Floats
-    tensions: Floats
     stations: Floats
     curves: Floats
     balance: Floats
@@ -148,7 +142,6 @@ class SolvedPanels:
                 along=float(self.along[place, rope]),
                 tension=float(self.tension[place, rope]),
                 mid_displacement=_as_point(self.mid_displacement[place, rope]),
-                tensions=self.tensions[place, rope],
             )
             for rope in (0, 1)
         )
@@ -164,28 +157,6 @@ class SolvedPanels:
             balance=float(self.balance[place]),
             steps=int(self.steps[place]),
         )
-
-
-def choose_panels(parts: Sequence[SolvedPanels], places: Sequence[int]) -> SolvedPanels:
-    """Some panels, by their places among those of all parts behind one another."""
-    panels = [panel for part in parts for panel in part.panels]
-    firsts = np.cumsum([0, *(len(part.panels) for part in parts)]).tolist()
-    failures = {
-        first + place: failure
-        for first, part in zip(firsts, parts, strict=False)
-        for place, failure in part.failures.items()
-    }
-    arrays = [field.name for field in fields(SolvedPanels)][2:]
-    return SolvedPanels(
-        panels=tuple(panels[place] for place in places),
-        failures={
-            k: failures[place] for k, place in enumerate(places) if place in failures
-        },
-        **{
-            name: np.concatenate([getattr(part, name) for part in parts])[places]
-            for name in arrays
-        },
-    )
 
 
 # Share of the chord that a cut must leave between two ropes; choice of this program.
@@ -254,7 +225,7 @@ def solve_strips(
     strip : Strip
         At the post.
     panels : sequence of Panel
-        Spacing, ropes and cut, at least one.
+        At least one; of one spacing and kind of anchors, with ropes and cuts.
     stations : int
         K, strips on half the panel, 1 to 10 [-].
 
@@ -264,22 +235,7 @@ def solve_strips(
         If K is out of its range.
     """
     require_within("stations", stations, 1, LARGEST_COUNT)
-    alike: dict[tuple[bool, float], list[int]] = {}
-    for place, panel in enumerate(panels):
-        key = panel.has_mid_anchors, panel.post_spacing
-        alike.setdefault(key, []).append(place)
-    parts = [
-        _solve_alike(build_problem(strip, [panels[k] for k in places], stations))
-        for places in alike.values()
-    ]
-    if len(parts) == 1:
-        return parts[0]
-    order = np.argsort(np.concatenate(list(alike.values())))
-    return choose_panels(parts, order.tolist())
-
-
-def _solve_alike(problem: PanelProblem) -> SolvedPanels:
-    """Panels of one spacing and kind of anchors."""
+    problem = build_problem(strip, panels, stations)
     chord, points = problem.strip.chord, guess_points(problem)
     has_net = (chord - problem.alike.cut_off).min(axis=1) > LEAST_NET * chord
     points[~has_net] = np.nan
@@ -370,7 +326,6 @@ def _read_panels(
     across = np.stack(
         [np.hypot(x[:, 0], x[:, 1]).max(axis=1) for x in supports], axis=1
     )
-    shear = loads.pulls[..., :-1] @ problem.alike.shear.transpose(0, 2, 1)
     places = problem.half * (1.0 - np.append(stations.xi, 0.0))
     return SolvedPanels(
         panels=problem.alike.panels,
@@ -381,9 +336,6 @@ def _read_panels(
         along=loads.along,
         tension=np.hypot(loads.along, across / 2.0),
         mid_displacement=loads.displacements[..., -1],
-        tensions=np.hypot(
-            loads.along[..., None], np.hypot(shear[:, :, 0], shear[:, :, 1])
-        ),
         stations=np.broadcast_to(places, (count, places.size)),
         curves=curves,
         balance=balance,

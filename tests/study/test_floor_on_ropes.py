@@ -2,7 +2,7 @@
 
 import math
 import random
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from netdesign.cable.funicular import build_alike
 from netdesign.envelope.panel_forces import PanelPulls, Pulls
 from netdesign.envelope.row_pulls import find_rope_factors, list_panels
 from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
-from netdesign.panel.solve import PanelSolution, choose_panels, solve_strips
+from netdesign.panel.solve import PanelSolution, solve_strips
 from netdesign.panel.strips import build_strip
 from netdesign.structure.members import Member, RopeForce
 from tests.each import each
@@ -41,24 +41,28 @@ def take_largest(results, rope):
 def take_alone(result, place):
     """The case with one of its panels alone."""
     (panel,) = list_panels([result])
-    own = [place]
+    own, solved = [place], panel.solved
+    names = (x.name for x in fields(solved) if x.name not in ("panels", "failures"))
+    arrays = {name: getattr(solved, name)[own] for name in names}
     brought = PanelPulls(
-        solved=choose_panels([panel.solved], own),
+        solved=replace(solved, panels=(solved.panels[place],), **arrays),
         pulls=Pulls(*(each[own] for each in panel.brought.pulls)),
     )
     bands = {name: band[:, own] for name, band in panel.bands.items()}
     return replace(result, panel=replace(panel, brought=brought, bands=bands))
 
 
+@each("mid", [False, True])
 @each("seed", range(40, 60))
-def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed):
+def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed, mid):
     """No force of the ropes is less, and none larger than that of the worst of them.
 
-    By a tenth at most where cases of different snow share their largest panels.
+    By a tenth at most where cases of different snow share their largest panels, which
+    they do not where one lies on the ground and another hangs in its place.
     """
     draw = random.Random(seed)
     solve, _, spacing = draw_case(seed)
-    panels = [one for mid in (False, True) for one in assume_all(spacing, mid)]
+    panels = assume_all(spacing, mid)
     results = [solve(panels, draw.uniform(0.6, 1.3)) for _ in range(3)]
     if len(list_panels(results)) < len(results):
         pytest.skip("a case without panels")
@@ -67,6 +71,7 @@ def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed):
     foot = draw.uniform(0.5, 2.5) * max(map(measure_foot, solutions))
     head = draw.uniform(0.5, 2.5) * max(math.hypot(*one.head) for one in solutions)
     floor = make_floor(foot, head)
+    is_built = all(one.solved.panels == panels for one in list_panels(results))
     together = find_rope_factors(results, floor)
     for rope in RopeForce:
         name = "lower" if rope in LOWER else "ridge"
@@ -77,21 +82,20 @@ def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed):
             factor = getattr(find_rope_factors(given, floor), name)
             alone.append(factor * take_largest(given, rope))
         assert raised >= (1.0 - 1e-12) * max(alone)
-        assert raised <= 1.1 * max(alone)
+        if not mid or is_built:
+            assert raised <= 1.1 * max(alone)
 
 
+@each("mid", [False, True])
 @each("seed", range(2100, 2106))
-def test_raised_ropes_pull_no_less_than_any_panel_under_that_load(seed):
-    """All 96 ends of what is built, each under the load that reaches the floor."""
+def test_raised_ropes_pull_no_less_than_any_panel_under_that_load(seed, mid):
+    """All 48 ends of what is built, each under the load that reaches the floor."""
     draw = random.Random(seed)
     solve, net, spacing = draw_case(seed)
-    panels = [one for mid in (False, True) for one in assume_all(spacing, mid)]
-    result = solve(panels)
+    result = solve(assume_all(spacing, mid))
     state = result.solution
     strip = build_strip(net, state.net_curve, state.net_forces, state.foot)
-    solved = solve_strips(
-        strip, [one for mid in (False, True) for one in list_ends(spacing, mid)]
-    )
+    solved = solve_strips(strip, list_ends(spacing, mid))
     panels = [
         solved.describe(place)
         for place in range(len(solved.panels))
