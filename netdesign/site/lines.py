@@ -199,22 +199,25 @@ Neighbours = Mapping[str, tuple[str, ...]]  # rows into which each row's nets go
 def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     """Rows that go on at both ends, with those into which they do.
 
-    Whichever of two rows says so. Refused are neighbours that are no other net rows,
-    more or fewer than two of a row that goes on, and rows that close a ring.
+    Whichever of two rows says so. Refused are neighbours that are no other net rows, a
+    third neighbour of a row, and rows that close a ring.
     """
     joined = _join_rows(rows)
-    going_on = {name: of for name, of in joined.items() if len(of) >= _ENDS}
     lines = {row["id"].word: row for row in rows}
-    beside = {name: {*of} & lines.keys() - {name} for name, of in joined.items()}
     for name, row in lines.items():
-        at = find_named(row)
-        for other in joined[name]:
-            if other not in beside[name]:
+        into, at = joined[name], find_named(row)
+        for other in into:
+            if other == name or other not in lines:
                 rule = say("nets.no_neighbour", id=other)
                 refuse(at, rule, say("nets.other_ids"), findings)
-        if name in going_on and beside[name]:
-            _check_ends(name, at, beside, going_on, findings)
-    return {name: of for name, of in going_on.items() if name in lines}
+        chained = _reach(name, joined)
+        if len(into) > _ENDS:
+            rule = say("nets.two_ends", id=name, ids=tuple(sorted(into)))
+            refuse(at, rule, say("nets.free_or_both"), findings)
+        elif all(len(joined[one]) == _ENDS for one in chained):
+            rule = say("nets.ring", ids=tuple(sorted(chained)))
+            refuse(at, rule, say("nets.free_or_both"), findings)
+    return {name: joined[name] for name in lines if len(joined[name]) >= _ENDS}
 
 
 def find_named(row: Row) -> Reading:
@@ -233,30 +236,6 @@ def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
             found[own][other] = None
             found.setdefault(other, {})[own] = None
     return {own: tuple(others) for own, others in found.items()}
-
-
-def _check_ends(
-    name: str,
-    at: Reading,
-    beside: Mapping[str, Collection[str]],
-    going_on: Collection[str],
-    findings: list[Finding],
-) -> None:
-    """Refuse a row that has not two neighbours, or one of them more, and a ring."""
-    ids = tuple(sorted(beside[name]))
-    crowded = [one for one in (name, *ids) if len(beside[one]) > _ENDS]
-    reached = _reach(name, beside)
-    links = sum(len(beside[one]) for one in reached) // 2
-    if crowded:
-        into = tuple(sorted(beside[crowded[0]]))
-        rule = say("nets.two_ends", id=crowded[0], ids=into)
-    elif links >= len(reached):
-        rule = say("nets.ring", ids=tuple(sorted(reached)))
-    elif len(ids) < _ENDS or reached <= set(going_on):
-        rule = say("nets.one_end", ids=ids)
-    else:
-        return
-    refuse(at, rule, say("nets.free_or_both"), findings)
 
 
 def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:

@@ -21,7 +21,7 @@ from netdesign.panel.inputs import (
 from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.steel import Link
-from netdesign.site.anchor_types import ANCHORS, name_column
+from netdesign.site.anchor_types import ANCHORS
 from netdesign.site.lines import Types
 from netdesign.site.model import NetRow, Resistance
 from netdesign.site.readings import Row
@@ -36,6 +36,7 @@ from netdesign.structure.members import (
     Member,
 )
 from netdesign.words.message import Message, say
+from netdesign.words.names import name_check, name_member
 
 _ROPES = ("ridge_rope", "lower_rope")
 _OF_PANEL = ("ridge_rope", "ridge_sag", "lower_rope", "lower_sag", "mid_anchors")
@@ -140,20 +141,13 @@ def has_same_types(at_end: Row, row: Row) -> bool:
     return all(at_end[key].word == row[key].word for key in TYPES)
 
 
-# Columns that verdicts lack, by mode, where they are not those of anchor types.
-_COLUMN_BY_MODE = {
-    "rope": "ropes.rope",
-    "compression": "posts.area",
-    "bearing": "posts.bearing",
-    "bending": "anchor_types.bar_diameter",
-    "direction": "anchor_types.kind",
-}
-
-
 def list_missing(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> tuple[Message, ...]:
-    """Names of columns and sheets that a verdict on a net row lacks, each once.
+    """Names of what a verdict on a net row lacks, each once.
+
+    Of a member without a type it is the member, else the check whose resistance is not
+    given; chains whose links are not given.
 
     What an approval proves is not asked for, and of a structure of which nothing is
     given that alone.
@@ -165,12 +159,17 @@ def list_missing(
     links : mapping of str to tuple of Link
         Chains of links, by type.
     """
-    found = [name for one in find_lacking(row) for name in _name_lacking(one)]
+    lacking = [
+        name_member(one.member)
+        if not one.type_id and one.mode != "mesh"
+        else name_check(one.member, one.mode)
+        for one in find_lacking(row)
+    ]
     if _is_structure_asked(row):
-        found += _list_chains(row, links)
+        lacking += _list_chains(row, links)
     elif row.approval is None or not row.approval.document:
-        found.append(say("approval.nothing_given"))
-    return tuple(dict.fromkeys(found))
+        lacking.append(say("approval.nothing_given"))
+    return tuple(dict.fromkeys(lacking))
 
 
 def find_lacking(row: NetRow) -> tuple[Resistance, ...]:
@@ -184,7 +183,6 @@ def find_lacking(row: NetRow) -> tuple[Resistance, ...]:
 
 
 _ANCHORS = (*ANCHORS, *END_ANCHORS)
-_OF_ROWS = (*ANCHORS, "end_anchor")  # types that sheet Rows names; others are the net's
 
 
 def _list_resistances(row: NetRow) -> tuple[Resistance, ...]:
@@ -214,17 +212,6 @@ def _is_lacking(one: Resistance) -> bool:
     return not (one.type_id and has_value)
 
 
-def _name_lacking(one: Resistance) -> Iterator[Message]:
-    """Column of a type that nobody names; else what its type does not say."""
-    if one.mode == "mesh":
-        yield _name("net_types.mesh_strength")
-    elif one.type_id:
-        yield from _list_lacking(one)
-    else:
-        key = name_column(one.member)
-        yield _name(f"{'rows' if key in _OF_ROWS else 'net_types'}.{key}")
-
-
 def _list_chains(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> Iterator[Message]:
@@ -235,21 +222,7 @@ def _list_chains(
             yield say("links.of_type", type=one.type_id)
 
 
-def _list_lacking(one: Resistance) -> Iterator[Message]:
-    names = one.lack.arguments.get("names", ()) if one.lack else ()
-    if isinstance(names, tuple) and names:
-        yield from (one for one in names if isinstance(one, Message))
-    else:
-        yield _name(_COLUMN_BY_MODE.get(one.mode, f"anchor_types.{one.mode}"))
-
-
 def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
     """Resistances of the support at the row's end, and of what holds it there."""
     along = row.row_end.resistances if row.row_end else ()
     return (*(row.end_resistances or ()), *along)
-
-
-def _name(key: str) -> Message:
-    """Column of the input workbook with its sheet."""
-    sheet = say(f"sheet.{key.partition('.')[0]}")
-    return say("check.on_sheet", name=say(f"column.{key}"), sheet=sheet)

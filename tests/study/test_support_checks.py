@@ -13,10 +13,12 @@ from netdesign.edge.input_files import find_resource
 from netdesign.outcome import Verdict
 from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
+from netdesign.words.names import name_check, name_member
 from tests.checks.given_pulls import (
     POST,
     find_second,
@@ -641,9 +643,9 @@ def test_factor_of_uplift_takes_the_place_of_that_of_snow(profile, mode, source)
 def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot(tmp_path):
     """Nobody knows before a solve whether a post lifts."""
     site = read_row(tmp_path, anchor=BAR)
-    told = list_missing(site.rows[0], site.links)
-    keys = [one.arguments["name"].key for one in told if "name" in one.arguments]
-    assert "column.posts.foot_tension" not in keys
+    lacking = list_missing(site.rows[0], site.links)
+    assert name_check(Member.POST_FOOT, "tension") not in lacking
+    assert name_member(Member.POST_FOOT) not in lacking
 
 
 @pytest.mark.parametrize("turn", [1.0, 4.0, 7.0, 15.0, 31.0])
