@@ -6,8 +6,8 @@ errors. Names, equations and bands of the panel's forces: envelope/THEORY.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -180,19 +180,24 @@ POST_PULLS: tuple[str, ...] = (Member.POST_FOOT, name_in_panel(Member.POST_FOOT)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PanelPulls:
-    """Panels of a case, and what a bay of each brings to a support.
+class PanelForces:
+    """Panels of a case, what a bay of each brings to a support, and forces there.
 
     Attributes
     ----------
     solved : SolvedPanels
         n of them; several where the row's panel is assumed: the worst counts.
     pulls : Pulls
-        Their mean pulls on foot and head.
+        Their mean pulls on foot and head, between two equal panels.
+    bands : dict of str to ndarray, shape (3, n)
+        Least, own and largest force by ``PANEL_QUANTITIES`` on one support [N]; none
+        before a support holds them. The foot anchor's is that of the more loaded one,
+        beside a post or in mid-panel.
     """
 
     solved: SolvedPanels
     pulls: Pulls
+    bands: Mapping[str, Floats] = field(default_factory=dict)
 
     @property
     def width(self) -> float:
@@ -209,11 +214,27 @@ class PanelPulls:
         """Of a pull on foot or head, shape (n,) [N/m]."""
         return self.pulls.errors[:, 0]
 
-    def read_members(self, held: HeldPulls) -> dict[str, Floats]:
-        """Bands (supports, 3, n) of members that hold a section's pulls, then these.
+    @property
+    def feet_beside_posts(self) -> Floats:
+        """Force on the foot anchor beside a post, as its band has it (n,) [N]."""
+        return np.asarray(np.hypot(*(self.pulls.ends[:, :2] * self.width).T))
 
-        The foot anchor's is that of the more loaded one, beside a post or in mid-panel.
-        """
+    @property
+    def largest_feet(self) -> Floats:
+        """Force on the more loaded foot anchor of each panel, shape (n,) [N]."""
+        mids = np.hypot(*self.solved.mid_foot.T)
+        return np.asarray(np.maximum(self.feet_beside_posts, mids))
+
+    @property
+    def solution(self) -> PanelSolution:
+        """The first panel."""
+        solution = self.solved.describe(0)
+        if isinstance(solution, FailedPanel):
+            raise ValueError("forces of a panel that failed")
+        return solution
+
+    def read_members(self, held: HeldPulls) -> dict[str, Floats]:
+        """Bands (supports, 3, n) of members that hold a section's pulls, then these."""
         bands = {name_in_panel(m): band[..., 1:] for m, band in held.bands.items()}
         at_foot, mids = bands[_AT_FOOT], np.hypot(*self.solved.mid_foot.T)
         in_mid = _spread(mids, self.width * self.error)
@@ -232,11 +253,10 @@ class PanelPulls:
         }
         return {name: bands[name] for name in RopeForce}
 
-    def stand(self, points: SupportPoints, held: HeldPulls) -> PanelForces:
+    def held_by(self, held: HeldPulls) -> PanelForces:
         """The panels on the first of the supports that hold them."""
-        first = {name: bands[0] for name, bands in self.read_members(held).items()}
-        bands = first | self.read_ropes()
-        return PanelForces(brought=self, points=points, bands=bands)
+        members = {name: band[0] for name, band in self.read_members(held).items()}
+        return replace(self, bands=members | self.read_ropes())
 
 
 _AT_FOOT = name_in_panel(Member.FOOT_ANCHOR)
@@ -246,74 +266,9 @@ _ROPES = (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PanelForces:
-    """Forces between two equal panels, each of a bay, on one support.
-
-    Attributes
-    ----------
-    brought : PanelPulls
-        The panels, n of them.
-    points : SupportPoints
-        The support [m].
-    bands : dict of str to ndarray, shape (3, n)
-        Least, own and largest force by ``PANEL_QUANTITIES`` [N]; the foot anchor's is
-        that of the more loaded one, beside a post or in mid-panel.
-    """
-
-    brought: PanelPulls
-    points: SupportPoints
-    bands: dict[str, Floats]
-
-    @property
-    def solved(self) -> SolvedPanels:
-        """All panels that the row may have."""
-        return self.brought.solved
-
-    @property
-    def largest_feet(self) -> Floats:
-        """Force on the more loaded foot anchor of each panel, shape (n,) [N]."""
-        mids = np.hypot(*self.solved.mid_foot.T)
-        return np.asarray(np.maximum(self.feet_beside_posts, mids))
-
-    @property
-    def feet_beside_posts(self) -> Floats:
-        """Force on the foot anchor beside a post, as its band has it (n,) [N]."""
-        pulls = self.brought.pulls.ends[:, :2] * self.brought.width
-        return np.asarray(np.hypot(*pulls.T))
-
-    @property
-    def solution(self) -> PanelSolution:
-        """The first panel."""
-        solution = self.solved.describe(0)
-        if isinstance(solution, FailedPanel):
-            raise ValueError("forces of a panel that failed")
-        return solution
-
-    @property
-    def anchors(self) -> AnchorForces:
-        """Forces of the first panel on the ground, without anchors in mid-panel [N]."""
-        pulls = self.brought.pulls.ends[0]
-        anchors = stand_on(self.points, self.brought.width, pulls)
-        if isinstance(anchors, FailedSupport):
-            raise ValueError("forces on a support that does not stand")
-        return anchors
-
-    @property
-    def worst(self) -> dict[str, Band]:
-        """Largest forces of all panels that the row may have [N]."""
-        return {name: cover(bands) for name, bands in self.bands.items()}
-
-
-def cover(bands: Floats) -> Band:
-    """Band of the largest one of some forces, whose bands are of shape (3, n)."""
-    low, value, high = bands.max(axis=1).tolist()
-    return Band(low=low, value=value, high=high)
-
-
 def resolve_panels(
     panels: Sequence[Panel], net: Net, state: SolvedState
-) -> PanelPulls | FailedPanel:
+) -> PanelForces | FailedPanel:
     """Panels of a row whose section at the post has been solved, and their pulls.
 
     Parameters
@@ -328,9 +283,10 @@ def resolve_panels(
 
     Returns
     -------
-    PanelPulls or FailedPanel
-        The first failure of any panel. Outcome ``out_of_validity`` also of a history
-        that went on beyond its largest pulls, and of a staggered one.
+    PanelForces or FailedPanel
+        Before any support holds them; or the first failure of any panel. Its outcome is
+        ``out_of_validity`` also of a history that went on beyond its largest pulls, and
+        of a staggered one.
 
     Verified by
     -----------
@@ -343,7 +299,7 @@ def resolve_panels(
     solved = _solve_panels(strip, panels)
     if isinstance(solved, FailedPanel):
         return solved
-    return PanelPulls(solved=solved, pulls=_find_pulls(solved, state, doubt))
+    return PanelForces(solved=solved, pulls=_find_pulls(solved, state, doubt))
 
 
 # Panels that are not built like this: their pressure on the ground would be unknown.

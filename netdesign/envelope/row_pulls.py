@@ -86,7 +86,7 @@ def read_heads(
         own = result.solution.head.error if result.solution else 0.0
         ends = [(*result.anchors.head_pull, own * post_spacing)]
         if has_panels and isinstance(result.panel, PanelForces):
-            errors = result.panel.brought.error * post_spacing
+            errors = result.panel.error * post_spacing
             ends += np.column_stack([result.panel.solved.head, errors]).tolist()
         states += [(result.case.inclination, *end) for end in ends]
     inclinations, x, y, errors = np.array(states).reshape(-1, 4).T
@@ -214,7 +214,7 @@ def _find_panel_factors(
     cases: Sequence[PanelForces], foot: float, head: float
 ) -> tuple[Floats, Floats]:
     """Pull on foot and on head [N] over the largest ones of each panel, at least 1."""
-    feet = np.max([np.hypot(*panel.brought.feet.T) for panel in cases], axis=0)
+    feet = np.max([np.hypot(*panel.feet.T) for panel in cases], axis=0)
     heads = np.max([np.hypot(*panel.solved.head.T) for panel in cases], axis=0)
     return np.maximum(1.0, foot / feet), np.maximum(1.0, head / heads)
 

@@ -14,7 +14,6 @@ from netdesign.coupling.solution import FailedSolution, SolvedState
 from netdesign.envelope.panel_forces import (
     HeldPulls,
     PanelForces,
-    PanelPulls,
     Pulls,
     hold_pulls,
     resolve_panels,
@@ -154,12 +153,11 @@ class CaseResult:
         if self.solution is None:
             return self
         panel = self.panel if isinstance(self.panel, PanelForces) else None
-        brought = panel.brought if panel else None
         places = [place_support(layout, self.solution.head_point)]
-        held = _hold(places, layout.post_spacing, self.solution, brought)
+        held = _hold(places, layout.post_spacing, self.solution, panel)
         if not held.is_held.all():
             raise ValueError("a case that another layout holds")
-        forces = _list_forces(held, self.solution, brought).take(0)
+        forces = _list_forces(held, self.solution, panel).take(0)
         return replace(self, member_forces=forces, of_layouts=None)
 
     def stand(self, layout: SupportLayout) -> CaseResult:
@@ -239,31 +237,28 @@ def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
     """Forces on all layouts; what fails on one fails, but for the panel."""
     width = task.layouts[0].post_spacing
     places = [place_support(layout, state.head_point) for layout in task.layouts]
-    brought = failure = None
-    if isinstance(panel := _resolve_panel(task, state), PanelPulls):
-        brought = panel
-    else:
-        failure = panel
-    held = _hold(places, width, state, brought)
+    found = _resolve_panel(task, state)
+    panel = found if isinstance(found, PanelForces) else None
+    held = _hold(places, width, state, panel)
     if not held.is_held[:1, :, :1].all():
         return _fail_support(task, held.explain(places, width, slice(1)))
-    if brought and not held.is_held[0].all():
+    if panel and not held.is_held[0].all():
         failed = held.explain(places, width)
-        failure = FailedPanel(outcome=failed.outcome, reason=failed.reason)
-        brought, held = None, _hold(places, width, state, None)
+        found = FailedPanel(outcome=failed.outcome, reason=failed.reason)
+        panel, held = None, _hold(places, width, state, None)
     if not held.is_held.all():
         return _fail_support(task, held.explain(places, width))
     anchors = stand_on(places[0], width, _read_ends(state))
     if isinstance(anchors, FailedSupport):
         return _fail_support(task, anchors)
-    forces = _list_forces(held, state, brought)
+    forces = _list_forces(held, state, panel)
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
         member_forces=forces.largest,
         anchors=anchors,
         solution=state,
-        panel=brought.stand(places[0], held) if brought else failure,
+        panel=panel.held_by(held) if panel else found,
         of_layouts=forces if len(task.layouts) > 1 else None,
     )
 
@@ -272,26 +267,26 @@ def _hold(
     places: Sequence[SupportPoints],
     width: float,
     state: SolvedState,
-    brought: PanelPulls | None,
+    panel: PanelForces | None,
 ) -> HeldPulls:
     """Supports under the pulls of the section, then under those of each panel."""
     own = (state.foot.error, state.foot.error, state.head.error, state.head.error)
     pulls = Pulls(_read_ends(state)[None], np.array([own]))
-    if brought:
-        pairs = zip(pulls, brought.pulls, strict=True)
+    if panel:
+        pairs = zip(pulls, panel.pulls, strict=True)
         pulls = Pulls(*(np.concatenate(pair) for pair in pairs))
     return hold_pulls(places, width, pulls)
 
 
 def _list_forces(
-    held: HeldPulls, state: SolvedState, brought: PanelPulls | None
+    held: HeldPulls, state: SolvedState, panel: PanelForces | None
 ) -> LayoutForces:
     """Forces by the section, and by the worst of its panels."""
     mesh = _bound_tension(state)
     bands = {str(member): band[..., 0] for member, band in held.bands.items()}
     bands[NetPart.MESH] = np.array([mesh.low, mesh.value, mesh.high])
-    if brought:
-        of_panels = brought.read_members(held) | brought.read_ropes()
+    if panel:
+        of_panels = panel.read_members(held) | panel.read_ropes()
         bands |= {name: band.max(axis=-1) for name, band in of_panels.items()}
     shape = (len(held.is_held), 3)
     each = [np.broadcast_to(band, shape) for band in bands.values()]
@@ -304,7 +299,7 @@ def _fail_support(task: CaseTask, failed: FailedSupport) -> CaseResult:
 
 def _resolve_panel(
     task: CaseTask, state: SolvedState
-) -> PanelPulls | FailedPanel | None:
+) -> PanelForces | FailedPanel | None:
     """Panels between posts and their pulls, or why there are none."""
     if not task.panels or task.job is None:
         return None

@@ -135,7 +135,7 @@ def _read_solved(
     panels = [x.panel if isinstance(x.panel, PanelForces) else None for x in results]
     states = [result.solution for result in results if result.solution]
     foot, head = np.array([(x.foot.error, x.head.error) for x in states]).T
-    by_panel = np.array([np.max(x.brought.error) if x else 0.0 for x in panels])
+    by_panel = np.array([np.max(x.error) if x else 0.0 for x in panels])
     has_panel = np.array([panel is not None for panel in panels])
     of_panel = np.where(has_panel, forces[..., 1:].max(axis=-1, initial=-np.inf), 0.0)
     read = [

@@ -14,7 +14,7 @@ from netdesign import __version__
 from netdesign.core.library import name_core
 from netdesign.coupling.solution import Solution
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
-from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.panel_forces import PanelForces, stand_on
 from netdesign.envelope.ranges import PARAMETERS, build_case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
@@ -26,7 +26,8 @@ from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
-from netdesign.structure.layout import Point, place_support
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
 from netdesign.study.record_envelope import (
     record_largest,
@@ -231,15 +232,6 @@ def resolve_support(
     return resolve_case(task, keep_state(solution))
 
 
-def _find_end(support: SceneSupport, result: CaseResult) -> EndForces | None:
-    if result.solution is None or not isinstance(result.panel, PanelForces):
-        return None
-    points = place_support(support.layout, result.solution.head_point)
-    angle = support.end_guy_angle or 0.0
-    end = compute_end_forces(result.panel.solution, points, angle)
-    return end if isinstance(end, EndForces) else None
-
-
 def write_support(
     result: CaseResult, support: SceneSupport, language: Language = "en"
 ) -> dict[str, Any]:
@@ -250,11 +242,13 @@ def write_support(
     if result.anchors is None:
         return written
     written["plain"] = _write_forces(result, result.anchors, SOLVED_MEMBERS)
-    if isinstance(result.panel, PanelForces):
-        written["panel"] = _write_panel(result, result.panel)
-    if end := _find_end(support, result):
-        has_guy = support.end_guy_angle is not None
-        written["row_end"] = _write_end(end, has_guy=has_guy)
+    if result.solution and isinstance(result.panel, PanelForces):
+        points = place_support(support.layout, result.solution.head_point)
+        written["panel"] = _write_panel(result, result.panel, points)
+        angle = support.end_guy_angle
+        end = compute_end_forces(result.panel.solution, points, angle or 0.0)
+        if isinstance(end, EndForces):
+            written["row_end"] = _write_end(end, has_guy=angle is not None)
     return written
 
 
@@ -283,10 +277,15 @@ def _write_forces(
     }
 
 
-def _write_panel(result: CaseResult, panel: PanelForces) -> dict[str, Any]:
-    solved = panel.solution
+def _write_panel(
+    result: CaseResult, panel: PanelForces, points: SupportPoints
+) -> dict[str, Any]:
+    """Forces of the first panel, without anchors in mid-panel."""
+    solved, anchors = panel.solution, stand_on(points, panel.width, panel.pulls.ends[0])
+    if isinstance(anchors, FailedSupport):
+        raise ValueError("forces on a support that does not stand")
     members = [name_in_panel(member) for member in SOLVED_MEMBERS]
-    written = _write_forces(result, panel.anchors, members)
+    written = _write_forces(result, anchors, members)
     if solved.panel.has_mid_anchors:
         written["mid_foot_kN"] = _write_force(solved.mid_foot)
     return {

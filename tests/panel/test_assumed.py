@@ -95,18 +95,21 @@ def assume_all(spacing, mid):
     )
 
 
+def take_largest(panels):
+    """Largest force of each member on any of some panels."""
+    return {name: float(band[1].max()) for name, band in panels.bands.items()}
+
+
 def find_excess(seed, mid):
     """Largest force of any panel over that of those that are assumed, by member."""
     solve, spacing = draw_solver(seed)
-    worst = solve(assume_all(spacing, mid)).worst
+    worst = take_largest(solve(assume_all(spacing, mid)))
     found = dict.fromkeys(worst, 0.0)
     for panel in list_ends(spacing, mid):
         one = solve([panel])
         if isinstance(one, PanelForces):
-            for name, band in one.worst.items():
-                found[name] = max(
-                    found[name], band.value / max(worst[name].value, 10.0)
-                )
+            for name, force in take_largest(one).items():
+                found[name] = max(found[name], force / max(worst[name], 10.0))
     return found
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from netdesign.cable.funicular import build_alike
-from netdesign.envelope.panel_forces import PanelPulls, Pulls
+from netdesign.envelope.panel_forces import PanelForces, Pulls
 from netdesign.envelope.row_pulls import find_rope_factors, list_panels
 from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
 from netdesign.panel.solve import PanelSolution, solve_strips
@@ -35,7 +35,7 @@ def measure_foot(solution):
 
 def take_largest(results, rope):
     """Largest force of a rope over all cases and panels [N]."""
-    return max(panel.worst[rope].value for panel in list_panels(results))
+    return max(panel.bands[rope][1].max() for panel in list_panels(results))
 
 
 def take_alone(result, place):
@@ -44,12 +44,12 @@ def take_alone(result, place):
     own, solved = [place], panel.solved
     names = (x.name for x in fields(solved) if x.name not in ("panels", "failures"))
     arrays = {name: getattr(solved, name)[own] for name in names}
-    brought = PanelPulls(
+    alone = PanelForces(
         solved=replace(solved, panels=(solved.panels[place],), **arrays),
-        pulls=Pulls(*(each[own] for each in panel.brought.pulls)),
+        pulls=Pulls(*(each[own] for each in panel.pulls)),
+        bands={name: band[:, own] for name, band in panel.bands.items()},
     )
-    bands = {name: band[:, own] for name, band in panel.bands.items()}
-    return replace(result, panel=replace(panel, brought=brought, bands=bands))
+    return replace(result, panel=alone)
 
 
 @each("mid", [False, True])
