@@ -27,20 +27,7 @@ from netdesign.outcome import SEVERITY, Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
 from netdesign.words.message import Message, say
 
-# Sentences by verdict, or by whether a limit is kept.
-_INCLINATIONS = {
-    Verdict.PASS: "geometry.inclination_inside",
-    Verdict.FAIL: "geometry.inclination_outside",
-    Verdict.NOT_PROVEN: "geometry.inclination_not_all_inside",
-}
-_SLOPES = {
-    Verdict.PASS: "geometry.slope_inside",
-    Verdict.FAIL: "geometry.slope_outside",
-    Verdict.NOT_PROVEN: "geometry.slope_not_all_inside",
-}
-_HEIGHTS = {True: "geometry.height_reaches", False: "geometry.height_too_low"}
-_SPACINGS = {True: "geometry.spacing_within", False: "geometry.spacing_exceeds"}
-_GAPS = {True: "geometry.gap_within", False: "geometry.gap_exceeds"}
+_PLAUSIBLE = (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +73,32 @@ def check_geometry(row: RowGeometry, standard: Standard) -> list[Check]:
     return [check for check in checks if check is not None]
 
 
+def _compare(
+    mode: str,
+    limit: StandardValue | None,
+    band: tuple[float, float],
+    span: tuple[float, float],
+    show: Callable[[float], float] = float,
+) -> Check:
+    """Check that a size, which lies in a band, lies in a span; as `judge` has it."""
+    (low, high), (least, most) = band, span
+    met = judge(low, high, least=least, most=most)
+    numbers = {"low": low, "high": high, "least": least, "most": most}
+    shown = {name: show(size) for name, size in numbers.items() if size != math.inf}
+    return compare(mode, met, say(f"geometry.{mode}_{met.value}", **shown), limit)
+
+
+def _compare_angle(
+    mode: str, limits: tuple[str, str], standard: Standard, low: float, high: float
+) -> Check | None:
+    """Check of an angle [rad] against two values of the profile; None without them."""
+    least, most = map(standard.find, limits)
+    if least is None or most is None:
+        return None
+    span = (least.value_si, most.value_si)
+    return _compare(mode, least, (low, high), span, degree_from_radian)
+
+
 def check_inclination(low: float, high: float, standard: Standard) -> Check:
     """Check a row's range of net inclination against the profile's range.
 
@@ -101,19 +114,11 @@ def check_inclination(low: float, high: float, standard: Standard) -> Check:
     Check
         Pass if the range lies inside, fail if it lies outside, else not proven.
     """
-    least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
-    if least is None or most is None:
-        reason = say("geometry.no_inclination_limits")
-        return leave_open("inclination", OpenKind.RESISTANCE_MISSING, reason)
-    verdict = judge(low, high, least=least.value_si, most=most.value_si)
-    reason = say(
-        _INCLINATIONS[verdict],
-        low=degree_from_radian(low),
-        high=degree_from_radian(high),
-        least=least.value,
-        most=most.value,
+    limits = (MIN_INCLINATION, MAX_INCLINATION)
+    reason = say("geometry.no_inclination_limits")
+    return _compare_angle("inclination", limits, standard, low, high) or leave_open(
+        "inclination", OpenKind.RESISTANCE_MISSING, reason
     )
-    return compare("inclination", verdict, reason, least)
 
 
 def check_slope(slope_angle: float, standard: Standard) -> Check:
@@ -122,45 +127,26 @@ def check_slope(slope_angle: float, standard: Standard) -> Check:
     Outside the profile's limits it fails. Outside the plausible range it is not proven:
     it may be a percentage given as degrees, and all forces follow from it.
     """
-    low, high = standard.find(MIN_SLOPE), standard.find(MAX_SLOPE)
-    limits = _judge_slope(slope_angle, low, high)
-    if limits and limits.verdict is not Verdict.PASS:
-        return limits
-    least = standard.find(LEAST_PLAUSIBLE_SLOPE)
-    most = standard.find(MOST_PLAUSIBLE_SLOPE)
-    plausible = _judge_slope(slope_angle, least, most)
+    inside, plausible = (
+        _compare_angle("slope", limits, standard, slope_angle, slope_angle)
+        for limits in ((MIN_SLOPE, MAX_SLOPE), _PLAUSIBLE)
+    )
+    if inside and inside.verdict is not Verdict.PASS:
+        return inside
+    least, most = map(standard.find, _PLAUSIBLE)
     if least is None or most is None or plausible is None:
         reason = say("geometry.no_plausible_slope")
         return leave_open("slope", OpenKind.RESISTANCE_MISSING, reason)
     if plausible.verdict is Verdict.PASS:
-        return limits or plausible
-    number = degree_from_radian(slope_angle)
-    meant = degree_from_radian(radian_from_percent(number))
-    gap = say(
-        "geometry.slope_not_plausible",
-        slope=number,
-        least=least.value,
-        most=most.value,
-    )
+        return inside or plausible
+    slope = degree_from_radian(slope_angle)
+    span = {"least": least.value, "most": most.value}
+    reason = say("geometry.slope_not_plausible", slope=slope, **span)
     if slope_angle > most.value_si:
-        gap = say("geometry.percentage", reason=gap, slope=number, meant=meant)
+        meant = degree_from_radian(radian_from_percent(slope))
+        reason = say("geometry.percentage", reason=reason, slope=slope, meant=meant)
     check = compare("slope", Verdict.NOT_PROVEN, None, least)
-    return check.with_open(OpenKind.VALUE_ASKED, gap)
-
-
-def _judge_slope(
-    slope_angle: float, least: StandardValue | None, most: StandardValue | None
-) -> Check | None:
-    if least is None or most is None:
-        return None
-    verdict = judge(slope_angle, slope_angle, least=least.value_si, most=most.value_si)
-    reason = say(
-        _SLOPES[verdict],
-        slope=degree_from_radian(slope_angle),
-        least=least.value,
-        most=most.value,
-    )
-    return compare("slope", verdict, reason, least)
+    return check.with_open(OpenKind.VALUE_ASKED, reason)
 
 
 def check_height(
@@ -175,10 +161,7 @@ def check_height(
     if ratio is None and net_height >= snow_thickness:
         return None
     needed = max(1.0, ratio.value if ratio else 0.0) * snow_thickness
-    verdict = judge(net_height, net_height, least=needed, most=math.inf)
-    key = _HEIGHTS[verdict is Verdict.PASS]
-    reason = say(key, height=net_height, needed=needed)
-    return compare("height", verdict, reason, ratio)
+    return _compare("height", ratio, (net_height, net_height), (needed, math.inf))
 
 
 def compute_largest_row_spacing(
@@ -236,9 +219,9 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
     most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
     proven = cap.value * row.net_height / math.cos(row.slope_angle) if cap else 0.0
     length = row.upslope_length
-    met = judge(length, length, least=0.0, most=most)
-    finding = say(_SPACINGS[met is Verdict.PASS], length=length, most=most)
-    check = compare("spacing", met, finding, friction)
+    check = _compare("spacing", friction, (length, length), (0.0, most))
+    if most == math.inf and check.verdict is Verdict.PASS:
+        check = compare("spacing", Verdict.PASS, say("geometry.spacing_any"), friction)
     if length <= proven:
         return check
     capped = say("geometry.spacing_capped", length=length, most=proven)
@@ -254,9 +237,7 @@ def check_gap(gap: float, standard: Standard) -> Check | None:
     most = standard.find(MAX_GAP)
     if most is None or gap == math.inf:
         return None
-    met = judge(gap, gap, least=0.0, most=most.value)
-    finding = say(_GAPS[met is Verdict.PASS], gap=gap, most=most.value)
-    return compare("gap", met, finding, most)
+    return _compare("gap", most, (gap, gap), (0.0, most.value))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,6 +16,7 @@ from netdesign.checks import (
 from netdesign.checks.check import OpenKind
 from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
 from netdesign.checks.schema import SPACING_CAP
+from netdesign.edge.json_text import write_json
 from netdesign.outcome import Verdict
 from tests.each import each
 
@@ -100,6 +101,17 @@ def test_beyond_the_cap_a_distance_that_the_formula_allows_is_not_proven():
 def test_flat_slope_needs_no_rows():
     assert compute_largest_row_spacing(math.atan(0.55), 3.0, 0.55) == math.inf
     assert verdicts(slope_angle=math.atan(0.5))["spacing"] is Verdict.PASS
+
+
+@pytest.mark.parametrize("slope", [26.3, 28.7, 29.1, 41.2])
+def test_checks_of_every_slope_can_be_written(slope):
+    """Also where no distance of the rows is too large: infinity is no number there."""
+    row = replace(ROW, slope_angle=math.radians(slope))
+    text = write_json(check_geometry(row, SWISS))
+    assert f"{slope:.10g} degrees" in " ".join(
+        str(check.reason) for check in check_geometry(row, SWISS)
+    )
+    assert "geometry.spacing" in text
 
 
 PROFILES = [load_standard(name) for name in list_standards()]

@@ -301,7 +301,7 @@ def test_a_message_without_its_text_or_arguments_is_refused(document):
         ("no.such_text", {}),
         ("text.as_given", {}),
         ("row.in_cases", {"count": 1, "all": 2, "what": {"key": "no.such_text"}}),
-        ("geometry.gap_within", {"gap": "wide", "most": 2.0}),
+        ("geometry.gap_pass", {"low": "wide", "most": 2.0}),
     ):
         reason.update(key=key, arguments=arguments)
         assert "rows.0.checks.1.finding" in refuse(document)

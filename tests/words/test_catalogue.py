@@ -22,6 +22,8 @@ FAMILIES: tuple[str, ...] = (
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     *("creep_law.", "of_scope."),
+    *(f"geometry.{mode}_" for mode in ("inclination", "slope", "height", "gap")),
+    "geometry.spacing_",
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "load_force."),
     *(
