@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 from netdesign import addon_table
 from netdesign.checks import Standard
 from netdesign.edge.progress import Phase, RunProgress
 from netdesign.envelope.rows import RowEnvelope
-from netdesign.site.model import NetRow, Site
+from netdesign.site.model import Site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import list_alike, search_site
 from netdesign.study.judge import gather_study
@@ -91,35 +90,6 @@ def check_site(
     by_row = find_rows(names, runner, len(standards))
     for studies in by_row.values():
         on_row(studies)
-    new = tuple(row for row in site.rows if row.id not in by_row)
-    if new:
-        part = replace(site, rows=new)
-        by_row |= _judge_new(part, names, standards, run, runner, watch, on_row)
-    return _gather(site, by_row, standards, run)
-
-
-def _judge_new(
-    site: Site,
-    names: Mapping[str, str],
-    standards: Sequence[Standard],
-    run: CheckRun,
-    runner: Runner,
-    watch: RunProgress,
-    on_row: OnRow,
-) -> dict[str, Studies]:
-    """Studies by the ids of the rows, solved, judged, and kept under their names.
-
-    Each row is searched and judged in one process, where there are rows enough for all.
-    """
-    build = partial(_build_job, site, standards, run, runner)
-    groups, pool = list_alike(site, run), runner.workers.pool
-    if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
-        watch.enter("checks", say("phase.rows"))
-        jobs = [build(rows) for rows in groups]
-    else:  # all processes solve cases of the same few rows
-        solved = solve_rows(site, run, runner, watch)
-        watch.enter("checks")
-        jobs = _list_jobs(solved, build)
 
     def keep(job: RowsJob, judged: list[Studies]) -> None:
         keep_rows(names, job.site.rows, judged, runner)
@@ -127,7 +97,25 @@ def _judge_new(
             watch.count_piece()
             on_row(studies)
 
-    return judge_rows(jobs, runner, keep)
+    new = tuple(row for row in site.rows if row.id not in by_row)
+    if new:
+        job = _build_job(replace(site, rows=new), standards, run, runner)
+        by_row |= judge_rows(_split(job, runner, watch), runner, keep)
+    return _gather(site, by_row, standards, run)
+
+
+def _split(job: RowsJob, runner: Runner, watch: RunProgress) -> list[RowsJob]:
+    """Jobs of the rows of one: each is searched and judged in one process.
+
+    Where there are too few rows for all processes, all solve cases of the same rows.
+    """
+    groups, pool = list_alike(job.site, job.run), runner.workers.pool
+    if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
+        watch.enter("checks", say("phase.rows"))
+        return [replace(job, site=replace(job.site, rows=rows)) for rows in groups]
+    solved = solve_rows(job.site, job.run, runner, watch)
+    watch.enter("checks")
+    return _list_jobs(job, solved)
 
 
 def solve_rows(
@@ -147,33 +135,24 @@ def judge_solved(
 ) -> list[Study]:
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
-    build = partial(_build_job, solved.site, standards, run, runner)
-    judged = judge_rows(
-        _list_jobs(solved, build), runner, lambda *_: watch.count_piece()
-    )
+    job = _build_job(solved.site, standards, run, runner)
+    judged = judge_rows(_list_jobs(job, solved), runner, lambda *_: watch.count_piece())
     return _gather(solved.site, judged, standards, run)
 
 
-def _list_jobs(solved: SolvedSite, build: Callable[..., RowsJob]) -> list[RowsJob]:
-    pairs = zip(solved.site.rows, solved.rows, strict=True)
-    return [build((row,), (of_row,)) for row, of_row in pairs]
-
-
 def _build_job(
-    site: Site,
-    standards: Sequence[Standard],
-    run: CheckRun,
-    runner: Runner,
-    rows: tuple[NetRow, ...],
-    solved: tuple[RowEnvelope, ...] | None = None,
+    site: Site, standards: Sequence[Standard], run: CheckRun, runner: Runner
 ) -> RowsJob:
-    return RowsJob(
-        site=replace(site, rows=rows),
-        solved=solved,
-        standards=tuple(standards),
-        run=run,
-        store=runner.store.path if runner.store else None,
-    )
+    store = runner.store.path if runner.store else None
+    return RowsJob(site=site, standards=tuple(standards), run=run, store=store)
+
+
+def _list_jobs(job: RowsJob, solved: SolvedSite) -> list[RowsJob]:
+    """Jobs of one solved row each."""
+    return [
+        replace(job, site=replace(job.site, rows=(row,)), solved=(of_row,))
+        for row, of_row in zip(solved.site.rows, solved.rows, strict=True)
+    ]
 
 
 def _gather(

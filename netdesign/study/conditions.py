@@ -24,27 +24,8 @@ from netdesign.units import given_degree_from_radian
 from netdesign.words.message import Text, say
 
 Who = Literal["office", "supplier", "ground", "site"]
-Key = Literal[
-    "snow_height",
-    "glide_factor",
-    "ground",
-    "cover",
-    "natural_ground",
-    "protected",
-    "basis",
-    "sleeve",
-    "rectangular",
-    "hangs_free",
-    "one_construction",
-    "axes",
-    "edge",
-    "apart",
-    "row_above",
-    "gap",
-]
-
 # Who sees to each condition, in the order of the reports.
-_WHO: Mapping[Key, Who] = {
+_WHO: Mapping[str, Who] = {
     "snow_height": "office",
     "glide_factor": "office",
     "ground": "ground",
@@ -86,7 +67,7 @@ class Condition:
 
     LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("value",)
 
-    key: Key
+    key: str
     who: Who
     message: Text
     value: float | None = None
@@ -110,7 +91,8 @@ def merge_conditions(conditions: Iterable[Condition]) -> list[Condition]:
         rows = [*dict.fromkeys([*before.rows, *condition.rows])]
         worse = condition if _is_worse(condition, before) else before
         merged[condition.key] = replace(worse, rows=rows)
-    return sorted(merged.values(), key=lambda each: list(_WHO).index(each.key))
+    order = {key: place for place, key in enumerate(_WHO)}
+    return sorted(merged.values(), key=lambda each: order.get(each.key, len(order)))
 
 
 def _is_worse(condition: Condition, other: Condition) -> bool:
@@ -120,7 +102,7 @@ def _is_worse(condition: Condition, other: Condition) -> bool:
     return is_less if condition.key in _LEAST_COUNTS else condition.value > other.value
 
 
-def _state(key: Key, value: float | None = None) -> Condition:
+def _state(key: str, value: float | None = None) -> Condition:
     text = say(f"condition.{key}")
     if value is not None:
         text = say(f"condition.{key}_of", value=value)

@@ -120,14 +120,8 @@ def write_repr(study: Study) -> str:
 def write_html(study: Study) -> str:
     """Verdict of each scope of each net row as a table; every text is escaped."""
     heads = ("row", "verdict", *(str(scope.value) for scope in SCOPES))
-    lines = [
-        "".join(f"<td>{escape(text)}</td>" for text in _list_texts(row))
-        for row in study.rows
-    ]
-    head = "".join(f"<th>{escape(title)}</th>" for title in heads)
-    body = "".join(f"<tr>{line}</tr>" for line in lines)
-    caption = escape(write_repr(study)[1:-1])
-    return f"<table><caption>{caption}</caption><tr>{head}</tr>{body}</table>"
+    table = _build(heads, [tuple(_list_texts(row)) for row in study.rows])
+    return f"<p>{escape(write_repr(study)[1:-1])}</p>{table.to_html(index=False)}"
 
 
 def _list_texts(row: RowStudy) -> Iterator[str]:

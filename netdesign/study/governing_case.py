@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.cable.net import (
     compute_end_directions,
@@ -13,7 +12,6 @@ from netdesign.cable.net import (
 )
 from netdesign.checks.check import Check
 from netdesign.coupling.solution import SolvedState
-from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow
@@ -53,48 +51,75 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
     )
 
 
+BALANCE = 1e-3  # of a largest force or of the weight: tight enough for print
+DIRECTION = 2e-2  # pulls are those of two meshes, the shape that of the finer one
+DIRECTION_ERRORS = 3.0  # or so many times the relative error of the end's pull
+RATIO = 1e-2  # of the ratio of tensions, as the allowed error of forces
+
+
 def record_independent(
     row: NetRow, result: CaseResult | None
 ) -> list[IndependentRecord]:
-    """Laws that a converged case has to obey; none where it has no solution."""
+    """Laws that a converged case has to obey; none where it has no solution.
+
+    A law without a value is not met. Friction without a bound holds any ratio of
+    tensions.
+    """
     if result is None or result.solution is None:
         return []
     state, width = result.solution, row.layout.post_spacing
-    checks = [
-        _judge("global_balance", state.balance.relative_residual),
-        _judge("friction_excess", state.balance.friction_excess),
-        _check_ends(state),
-        _check_capstan(state, result.case.friction_angle),
+    balance = state.balance
+    smallest = balance.smallest_tension or 0.0
+    share = float(smallest / state.tension_max)
+    sine, largest_sine = _measure_ends(state)
+    held = _limit_ratio(state, result.case.friction_angle)
+    ratio = float(state.tension_max / smallest) if smallest > 0.0 else None
+    is_held = ratio is not None and (held is None or ratio <= held * (1.0 + RATIO))
+    laws = [
+        _limit("global_balance", balance.relative_residual, BALANCE),
+        _limit("friction_excess", balance.friction_excess, BALANCE),
+        _limit("end_direction", sine, largest_sine),
+        IndependentRecord(
+            name="capstan_ratio", value=ratio, limit=held, is_met=is_held
+        ),
+        IndependentRecord(
+            name="tension_share", value=share, limit=0.0, is_met=share > 0.0
+        ),  # a net does not push
     ]
-    share = (state.balance.smallest_tension or 0.0) / state.tension_max
-    checks.append(_judge("tension_share", share))  # a net does not push
     if result.anchors is not None:
         pull = (state.head.x * width, state.head.y * width)
         missing = _measure_open_head(pull, result.anchors)
         if missing is not None:
-            checks.append(_judge("head_balance", missing))
-    return checks
+            laws.append(_limit("head_balance", missing, BALANCE))
+    return laws
 
 
-def _check_ends(state: SolvedState) -> IndependentRecord:
-    """Sine of the larger angle between an end's pull and the net's end there [-]."""
+def _limit(name: str, value: float | None, limit: float) -> IndependentRecord:
+    """Law of a value that lies within a limit."""
+    value = None if value is None else float(value)
+    is_met = value is not None and abs(value) <= limit
+    return IndependentRecord(name=name, value=value, limit=limit, is_met=is_met)
+
+
+def _measure_ends(state: SolvedState) -> tuple[float, float]:
+    """Sine of the larger angle between an end's pull and the net's end, and its limit.
+
+    Both without a unit.
+    """
     leaving = compute_end_directions(state.net_curve)
     ends = zip((state.foot, state.head), leaving, strict=True)
     sines = [abs(pull.x * y - pull.y * x) / pull.size for pull, (x, y) in ends]
     errors = [
         DIRECTION_ERRORS * pull.error / pull.size for pull in (state.foot, state.head)
     ]
-    return _judge("end_direction", max(sines), max(DIRECTION, *errors))
+    return max(sines), max(DIRECTION, *errors)
 
 
-def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentRecord:
-    """Largest over smallest tension against what friction can hold, (C12)."""
+def _limit_ratio(state: SolvedState, friction_angle: float) -> float | None:
+    """Ratio of the largest tension to the smallest that friction can hold, (C12)."""
     turns = compute_turning_angles(state.net_curve)
     bound = float(compute_ratio_bounds(turns, math.tan(friction_angle)).sum())
-    limit = math.exp(bound) if bound < 100.0 else None
-    smallest = state.balance.smallest_tension or 0.0
-    ratio = float(state.tension_max / smallest) if smallest > 0.0 else None
-    return _judge("capstan_ratio", ratio, limit)
+    return math.exp(bound) if bound < 100.0 else None
 
 
 def _measure_open_head(pull: Point, anchors: AnchorForces) -> float | None:
@@ -110,60 +135,6 @@ def _measure_open_head(pull: Point, anchors: AnchorForces) -> float | None:
         return None
     missing = math.hypot(*(sum(part) for part in zip(pull, *forces, strict=True)))
     return missing / max(math.hypot(*force) for force in (pull, *forces))
-
-
-def _judge(
-    name: str, value: float | None, limit: float | None = None
-) -> IndependentRecord:
-    value = None if value is None else float(value)
-    limit = LIMITS.get(name, limit)
-    return IndependentRecord(
-        name=name, value=value, limit=limit, is_met=is_law_met(name, value, limit)
-    )
-
-
-BALANCE = 1e-3  # of a largest force or of the weight: tight enough for print
-DIRECTION = 2e-2  # pulls are those of two meshes, the shape that of the finer one
-DIRECTION_ERRORS = 3.0  # or so many times the relative error of the end's pull
-RATIO = 1e-2  # of the ratio of tensions, as the allowed error of forces
-
-# Largest value of each law whose limit does not depend on the case [-].
-LIMITS = {
-    "global_balance": BALANCE,
-    "friction_excess": BALANCE,
-    "head_balance": BALANCE,
-    "tension_share": 0.0,  # that one lies above it
-}
-
-
-def is_law_met(name: str, value: float | None, limit: float | None) -> bool:
-    """Whether a law is met.
-
-    Parameters
-    ----------
-    name : str
-        As in an ``IndependentRecord``.
-    value : float or None
-        Share or ratio [-]; None where there is none, which never meets a law.
-    limit : float or None
-        Its limit [-]; None where nothing bounds a ratio of tensions.
-    """
-    if value is None or (limit is None and name != "capstan_ratio"):
-        return False
-    if name == "tension_share":  # a net does not push
-        return value > 0.0
-    if name == "capstan_ratio":
-        return limit is None or value <= limit * (1.0 + RATIO)
-    return limit is not None and abs(value) <= limit
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Variant:
-    """One other creep law; ``reason`` tells why it cannot have a force."""
-
-    law: CreepLaw
-    ground: GroundLaw
-    reason: Message | None
 
 
 def record_model_form(
@@ -193,71 +164,55 @@ def record_model_form(
     if own is None or not own.value > 0.0:
         return None
     placed, case = row.at(result.case), replace(result.case, others=())
-    others = [law for law in CREEP_LAWS.values() if law.name != solver.law.name]
-    variants = [_place(law, placed) for law in others]
-    results = _solve(solver, placed, case, variants)
-    records = [
-        _record(variant, result, member, own.value)
-        for variant, result in zip(variants, results, strict=True)
-    ]
+    laws = [law for law in CREEP_LAWS.values() if law.name != solver.law.name]
+    grounds = [(law, _find_ground(law, placed)) for law in laws]
+    solved = iter(
+        solver.solve_all(
+            [
+                # on another ground, whatever the row's glide factor says
+                (replace(placed, ground=ground, glide_factor=None), case, law)
+                for law, ground in grounds
+                if isinstance(ground, GroundLaw)
+            ]
+        )
+    )
     return ModelFormRecord(
         case=record_point(result.case),
         member=member,
         force_kN=kilonewton_from_newton(own.value),
         utilisation=check.utilisation,
-        variants=records,
+        variants=[
+            _record_refused(law, ground)
+            if isinstance(ground, Message)
+            else _record(law, next(solved), member, own.value)
+            for law, ground in grounds
+        ],
     )
 
 
-def _place(law: CreepLaw, row: NetRow) -> _Variant:
-    """Build the variant of a law, with the slip length that means the typed N.
+def _find_ground(law: CreepLaw, row: NetRow) -> GroundLaw | Message:
+    """Ground with the slip length by which a law means the typed N, or why it has none.
 
     A law without a table of N keeps the row's slip length.
     """
-    ground, reason = row.ground, None
-    if row.glide_factor is not None and law.name in load_glide_tables():
-        try:
-            ground = build_ground_from_glide_factor(
-                row.glide_factor, row.snow_thickness, law.name
-            )
-        except ModelError as error:
-            reason = error.message
-    return _Variant(law=law, ground=ground, reason=reason)
-
-
-def _solve(
-    solver: CaseSolver, row: NetRow, case: Case, variants: Sequence[_Variant]
-) -> list[CaseResult | None]:
-    solved = iter(
-        solver.solve_all(
-            [
-                # on another ground, whatever the row's glide factor says
-                (
-                    replace(row, ground=variant.ground, glide_factor=None),
-                    case,
-                    variant.law,
-                )
-                for variant in variants
-                if variant.reason is None
-            ]
+    if row.glide_factor is None or law.name not in load_glide_tables():
+        return row.ground
+    try:
+        return build_ground_from_glide_factor(
+            row.glide_factor, row.snow_thickness, law.name
         )
-    )
-    return [next(solved) if variant.reason is None else None for variant in variants]
+    except ModelError as error:
+        return error.message
+
+
+def _record_refused(law: CreepLaw, reason: Message | None) -> VariantRecord:
+    return VariantRecord(creep_law=law.name, ratio=None, reason=reason)
 
 
 def _record(
-    variant: _Variant,
-    result: CaseResult | None,
-    member: str,
-    own: float,
+    law: CreepLaw, result: CaseResult, member: str, own: float
 ) -> VariantRecord:
-    forces = result.member_forces if result and result.is_converged else {}
-    values = {name: band.value for name, band in forces.items()}
-    reason = variant.reason
-    if result is not None and member not in values:
-        reason = result.reason
-    return VariantRecord(
-        creep_law=variant.law.name,
-        ratio=values[member] / own if member in values else None,
-        reason=reason,
-    )
+    force = result.member_forces.get(member) if result.is_converged else None
+    if force is None:
+        return _record_refused(law, result.reason)
+    return VariantRecord(creep_law=law.name, ratio=force.value / own)

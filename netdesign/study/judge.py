@@ -134,7 +134,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         parts=list_parts(forces.row),
         drawing=record_drawing(forces.row, governing),
-        questions=list(row.questions),
         assumed=[
             record_assumed(assumed) for assumed in row.assumed if not assumed.is_typed
         ],
@@ -146,7 +145,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         model_form=model_form,
         notes=list_judged_notes(forces, checks, cases, governing),
         held_sideways=forces.along_row,
-        tilt=forces.tilt,
         end_guy=forces.at_end,
         reliability=_find_reliability(worst, row_checks, run),
         conditions=merge_conditions(

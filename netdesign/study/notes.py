@@ -14,25 +14,22 @@ from netdesign.checks.comparison import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.panel_forces import PanelForces
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
-from netdesign.snow.heights import find_model_code_density
 from netdesign.structure.members import GUYS, EndMember, Member
-from netdesign.study.anchor_pulls import USUAL_DIP, may_share
-from netdesign.study.case_records import CaseRecord, PullRecord
+from netdesign.study.case_records import CaseRecord
 from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.guideline_load import list_assumed
 from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
 from netdesign.study.posts import find_snow_pressure
 from netdesign.study.records import RowStudy
-from netdesign.units import degree_from_radian
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_member
+from netdesign.words.names import name_member
 
 
 def list_site_notes(
@@ -152,9 +149,6 @@ def list_judged_notes(
     row, ranges, standard = forces.row, forces.site.ranges, forces.standard
     return [
         *list_row_notes(forces),
-        describe_model_code(row, ranges["density"]),
-        *_list_sharing_notes(row, standard),
-        *_list_base_notes(forces.tilt, checks),
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
@@ -179,37 +173,17 @@ def list_row_notes(forces: RowForces) -> list[Message]:
             notes.append(threshold)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
-    notes += [*_list_end_notes(forces), *list_assumed(row)]
-    if row.panel_assumed and row.panels:
-        notes.append(say("panel.assumed", names=row.panel_assumed))
-    return [*notes, *_list_pull_notes(forces.pulls)]
+    return [*notes, *_list_end_notes(forces), *list_assumed(row)]
 
 
 def _list_end_notes(forces: RowForces) -> Iterator[Message]:
     """List the assumptions about the end of a row: posts, end guy and its anchor."""
-    row, end = forces.row, forces.row.row_end
+    row = forces.row
     if row.has_end and row.post_count is None:
         yield say("row.posts_unknown")
-    if end is None or forces.at_end is None:
-        return
-    yield say("row.end_guy_holds_all")
-    yield say("row.end_guy_at_head")
-    if forces.at_end.uphill_guy_kN and len(end.stiffnesses) > 1:
-        yield say("row.end_stiffness")
-
-
-def _list_pull_notes(pulls: Sequence[PullRecord]) -> Iterator[Message]:
-    """List the anchors that are drilled along the pull, and boreholes too flat."""
-    for pull in pulls:
-        is_twice = pull.position == "edge" and pull.anchor in tuple(Member)
-        if is_twice:
-            continue
-        anchor, dip = name_member(pull.anchor), pull.dip_deg
-        least = degree_from_radian(USUAL_DIP)
-        if not pull.is_axis_given:
-            yield say("row.drilled_along_pull", member=anchor, dip=dip, least=least)
-        elif dip < least:
-            yield say("row.borehole_flat", member=anchor, dip=dip, least=least)
+    if row.row_end is not None and forces.at_end is not None:
+        yield say("row.end_guy_holds_all")
+        yield say("row.end_guy_at_head")
 
 
 def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
@@ -239,32 +213,6 @@ def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
         tendon, ground = designs.get("tendon", math.inf), designs.get("pull_out", 0.0)
         if tendon < ground:
             yield say("row.weak_tendon", type=kind, tendon=tendon, ground=ground)
-
-
-def _list_sharing_notes(row: NetRow, standard: Standard) -> list[Message]:
-    """Note on the sum of the pulls of two guys on one anchor."""
-    sharing = say("row.shared_sum", sum=name("shared_sum", standard.shared_sum))
-    return [sharing] if may_share(row.guys) else []
-
-
-def _list_base_notes(tilt: float, checks: Sequence[Check]) -> list[Message]:
-    """Note on a base that friction holds; (R12)."""
-    is_rubbed = any(check.read("μ_b") is not None for check in checks)
-    return [say("row.base_friction", tilt=tilt)] if is_rubbed else []
-
-
-def describe_model_code(row: NetRow, density: Interval) -> Message:
-    """Mean density of the row's snow by a model code, beside the range; (Y13)."""
-    height = row.snow_thickness / math.cos(row.slope_angle)
-    by_code = find_model_code_density(height)
-    text = say(
-        "row.model_code",
-        height=height,
-        density=by_code,
-        low=density.low,
-        high=density.high,
-    )
-    return say("row.model_code_above", told=text) if by_code > density.high else text
 
 
 def list_test_notes(checks: Sequence[Check], standard: Standard) -> list[Message]:

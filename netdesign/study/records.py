@@ -164,7 +164,6 @@ class RowStudy:
     cases: Items[CaseRecord]
     inputs: Items[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    questions: Items[Message] = field(default_factory=list)  # numbers hardly meant
     assumed: Items[AssumedRecord] = field(default_factory=list)  # of empty columns
     pulls: Items[PullRecord] = field(default_factory=list)  # over all solved cases
     guideline: GuidelineRecord | None = None
@@ -173,7 +172,6 @@ class RowStudy:
     independent: Items[IndependentRecord] = field(default_factory=list)
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     end_guy: EndGuyRecord | None = None  # None without one, or where nothing holds it
-    tilt: float = 0.0  # largest force along the slope at a post's base over that across
     model_form: ModelFormRecord | None = None  # None where nothing governs
     parts: Items[PartRecord] = field(default_factory=list)  # anchors by type
     conditions: Items[Condition] = field(default_factory=list)  # beside the numbers

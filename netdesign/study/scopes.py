@@ -214,7 +214,7 @@ def sum_up_row(
 def _sum_up(
     checks: Sequence[Check], others: Sequence[Verdict], assumed: int
 ) -> ScopeRecord:
-    governing = min(checks, key=lambda each: each.rank, default=None)
+    governing = find_governing(checks)
     is_by_approval = governing is not None and governing.id == BY_APPROVAL
     return ScopeRecord(
         verdict=merge_verdicts([*(check.verdict for check in checks), *others]),
@@ -229,28 +229,15 @@ def find_governing(checks: Sequence[Check]) -> Check | None:
     return min(checks, key=lambda check: check.rank, default=None)
 
 
-def _ratio(check: Check) -> float:
-    return -1.0 if check.used is None else check.used
-
-
-def find_highest(checks: Sequence[Check]) -> Check | None:
+def find_highest(checks: Iterable[Check]) -> Check | None:
     """Check with the largest utilisation, of those that have one."""
     rated = [check for check in checks if check.used is not None]
-    return max(rated, key=_ratio, default=None)
-
-
-def find_worst(checks: Sequence[Check]) -> Check | None:
-    """Check of the largest utilisation by a solved case; None without any."""
-    rated = [check for check in checks if check.used is not None and check.case]
     return max(rated, key=lambda check: check.used or 0.0, default=None)
 
 
-def find_shown(checks: Sequence[Check]) -> Check | None:
-    """Check of which most is shown: the governing one, or the most used one."""
-    governing = find_governing(checks)
-    if governing and governing.used is not None:
-        return governing
-    return find_highest(checks)
+def find_worst(checks: Iterable[Check]) -> Check | None:
+    """Check of the largest utilisation by a solved case; None without any."""
+    return find_highest(check for check in checks if check.case)
 
 
 def is_far_from_limit(check: Check) -> bool:

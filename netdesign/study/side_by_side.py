@@ -154,7 +154,7 @@ class RowsJob:
     """
 
     site: Site
-    solved: tuple[RowEnvelope, ...] | None
+    solved: tuple[RowEnvelope, ...] | None = None
     standards: tuple[Standard, ...]
     run: CheckRun
     store: Path | None
@@ -253,11 +253,12 @@ def _judge(job: RowsJob, runner: Runner) -> list[Studies]:
     solved: Sequence[RowEnvelope] | None = job.solved
     if solved is None:
         solved = search_site(job.site, job.run, runner)
-    keep_faults(job.site.rows, solved, runner)
-    return [
-        _judge_row(job, row, of_row, runner)
-        for row, of_row in zip(job.site.rows, solved, strict=True)
-    ]
+    pairs = list(zip(job.site.rows, solved, strict=True))
+    for row, of_row in pairs:
+        again = (confirmation.confirmed for confirmation in of_row.confirmations)
+        for result in (*of_row.results, *again):
+            runner.keep_fault(result.fault, row.id)
+    return [_judge_row(job, row, of_row, runner) for row, of_row in pairs]
 
 
 def _judge_row(
@@ -273,13 +274,3 @@ def _judge_row(
         judge_row(site, row, solved, standard, job.run, solver)
         for standard in job.standards
     ]
-
-
-def keep_faults(
-    rows: Sequence[NetRow], solved: Sequence[RowEnvelope], runner: Runner
-) -> None:
-    """Tell the runner which net rows the faults in their cases befell."""
-    for row, of_row in zip(rows, solved, strict=True):
-        again = (confirmation.confirmed for confirmation in of_row.confirmations)
-        for result in (*of_row.results, *again):
-            runner.keep_fault(result.fault, row.id)

@@ -72,29 +72,25 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
     most : int or None
         Largest number of lines, of which the last then counts the others; None: all.
     """
-    points = [point for row in study.rows for point in _list_points(row)]
     lines: dict[tuple[str, ...], list[_Point]] = {}
-    for point in points:
-        lines.setdefault((point.who, *point.key), []).append(point)
-    ranked = sorted(lines.values(), key=_rank)
-    every = [_sum_up(group) for group in ranked]
+    unmet: dict[Message, list[str]] = {}  # laws that the drawn cases do not obey
+    for row in study.rows:
+        for point in _list_points(row):
+            lines.setdefault((point.who, *point.key), []).append(point)
+        for reason in row.unmet:
+            unmet.setdefault(reason, []).append(row.id)
+    every = [_sum_up(group) for group in sorted(lines.values(), key=_rank)]
     every += [
         ToDo(who="office", text=reason, rows=tuple(ids))
-        for reason, ids in _list_unmet(study).items()
+        for reason, ids in unmet.items()
     ]
     if most is None or len(every) <= most:
         return tuple(every)
-    return _shorten(every, most, [row.id for row in study.rows])
-
-
-def _shorten(
-    lines: Sequence[ToDo], most: int, order: Sequence[str]
-) -> tuple[ToDo, ...]:
-    """Shorten the list: its last line counts the lines left out."""
-    kept, rest = lines[: most - 1], lines[most - 1 :]
-    ids = tuple(row for row in order if any(row in line.rows for line in rest))
+    rest = every[most - 1 :]  # the last line counts them
+    left = {row for line in rest for row in line.rows}
+    ids = tuple(row.id for row in study.rows if row.id in left)
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
-    return (*kept, more)
+    return (*every[: most - 1], more)
 
 
 def _rank(group: Sequence[_Point]) -> tuple[int, float]:
@@ -115,47 +111,41 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
         if is_bare and is_part and check.verdict is Verdict.NOT_PROVEN:
             continue
         is_spanning = check.verdict is Verdict.NOT_PROVEN and not check.open
+        open_points: Sequence[Open | None] = ()
         if check.verdict is Verdict.FAIL or is_spanning:
-            key: tuple[str, ...] = ("fails", check.verdict, check.member)
-            if not check.is_of_force:
-                key = ("open", check.plain_reason.key)
-            yield _Point(who="office", key=key, row=row.id, check=check, point=None)
+            open_points = (None,)
         elif check.verdict is not Verdict.PASS:
-            yield from _list_open(row.id, check)
+            proofs = [point for point in check.open if point.proof is not None]
+            open_points = proofs or check.open
+        for point in open_points:
+            who, *key = _sort(check, point)
+            yield _Point(who=who, key=(*key,), row=row.id, check=check, point=point)
 
 
-def _list_open(row: str, check: Check) -> Iterator[_Point]:
-    who = _OF_MODE.get(check.mode, "office")
-    proofs = [point for point in check.open if point.proof is not None]
-    for point in proofs or check.open:
-        key: tuple[str, ...]
-        if point.kind is OpenKind.ASSUMED_DECIDES:
-            key = ("decides", _name_deciding(point.message))
-            if point.message.key == _LOWERS:
-                key = ("lowers",)
-            yield _Point(who="supplier", key=key, row=row, check=check, point=point)
-        elif point.kind is OpenKind.RESISTANCE_MISSING and check.mode == "connection":
-            yield _Point(
-                who="supplier", key=("links",), row=row, check=check, point=point
-            )
-        elif point.message.key == _HEAD:
-            key = ("open", _HEAD)
-            yield _Point(who="office", key=key, row=row, check=check, point=point)
-        elif point.kind is OpenKind.RESISTANCE_MISSING and check.is_of_force:
-            key = ("needs",)
-            is_of_product = check.resistance_type or check.mode == "mesh"
-            named = who if is_of_product else "office"
-            yield _Point(who=named, key=key, row=row, check=check, point=point)
-        elif point.proof is not None:
-            key = ("proof", str(point.proof.document))
-            yield _Point(who=who, key=key, row=row, check=check, point=point)
-        else:
-            asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
-            asked |= point.message.key == "bores.no_type"
-            named = "office" if asked else who
-            of_force = check.is_of_force
-            key = ("open", str(point.message) if of_force else point.message.key)
-            yield _Point(who=named, key=key, row=row, check=check, point=point)
+def _sort(check: Check, point: Open | None) -> tuple[Who, *tuple[str, ...]]:
+    """Who has the answer to an open point of a check, and the key of its line."""
+    if point is None:
+        if not check.is_of_force:
+            return "office", "open", check.plain_reason.key
+        return "office", "fails", check.verdict, check.member
+    who, message = _OF_MODE.get(check.mode, "office"), point.message
+    is_missing = point.kind is OpenKind.RESISTANCE_MISSING
+    if point.kind is OpenKind.ASSUMED_DECIDES:
+        if message.key == _LOWERS:
+            return "supplier", "lowers"
+        return "supplier", "decides", _name_deciding(message)
+    if is_missing and check.mode == "connection":
+        return "supplier", "links"
+    if message.key == _HEAD:
+        return "office", "open", _HEAD
+    if is_missing and check.is_of_force:
+        is_of_product = check.resistance_type or check.mode == "mesh"
+        return who if is_of_product else "office", "needs"
+    if point.proof is not None:
+        return who, "proof", str(point.proof.document)
+    is_asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
+    named = "office" if is_asked or message.key == "bores.no_type" else who
+    return named, "open", str(message) if check.is_of_force else message.key
 
 
 def _name_deciding(message: Message) -> str:
@@ -267,12 +257,3 @@ def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
     if len(members) <= _FEW + 1:
         return tuple(members)
     return (*members[:_FEW], say("to_do.more_checks", count=len(titles) - _FEW))
-
-
-def _list_unmet(study: Study) -> dict[Message, list[str]]:
-    """Laws that the drawn cases do not obey, with their rows."""
-    unmet: dict[Message, list[str]] = {}
-    for row in study.rows:
-        for reason in row.unmet:
-            unmet.setdefault(reason, []).append(row.id)
-    return unmet

@@ -9,8 +9,8 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.study.judge import gather_study
-from netdesign.study.notes import bear_snow, describe_model_code, list_site_notes
-from tests.small_site import RANGES, ROWS, RUN, build_row, build_site
+from netdesign.study.notes import bear_snow, list_site_notes
+from tests.small_site import RANGES, ROWS, RUN, build_site
 
 
 def test_force_and_snow_together_use_up_the_resistance():
@@ -32,30 +32,6 @@ def test_force_and_snow_together_use_up_the_resistance():
 )
 def test_snow_by_hand(force, resistance, cosine, snow):
     assert bear_snow(force, resistance, cosine) == pytest.approx(snow)
-
-
-# 3 m of snow, measured vertically: 361.9 kg/m3
-ROW = build_row("R7", snow_thickness=3.0 * math.cos(math.radians(38.0)))
-
-
-def note(low, high):
-    return describe_model_code(ROW, Interval(low=low, high=high))
-
-
-def test_note_has_the_vertical_height_and_the_range():
-    told = note(241.0, 417.0)
-    assert told.key == "row.model_code"
-    assert told.arguments["height"] == pytest.approx(3.0)
-    assert told.arguments["density"] == pytest.approx(361.9, abs=0.05)
-    assert (told.arguments["low"], told.arguments["high"]) == (241.0, 417.0)
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "is_above"),
-    [(241.0, 361.0, True), (241.0, 362.0, False), (380.0, 420.0, False)],
-)
-def test_note_says_where_the_range_ends_below(low, high, is_above):
-    assert (note(low, high).key == "row.model_code_above") is is_above
 
 
 def list_of_accuracy(site, accuracy):

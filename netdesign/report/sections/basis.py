@@ -300,13 +300,8 @@ def list_notes(study: Study, words: Words) -> list[str]:
 
 
 # Notes that ask nothing of anyone: no number of them decides.
-_BESIDE = (
-    *("row.model_code", "row.model_code_above", "row.loaded_net", "row.guys_in_snow"),
-    *("row.shared_sum", "row.base_friction"),
-    *("row.end_stiffness", "panel.assumed"),  # among the assumed ranges of page 1
-)
-# The schedule has the dip of every bore, and marks what is flat or weak.
-_IN_SCHEDULE = ("row.borehole_flat", "row.drilled_along_pull", "row.weak_tendon")
+_BESIDE = ("row.loaded_net", "row.guys_in_snow")
+_IN_SCHEDULE = ("row.weak_tendon",)  # that marks what is weak
 
 
 # Notes of which the largest number is said for all rows.

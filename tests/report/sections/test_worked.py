@@ -10,7 +10,7 @@ from netdesign.report.page.html import render_html
 from netdesign.report.sections.annexes import list_annexes
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check
-from netdesign.study.scopes import find_shown
+from netdesign.study.scopes import find_governing
 from netdesign.words.message import say
 from tests.report.build_study import build_row, build_study
 from tests.report.reading import PageReader
@@ -36,7 +36,7 @@ def find(lines, symbol):
 
 def test_worked_check_shows_symbols_numbers_and_result():
     row = build_row("A", 2, scale=0.6)
-    lines = list_lines(find_shown(ROW.checks))
+    lines = list_lines(find_governing(ROW.checks))
     force = row.member_forces[0].value_kN
     name, _, numbers, result, _ = find(lines, "E_d")
     assert name == ENGLISH("symbol.E_d")
