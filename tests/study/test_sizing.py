@@ -1,12 +1,14 @@
 """Smallest types that pass, tried cell by cell; what-ifs that are solved again."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import SiteDataError, Verdict
+from netdesign.site import reader
 from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study.check_site import solve_rows
@@ -38,6 +40,14 @@ class Nobody:
 
 def solve(site):
     return solve_rows(site, RUN, Runner(), Nobody())
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _read_once():
+    """Workbooks stay as they are: each is opened once, and read again with changes."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reader, "read_cells", cache(reader.read_cells))
+        yield
 
 
 @pytest.fixture(scope="module")
