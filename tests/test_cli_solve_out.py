@@ -3,11 +3,7 @@
 import csv
 import io
 import json
-import sys
 
-import pytest
-
-from netdesign import cli
 from netdesign.addons.history.moments import write_moments
 from tests.digits import write_force
 
@@ -36,24 +32,17 @@ def write_scene(folder, net=CABLE, days=1e-3, dense="true"):
     return path
 
 
-def run(monkeypatch, *arguments):
-    monkeypatch.setattr(sys, "argv", ["netdesign", *map(str, arguments)])
-    with pytest.raises(SystemExit) as end:
-        cli.main()
-    return end.value.code
-
-
 def names(folder):
     return {path.name for path in folder.iterdir()}
 
 
-def test_steady_scene_becomes_a_folder(tmp_path, monkeypatch, capsys):
+def test_steady_scene_becomes_a_folder(tmp_path, call):
     out = tmp_path / "out"
-    assert run(monkeypatch, "solve", write_scene(tmp_path), "--out", out) == 0
+    told = call("solve", write_scene(tmp_path), "--out", out)
+    assert told.code == 0
     assert names(out) == {"solution.json"}
     document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
     pull = document["anchor_forces"]["foot"]["size_kN_per_m"]
-    told = capsys.readouterr()
     assert write_force(pull) in told.out
     assert "wrote" in told.err
 
@@ -69,12 +58,11 @@ end_guy_deg = 45
 """
 
 
-def test_a_panel_is_printed(tmp_path, monkeypatch, capsys):
+def test_a_panel_is_printed(tmp_path, call):
     scene, out = write_scene(tmp_path), tmp_path / "out"
     text = scene.read_text(encoding="utf-8").replace(CABLE, CABLE + "\nslack = 0.04")
     scene.write_text(text + PANEL, encoding="utf-8")
-    assert run(monkeypatch, "solve", scene, "--out", out) == 0
-    printed = capsys.readouterr().out
+    printed = call("solve", scene, "--out", out).out
     support = json.loads((out / "solution.json").read_text(encoding="utf-8"))["support"]
     for force in (
         support["plain"]["post_kN"],
@@ -86,16 +74,14 @@ def test_a_panel_is_printed(tmp_path, monkeypatch, capsys):
         assert write_force(force) in printed
 
 
-def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, monkeypatch, capsys):
+def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, call):
     out = tmp_path / "out"
     scene = write_scene(tmp_path)
-    code = run(monkeypatch, "solve", scene, "--method", "transient", "--out", out)
-    assert code == 4
+    assert call("solve", scene, "--method", "transient", "--out", out).code == 4
     assert names(out) == {"solution.json", "history.csv"}
     document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
     lines = (out / "history.csv").read_text(encoding="utf-8").splitlines()
     assert len(lines) == 1 + len(document["history"])
-    capsys.readouterr()
 
 
 def test_history_table_has_a_column_for_each_node():
@@ -105,7 +91,7 @@ def test_history_table_has_a_column_for_each_node():
     assert row["node_2_y_kN_per_m"] == "6"
 
 
-def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsys):
+def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, call):
     from netdesign.addons.evidence.paper import study as module
     from netdesign.addons.evidence.paper.study import find_history
     from tests.build_paper import build_study
@@ -113,10 +99,11 @@ def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsy
     made = build_study()
     monkeypatch.setattr(module, "run_study", lambda *_, **__: made)
     out = tmp_path / "paper"
-    assert run(monkeypatch, "paper", "--out", out) == 0
+    told = call("paper", "--out", out)
+    assert told.code == 0
     assert names(out) == {"index.html"}
-    assert "index.html" in capsys.readouterr().err
-    assert run(monkeypatch, "paper", "--out", out) == 2
+    assert "index.html" in told.err
+    assert call("paper", "--out", out).code == 2
     failing = build_study(failing=[find_history(0.0)])
     monkeypatch.setattr(module, "run_study", lambda *_, **__: failing)
-    assert run(monkeypatch, "paper", "--out", out, "--force", "--quiet") == 4
+    assert call("paper", "--out", out, "--force", "--quiet").code == 4

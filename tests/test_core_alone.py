@@ -9,22 +9,8 @@ from pathlib import Path
 import pytest
 
 from netdesign.addon_table import COMMANDS
+from tests.small_scene import ROUGH_SCENE
 from tests.sources import PACKAGE
-
-SCENE = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-[net]
-stiffness_kN_per_m = 8000
-slack = 0.05
-friction_deg = 30
-[solve]
-accuracy = 0.1
-"""
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +21,7 @@ def core(tmp_path_factory):
     shutil.copytree(PACKAGE, folder / "netdesign", ignore=left_out)
     for name in ("standards", "templates"):
         shutil.copytree(PACKAGE.parent / name, folder / "netdesign" / "_data" / name)
-    (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
+    (folder / "scene.toml").write_text(ROUGH_SCENE, encoding="utf-8")
     return folder
 
 

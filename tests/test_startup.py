@@ -10,6 +10,7 @@ import netdesign
 from netdesign.checks import list_standards, load_standard
 from netdesign.core.library import name_core
 from tests.make import write_tiny
+from tests.small_scene import ROUGH_SCENE
 
 HEAVY = (
     *("numpy", "scipy", "skfem", "pandas", "matplotlib", "openpyxl", "xlsxwriter"),
@@ -26,19 +27,6 @@ try:
     main()
 finally:
     print(json.dumps(sorted(sys.modules)), file=sys.stderr)
-"""
-
-
-SCENE = """
-[slope]
-angle_deg = 37.3
-[snow]
-thickness_m = 2.9
-upslope_length_m = 11.7
-density_kg_m3 = 321.9
-[net]
-stiffness_kN_per_m = 17600
-friction_deg = 28.4
 """
 
 
@@ -81,7 +69,7 @@ def test_help_imports_nothing_heavy(tmp_path, arguments):
 def test_a_plain_steady_scene_needs_little_beside_its_solver(tmp_path):
     """Each of these takes longer to import than the scene to solve."""
     scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE, encoding="utf-8")
+    scene.write_text(ROUGH_SCENE, encoding="utf-8")
     modules = imported("solve", str(scene), cwd=tmp_path, whole=True)
     unused = {"skfem", "rich", "jinja2", "openpyxl", "sqlite3", "multiprocessing"}
     rooms = ("commands.check", "checks", "envelope", "report", "search", "site")

@@ -20,7 +20,7 @@ from netdesign.checks import (
     load_standard,
 )
 from netdesign.checks.check import Open, OpenKind, judge, merge_open
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import Verdict
 from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
 
@@ -243,19 +243,14 @@ ROWS = st.builds(
     gap=st.floats(0.0, 100.0),
 )
 FULL = load_standard("swiss-guideline-2007")
-FAMILIES = {
-    "inclination": "geometry.inclination",
-    "slope": "geometry.slope",
-    "height": "geometry.height",
-    "spacing": "geometry.spacing",
-    "gap": "geometry.gap",
-}
+FAMILIES = ("inclination", "slope", "height", "spacing", "gap")
 
 
-@given(ROWS, st.sampled_from(sorted(FAMILIES)))
+@given(ROWS, st.sampled_from(FAMILIES))
 @settings(max_examples=100)
 def test_a_missing_limit_is_not_proven_or_not_checked(row, mode):
-    values = tuple(v for v in FULL.values if not v.id.startswith(FAMILIES[mode]))
+    family = f"geometry.{mode}"
+    values = tuple(v for v in FULL.values if not v.id.startswith(family))
     checked = {c.mode: c for c in check_geometry(row, replace(FULL, values=values))}
     whole = {c.mode: c for c in check_geometry(row, FULL)}
     assert set(whole) == set(FAMILIES)
@@ -287,20 +282,3 @@ def test_a_size_that_is_no_number_never_passes(row, name, bad):
     spoilt = check_geometry(replace(row, **{name: bad}), FULL)
     (check,) = (one for one in spoilt if one.mode == DECIDED[name])
     assert check.verdict is OPEN
-
-
-# --- the three rows below -----------------------------------------------------------
-
-
-@given(st.lists(st.sampled_from(Verdict), max_size=30))
-@settings(max_examples=200)
-def test_a_whole_is_no_better_than_its_parts(parts):
-    whole = merge_verdicts(parts)
-    if FAIL in parts:
-        assert whole is FAIL
-    elif OPEN in parts or not parts:
-        assert whole is OPEN
-    elif Verdict.DECLARED in parts:
-        assert whole is Verdict.DECLARED
-    else:
-        assert whole is PASS

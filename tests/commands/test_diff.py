@@ -4,34 +4,17 @@ from dataclasses import replace
 import pytest
 
 from netdesign import cli
-from netdesign.site.model import Project
 from netdesign.study.document import write_document
-from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
 from tests.make import write_tiny
+from tests.report.build_study import build_study
 
-STUDY = Study(
-    schema=SCHEMA,
-    project=Project(name="Combe", revision="A"),
-    profile=ProfileRecord(id="p", title="", edition="1", sha256="", values=[]),
-    rows=[],
-    range_inputs=[],
-    notes=[],
-    provenance=Provenance(
-        version="1",
-        started="",
-        site_file="site.xlsx",
-        site_sha256="",
-        settings={},
-        libraries={},
-    ),
-)
-
+STUDY = build_study(rows=1)
 NOT_VERIFIED = "not verified: values as stored, not solved again"
 
 
 @pytest.fixture
 def files(tmp_path):
-    revised = replace(STUDY, project=replace(STUDY.project, revision="B"))
+    revised = replace(STUDY, project=replace(STUDY.project, revision="C"))
     for name, study in (("old", STUDY), ("new", revised)):
         path = tmp_path / f"{name}.json"
         path.write_text(write_document(study), encoding="utf-8")
@@ -41,7 +24,7 @@ def files(tmp_path):
 def test_changes_are_shown_by_area(call, files):
     ended = call("diff", files / "old.json", files / "new.json")
     assert ended.code == 0
-    assert ended.out.splitlines() == [NOT_VERIFIED, "project", "  revision: A -> B"]
+    assert ended.out.splitlines() == [NOT_VERIFIED, "project", "  revision: B -> C"]
 
 
 @pytest.mark.parametrize("content", ["{}", None])

@@ -10,64 +10,57 @@ from netdesign.site.template import example as template
 LONG = "9" * 400
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ("check", LONG),
-        ("check", f"{LONG}.csv"),
-        ("check", f"{LONG}/site.xlsx"),
-        ("check", "site.csv", "--annotate", f"{LONG}.xlsx"),
-        ("check", "--example", "--out", LONG),
-        ("check", "--example", "--standard", LONG),
-        ("bench", "--plot", LONG),
-        ("paper", "--out", LONG),
-        ("report", LONG),
-        ("diff", LONG, LONG),
-        ("solve", LONG),
-        ("standards", "show", LONG),
-        ("standards", "validate", LONG),
-        ("standards", "copy", "eurocode", LONG),
-        ("init", LONG),
-        ("init", f"{LONG}/site.xlsx"),
-    ],
-)
-def test_a_name_too_long_for_a_file_is_no_bug(call, tmp_path, command):
-    (tmp_path / "site.csv").write_text("id;slope\n1;2\n")
-    ended = call(*command)
+# Commands that are given a place, or something in it.
+COMMANDS = [
+    ("check", "{}/site.xlsx"),
+    ("check", "{}/site.csv"),
+    ("check", "{}"),
+    ("check", "site.csv", "--annotate", "{}/copy.xlsx"),
+    ("check", "--example", "--out", "{}"),
+    ("check", "--example", "--out", "{}/out"),
+    ("check", "--example", "--standard", "{}"),
+    ("check", "--example", "--standard", "{}/profile"),
+    ("report", "{}/study.json"),
+    ("verify", "--study", "{}/study.json"),
+    ("solve", "{}/scene.toml"),
+    ("standards", "copy", "eurocode", "{}/profile"),
+    ("standards", "validate", "{}"),
+    ("init", "{}/site.xlsx"),
+]
+OF_FILES = [
+    ("check", "{}.csv"),
+    ("check", "site.csv", "--annotate", "{}.xlsx"),
+    ("bench", "--plot", "{}"),
+    ("paper", "--out", "{}"),
+    ("report", "{}"),
+    ("diff", "{}", "{}"),
+    ("solve", "{}"),
+    ("standards", "show", "{}"),
+    ("standards", "copy", "eurocode", "{}"),
+    ("init", "{}"),
+]
+
+
+def refuse(call, folder, command, place):
+    (folder / "site.csv").write_text("id;slope\n1;2\n")
+    ended = call(*(word.format(place) for word in command))
     assert ended.code in (2, 3)
     assert "internal" not in ended.err
-    assert LONG in ended.err.replace("\n", "")
+    assert place in ended.err.replace("\n", "")
+
+
+@pytest.mark.parametrize("command", [*COMMANDS, *OF_FILES])
+def test_a_name_too_long_for_a_file_is_no_bug(call, tmp_path, command):
+    refuse(call, tmp_path, command, LONG)
     assert [path.name for path in tmp_path.iterdir()] == ["site.csv"]
-
-
-UNSEARCHABLE = [
-    ("check", "locked/site.xlsx"),
-    ("check", "locked/site.csv"),
-    ("check", "locked"),
-    ("check", "site.csv", "--annotate", "locked/copy.xlsx"),
-    ("check", "--example", "--out", "locked"),
-    ("check", "--example", "--out", "locked/out"),
-    ("check", "--example", "--standard", "locked"),
-    ("check", "--example", "--standard", "locked/profile"),
-    ("report", "locked/study.json"),
-    ("verify", "--study", "locked/study.json"),
-    ("solve", "locked/scene.toml"),
-    ("standards", "copy", "eurocode", "locked/profile"),
-    ("standards", "validate", "locked"),
-    ("init", "locked/site.xlsx"),
-]
 
 
 @pytest.mark.skipif(
     not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may look anywhere"
 )
-@pytest.mark.parametrize("command", UNSEARCHABLE)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_a_folder_that_may_not_be_searched_is_no_bug(call, locked, tmp_path, command):
-    (tmp_path / "site.csv").write_text("id;slope\n1;2\n")
-    ended = call(*command)
-    assert ended.code in (2, 3)
-    assert "internal" not in ended.err
-    assert "locked" in ended.err
+    refuse(call, tmp_path, command, "locked")
 
 
 @pytest.fixture
