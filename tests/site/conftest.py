@@ -1,16 +1,11 @@
 """A small sound site, written with openpyxl, to be spoilt test by test."""
 
-from __future__ import annotations
-
 import copy
-from collections.abc import Callable
-from pathlib import Path
 
 import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.cells.findings import Finding
 from netdesign.site.reader import read_site
 
 SOUND = {
@@ -50,51 +45,54 @@ SOUND = {
     ],
 }
 
-Sheets = dict[str, list[list[object]]]
-Save = Callable[..., Path]
-Refused = Callable[[Path], list[Finding]]
 
+class Book(dict):
+    """Sheets of a sound site; what a test is about, it spoils itself."""
 
-@pytest.fixture
-def sheets() -> Sheets:
-    return copy.deepcopy(SOUND)
+    def __init__(self, path):
+        super().__init__(copy.deepcopy(SOUND))
+        self.path = path
 
+    def put(self, heading, value, line=1, sheet="Rows"):
+        """Value in the column whose heading starts so."""
+        self[sheet][line][self.find(heading, sheet)] = value
 
-@pytest.fixture
-def save(tmp_path: Path) -> Save:
-    """Write sheets as a workbook; ``edit`` may do more to it before."""
+    def find(self, heading, sheet="Rows"):
+        return next(k for k, x in enumerate(self[sheet][0]) if x.startswith(heading))
 
-    def save_sheets(
-        sheets: Sheets, edit: Callable[[openpyxl.Workbook], object] | None = None
-    ) -> Path:
+    def save(self, edit=None):
+        """Write a workbook; ``edit`` may do more to it before."""
         workbook = openpyxl.Workbook()
         workbook.remove(workbook.active)
-        for name, rows in sheets.items():
+        for name, rows in self.items():
             sheet = workbook.create_sheet(name)
             for row in rows:
                 sheet.append(row)
         if edit:
             edit(workbook)
-        path = tmp_path / "site.xlsx"
-        workbook.save(path)
+        workbook.save(self.path)
         workbook.close()
-        return path
+        return self.path
 
-    return save_sheets
+    def read(self, edit=None):
+        return read_site(self.save(edit))
+
+    def refuse(self, edit=None):
+        return list_findings(self.save(edit))
+
+
+def list_findings(path):
+    """Findings of a refused workbook; each must point at the text that it quotes."""
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    workbook = openpyxl.load_workbook(path)
+    for finding in caught.value.findings:
+        if finding.cell:
+            held = workbook[finding.sheet][finding.cell].value
+            assert finding.text == ("" if held is None else str(held))
+    return list(caught.value.findings)
 
 
 @pytest.fixture
-def refused() -> Refused:
-    """Findings of a refused workbook; each must point at the text that it quotes."""
-
-    def read_refused(path: Path) -> list[Finding]:
-        with pytest.raises(SiteDataError) as caught:
-            read_site(path)
-        workbook = openpyxl.load_workbook(path)
-        for finding in caught.value.findings:
-            if finding.cell:
-                held = workbook[finding.sheet][finding.cell].value
-                assert finding.text == ("" if held is None else str(held))
-        return list(caught.value.findings)
-
-    return read_refused
+def book(tmp_path):
+    return Book(tmp_path / "site.xlsx")

@@ -5,9 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Declaration, Proof
-from netdesign.outcome import SiteDataError
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.site.reader import read_site
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name_check
@@ -18,20 +16,13 @@ HEADINGS = ["rows", "what it proves", "document", "author", "date"]
 SOUND_LINE = ["R1", "Post base, bearing", "Report G-17", "B. Rüegg", "2026-03-09"]
 
 
-def with_lines(sheets, *lines):
-    sheets["Declared"] = [HEADINGS, *map(list, lines)]
-    return sheets
+def with_lines(book, *lines):
+    book["Declared"] = [HEADINGS, *map(list, lines)]
+    return book
 
 
-def the_finding(path):
-    with pytest.raises(SiteDataError) as caught:
-        read_site(path)
-    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
-    return finding
-
-
-def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
-    site = read_site(save(with_lines(sheets, SOUND_LINE)))
+def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(book):
+    site = with_lines(book, SOUND_LINE).read()
     (found,) = site.declared
     assert (found.row_id, found.member, found.mode) == ("R1", "post_base", "bearing")
     document, author, date = SOUND_LINE[2:]
@@ -44,53 +35,33 @@ def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
 
 
 @pytest.mark.parametrize("word", ["all", "Alle", "toutes"])
-def test_a_line_may_be_of_all_rows(sheets, save, word):
+def test_a_line_may_be_of_all_rows(book, word):
     line = [word, *SOUND_LINE[1:4], None]
-    site = read_site(save(with_lines(sheets, line)))
+    site = with_lines(book, line).read()
     for row in site.rows:
         found = site.find_declaration(row, "post_base", "bearing")
         assert (found.proof.document, found.proof.date) == ("Report G-17", "")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_check_is_known_by_the_name_that_reports_give_it(sheets, save, language):
-    lines = [
-        ["R2", render(name_check(*subject), language), "Report", "A. B.", None]
-        for subject in DECLARABLE
-    ]
-    found = read_site(save(with_lines(sheets, *lines))).declared
-    assert [(one.member, one.mode) for one in found] == list(DECLARABLE)
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_check_of_the_end_is_known_by_its_name_and_is_of_the_end(
-    sheets, save, language
-):
-    """Whatever stands on a support; the same check inside the row is another one."""
-    of_supports = [
-        one
-        for one in DECLARABLE
-        if one[0] not in ("net", "structure") and one[1] != "lateral"
-    ]
-    lines = [
-        [
-            "R2",
-            render(name_check(*subject, position), language),
-            "Report",
-            "A. B.",
-            None,
-        ]
-        for subject in of_supports
+def test_every_check_is_known_by_the_name_that_reports_give_it(book, language):
+    """Whatever stands on a support has one at the end, which is another check."""
+    named = [
+        (member, mode, position)
+        for member, mode in DECLARABLE
         for position in ("", "edge")
+        if not position or not (member in ("net", "structure") or mode == "lateral")
     ]
-    site = read_site(save(with_lines(sheets, *lines)))
-    row = site.rows[1]
-    assert len(site.declared) == 2 * len(of_supports)
-    for member, mode in of_supports:
-        for position, expected in (("intermediate", ""), ("edge", "edge")):
-            found = site.find_declaration(row, member, mode, position)
-            assert (found.member, found.mode) == (member, mode)
-            assert found.position == expected
+    lines = [
+        ["R2", render(name_check(*one), language), "Report", "A. B.", None]
+        for one in named
+    ]
+    site = with_lines(book, *lines).read()
+    assert [(one.member, one.mode, one.position) for one in site.declared] == named
+    for one in named:
+        place = one[2] or "intermediate"
+        found = site.find_declaration(site.rows[1], *one[:2], place)
+        assert (found.member, found.mode, found.position) == one
 
 
 @each("member, mode", [*MEMBER_MODES, *DEPENDENT_MODES])
@@ -140,17 +111,17 @@ def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, oth
         ("E", "last winter", "is no date"),
     ],
 )
-def test_a_fault_is_one_finding_with_its_cell(sheets, save, column, value, rule):
+def test_a_fault_is_one_finding_with_its_cell(book, column, value, rule):
     line = list(SOUND_LINE)
     line["ABCDE".index(column)] = value
-    finding = the_finding(save(with_lines(sheets, line)))
+    (finding,) = with_lines(book, line).refuse()
     assert (finding.sheet, finding.cell) == ("Declared", f"{column}2")
     assert str(finding.rule) == rule
 
 
 @pytest.mark.parametrize("second", ["R1", "all"])
-def test_a_check_declared_twice_is_a_finding_that_names_the_first(sheets, save, second):
+def test_a_check_declared_twice_is_a_finding_that_names_the_first(book, second):
     again = [second, *SOUND_LINE[1:]]
-    finding = the_finding(save(with_lines(sheets, SOUND_LINE, again)))
+    (finding,) = with_lines(book, SOUND_LINE, again).refuse()
     assert finding.cell == "B3"
     assert str(finding.rule) == "is declared twice: also in Declared!B2"

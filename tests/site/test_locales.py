@@ -48,12 +48,6 @@ def is_taken_or_refused(typed_number):
     return isinstance(understood, Refusal) or understood == float(truth)
 
 
-@settings(max_examples=1000)
-@given(typed_numbers())
-def test_a_number_is_the_one_typed_or_refused(typed_number):
-    assert is_taken_or_refused(typed_number)
-
-
 @pytest.mark.long
 @settings(max_examples=10_000)
 @given(typed_numbers())
@@ -69,7 +63,7 @@ def test_with_the_decimal_mark_declared_every_number_is_taken(typed_number):
     assert parse_number(typed, mark) == float(truth)
 
 
-@settings(max_examples=500)
+@settings(max_examples=1000)
 @given(typed_numbers())
 def test_without_it_only_what_has_two_readings_is_refused(typed_number):
     typed, _, _ = typed_number

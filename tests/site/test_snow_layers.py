@@ -8,10 +8,8 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Case
-from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
-from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun, build_scene
 from tests.grid import solve_site, wrap_results
@@ -27,14 +25,14 @@ MEAN = (1.0 * 450 + 1.5 * 300 + 0.5 * 200) / 3.0
 
 
 @pytest.fixture
-def layered(sheets):
-    sheets["Snow"] = [list(row) for row in SNOW]
-    return sheets
+def layered(book):
+    book["Snow"] = [list(row) for row in SNOW]
+    return book
 
 
-def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
+def test_layers_are_read_from_the_ground_up_in_any_order(layered):
     layered["Snow"][1:] = [layered["Snow"][k] for k in (3, 1, 2)]
-    first, second = read_site(save(layered)).rows
+    first, second = layered.read().rows
     assert [layer.density for layer in first.layers] == [450.0, 300.0, 200.0]
     assert [layer.thickness for layer in first.layers] == [1.0, 1.5, 0.5]
     assert first.snow_thickness == 3.0
@@ -42,12 +40,12 @@ def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
     assert second.layers == ()
 
 
-def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, save):
+def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered):
     layered["Snow"][0][2] = "thickness [m vertical]"
     for line, celsius in zip(layered["Snow"][1:], (-1, -5, -8), strict=True):
         line[4] = celsius
     layered["Rows"][0][2] = "snow height [m vertical]"
-    row = read_site(save(layered)).rows[0]
+    row = layered.read().rows[0]
     assert row.layers[1].thickness == pytest.approx(1.5 * math.cos(math.radians(40)))
     assert row.snow_thickness == pytest.approx(3.0 * math.cos(math.radians(40)))
     assert [one.temperature for one in row.layers] == pytest.approx(
@@ -72,15 +70,15 @@ def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, sa
         ((1, 4), 3, "Snow!E2", "is out of range"),
     ],
 )
-def test_faults_of_layers_are_refused(layered, save, refused, cell, value, place, rule):
+def test_faults_of_layers_are_refused(layered, cell, value, place, rule):
     layered["Snow"][cell[0]][cell[1]] = value
-    found = [(f"{f.sheet}!{f.cell}", str(f.rule)) for f in refused(save(layered))]
+    found = [(f"{f.sheet}!{f.cell}", str(f.rule)) for f in layered.refuse()]
     assert any(where == place and what.startswith(rule) for where, what in found), found
 
 
-def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):
+def test_a_change_of_height_or_density_keeps_the_proportions(layered):
     """What would flip a check is searched with changed rows: rowcheck.flips."""
-    row = replace(read_site(save(layered)).rows[0], snow_thickness=2.4)
+    row = replace(layered.read().rows[0], snow_thickness=2.4)
     case = Case(density=300.0, friction_angle=0.5, inclination=0.5)
     pack = build_scene(row, case, BOUTILLIER_2004).snowpack
     assert (pack.thickness, pack.density) == (2.4, 300.0)
@@ -91,9 +89,7 @@ def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):
 
 
 @pytest.mark.parametrize("is_layered", [True, False])
-def test_densities_outside_the_creep_law_are_told_layer_by_layer(
-    layered, save, is_layered
-):
+def test_densities_outside_the_creep_law_are_told_layer_by_layer(layered, is_layered):
     low, high = (bound * ICE_DENSITY for bound in BOUTILLIER_2004.calibrated)
     assert low < 400 < 480 < high  # the range itself is inside
     layered["Project"][1][1] = "400 to 480"
@@ -102,7 +98,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     mean = (1.0 * 500 + 1.5 * 420 + 0.5 * 300) / 3.0
     if not is_layered:
         del layered["Snow"]
-    site = read_site(save(layered))
+    site = layered.read()
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     standard = load_standard("nf-p-95-304-style")
     study = judge_site(
@@ -118,18 +114,17 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     assert note.startswith(told)
 
 
-def narrow(sheets, save):
+def narrow(book):
     """One row of one friction angle and one inclination."""
-    sheets["Project"][1][1], sheets["Project"][2][1] = "300 to 360", 30
-    sheets["Project"][3:] = [["net inclination", 30, "deg"]]
-    sheets["Rows"][2:] = []
-    return save(sheets)
+    book["Project"][1][1], book["Project"][2][1] = "300 to 360", 30
+    book["Project"][3:] = [["net inclination", 30, "deg"]]
+    book["Rows"][2:] = []
+    return book
 
 
-def test_layers_reach_the_solver_and_change_its_forces(layered, save):
-    path = narrow(layered, save)
+def test_layers_reach_the_solver_and_change_its_forces(layered):
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-    site = read_site(path)
+    site = narrow(layered).read()
     workers = Recording()
     results = solve_site(site, run, Runner(workers=workers))
     packs = [job.scene.snowpack for job in workers.jobs]
@@ -145,25 +140,9 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     (note,) = [str(note) for note in study.notes if "layers" in str(note)]
     assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m³")
     del layered["Snow"]
-    uniform = solve_site(read_site(narrow(layered, save)), run)
+    uniform = solve_site(narrow(layered).read(), run)
     heads = [
         found[0].results[0].member_forces["uphill_guy"].value
         for found in (results, uniform)
     ]
     assert abs(heads[0] / heads[1] - 1) > 0.01
-
-
-def test_layers_follow_the_density_of_a_search_too(layered, save):
-    path = narrow(layered, save)
-    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-    site = read_site(path)
-    workers = Recording()
-    (found,) = search_site(site, run, Runner(workers=workers))
-    assert found.gap is None
-    densities = {job.scene.snowpack.density for job in workers.jobs}
-    assert {300.0, 330.0, 360.0} <= densities
-    for job in workers.jobs:
-        pack = job.scene.snowpack
-        assert [layer.density for layer in pack.layers] == pytest.approx(
-            [density * pack.density / MEAN for density in (450, 300, 200)]
-        )

@@ -1,10 +1,6 @@
 """Sheet Uncertainty: lines of quantities, for a net row or all; every fault."""
 
-import pytest
-
 from netdesign.addons.reliability.uncertainty_sheet import find_uncertain
-from netdesign.outcome import SiteDataError
-from netdesign.site.reader import read_site
 from tests.each import each
 
 HEADINGS = [
@@ -15,14 +11,14 @@ HEIGHT = [None, "snow height", None, 0.27, None, 80, "station 1964-2019"]
 MODEL = ["R1", "model factor", "lognormal", 0.17, 1.08, None, "fit of 2026"]
 
 
-def with_lines(sheets, *lines):
-    sheets["Uncertainty"] = [HEADINGS, *map(list, lines)]
-    return sheets
+def with_lines(book, *lines):
+    book["Uncertainty"] = [HEADINGS, *map(list, lines)]
+    return book
 
 
-def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
+def test_a_line_holds_for_its_row_before_that_of_all(book):
     of_all = [None, "model factor", None, 0.23, None, None, "judgement"]
-    site = read_site(save(with_lines(sheets, HEIGHT, of_all, MODEL)))
+    site = with_lines(book, HEIGHT, of_all, MODEL).read()
     first, second = (one.id for one in site.rows)
     height = find_uncertain(site, second, "snow_height")
     assert (height.variation, height.period) == (0.27, 80.0)
@@ -45,8 +41,7 @@ def test_a_line_holds_for_its_row_before_that_of_all(sheets, save):
         ([[None, "weather", *MODEL[2:]]], "B2"),
     ],
 )
-def test_faults_are_refused_at_their_cells(sheets, save, lines, cell):
-    with pytest.raises(SiteDataError) as caught:
-        read_site(save(with_lines(sheets, *lines)))
-    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
+def test_faults_are_refused_at_their_cells(book, lines, cell):
+    findings = with_lines(book, *lines).refuse()
+    (finding,) = [one for one in findings if one.severity == "error"]
     assert (finding.sheet, finding.cell) == ("Uncertainty", cell)

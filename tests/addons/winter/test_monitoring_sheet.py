@@ -4,27 +4,21 @@ from datetime import datetime
 
 import pytest
 
-from netdesign.site.reader import read_site
-
 HEADINGS = ["net row", "member", "time [d]", "tension [kN]", "air temperature [°C]"]
 
 
-def with_lines(sheets, *lines, headings=HEADINGS):
-    sheets["Monitoring"] = [headings, *map(list, lines)]
-    return sheets
+def with_lines(book, *lines, headings=HEADINGS):
+    book["Monitoring"] = [headings, *map(list, lines)]
+    return book
 
 
-def test_series_are_read_by_row_and_member(sheets, save):
-    site = read_site(
-        save(
-            with_lines(
-                sheets,
-                ["R1", "uphill anchor", 2.0, 31.5, -4.0],
-                ["R1", "foot_anchor", 2.0, 80.0, None],
-                ["R1", "ancrage amont", 2.25, None, -12.5],
-            )
-        )
-    )
+def test_series_are_read_by_row_and_member(book):
+    lines = [
+        ["R1", "uphill anchor", 2.0, 31.5, -4.0],
+        ["R1", "foot_anchor", 2.0, 80.0, None],
+        ["R1", "ancrage amont", 2.25, None, -12.5],
+    ]
+    site = with_lines(book, *lines).read()
     uphill, foot = site.of_addons["Monitoring"]
     assert (uphill.row_id, uphill.member) == ("R1", "uphill_guy")
     assert uphill.times == (0.0, 0.25 * 86400.0)
@@ -44,10 +38,10 @@ def test_series_are_read_by_row_and_member(sheets, save):
         (datetime(2003, 2, 18, 6), datetime(2003, 2, 18, 18)),
     ],
 )
-def test_dates_become_times_since_the_first(sheets, save, moments):
+def test_dates_become_times_since_the_first(book, moments):
     headings = ["net row", "member", "date and time", "tension [kN]"]
     lines = [["R1", "post", moment, 10.0] for moment in moments]
-    site = read_site(save(with_lines(sheets, *lines, headings=headings)))
+    site = with_lines(book, *lines, headings=headings).read()
     assert site.of_addons["Monitoring"][0].times == (0.0, 43200.0)
     assert site.of_addons["Monitoring"][0].start == datetime(2003, 2, 18, 6)
 
@@ -63,7 +57,7 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
         (["R1", "post", 1.0, 10.0, 260.0], "E2", "out of range"),
     ],
 )
-def test_each_fault_names_its_cell(sheets, save, refused, line, cell, rule):
-    (finding,) = refused(save(with_lines(sheets, line)))
+def test_each_fault_names_its_cell(book, line, cell, rule):
+    (finding,) = with_lines(book, line).refuse()
     assert (finding.sheet, finding.cell) == ("Monitoring", cell)
     assert rule in str(finding.rule)

@@ -4,15 +4,12 @@ from datetime import date, datetime
 
 import pytest
 
-from netdesign.outcome import SiteDataError
-from netdesign.site.reader import read_site
-
 HEADINGS = ["date", "snow height of the station [cm]", "air temperature [°C]"]
 
 
-def with_lines(sheets, *lines, headings=HEADINGS):
-    sheets["Winter"] = [headings, *map(list, lines)]
-    return sheets
+def with_lines(book, *lines, headings=HEADINGS):
+    book["Winter"] = [headings, *map(list, lines)]
+    return book
 
 
 def days(*heights, first=1):
@@ -21,9 +18,9 @@ def days(*heights, first=1):
     ]
 
 
-def test_series_is_read_in_metres_and_kelvin(sheets, save):
+def test_series_is_read_in_metres_and_kelvin(book):
     lines = [["2003-02-01", 0, None], [datetime(2003, 2, 2), 37.5, -4.5]]
-    winter = read_site(save(with_lines(sheets, *lines))).of_addons["Winter"]
+    winter = with_lines(book, *lines).read().of_addons["Winter"]
     assert winter.series.first_day == date(2003, 2, 1)
     assert winter.series.heights == (0.0, 0.375)
     assert winter.series.air_temperatures == (None, pytest.approx(268.65))
@@ -32,7 +29,7 @@ def test_series_is_read_in_metres_and_kelvin(sheets, save):
     assert [one.key for one in winter.notes] == ["winter_sheet.cut"]  # it ends in snow
 
 
-def test_head_of_the_station_stands_on_the_first_line(sheets, save):
+def test_head_of_the_station_stands_on_the_first_line(book):
     headings = [
         "Datum",
         "Schneehöhe [m]",
@@ -42,15 +39,15 @@ def test_head_of_the_station_stands_on_the_first_line(sheets, save):
     ]
     headings[3] = "Höhe über Meer [m]"
     lines = [["2003-02-01", 0.0, "Weissfluhjoch", 2540, 0.85], ["2003-02-02", 0.2]]
-    sheets = with_lines(sheets, *lines, headings=headings)
-    winter = read_site(save(sheets)).of_addons["Winter"]
+    book = with_lines(book, *lines, headings=headings)
+    winter = book.read().of_addons["Winter"]
     assert (winter.station, winter.altitude) == ("Weissfluhjoch", 2540.0)
     assert winter.height_factor == 0.85
 
 
-def test_short_gap_in_snow_is_filled_and_told(sheets, save):
+def test_short_gap_in_snow_is_filled_and_told(book):
     lines = [*days(0, 80), ["2003-02-05", 110, None]]
-    site = read_site(save(with_lines(sheets, *lines)))
+    site = with_lines(book, *lines).read()
     assert site.of_addons["Winter"].series.heights == pytest.approx(
         (0, 0.8, 0.9, 1.0, 1.1)
     )
@@ -76,19 +73,17 @@ def test_short_gap_in_snow_is_filled_and_told(sheets, save):
         ([["2003-02-01", None, -2.0]], "A2", "without a snow height"),
     ],
 )
-def test_faults_have_their_cell(sheets, save, refused, lines, cell, told):
+def test_faults_have_their_cell(book, lines, cell, told):
     findings = [
-        one
-        for one in refused(save(with_lines(sheets, *lines)))
-        if one.severity == "error"
+        one for one in with_lines(book, *lines).refuse() if one.severity == "error"
     ]
     (finding,) = findings
     assert (finding.sheet, finding.cell) == ("Winter", cell)
     assert told in str(finding.message)
 
 
-def test_spikes_and_a_start_in_snow_are_told(sheets, save):
-    site = read_site(save(with_lines(sheets, *days(30, 92, 40))))
+def test_spikes_and_a_start_in_snow_are_told(book):
+    site = with_lines(book, *days(30, 92, 40)).read()
     told = " ".join(map(str, site.notes))
     assert "2003-02-02: the snow rises or falls by more than 0.6 m" in told
     assert "300 kg/m³ (assumed)" in told
@@ -103,17 +98,13 @@ def rows_of(*factors):
     return [[*day, *one] for day, one in zip(days(0, 20, 40), factors, strict=True)]
 
 
-def test_a_row_has_its_own_height_factor(sheets, save):
+def test_a_row_has_its_own_height_factor(book):
     lines = rows_of((0.93, None), (1.21, "R1"), (None, None))
-    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).of_addons[
-        "Winter"
-    ]
+    winter = with_lines(book, *lines, headings=WITH_ROWS).read().of_addons["Winter"]
     assert winter.find_factor("R1") == 1.21
     assert winter.find_factor("another") == 0.93
     lines = rows_of((1.21, "R1"), (None, None), (None, None))
-    winter = read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS))).of_addons[
-        "Winter"
-    ]
+    winter = with_lines(book, *lines, headings=WITH_ROWS).read().of_addons["Winter"]
     assert winter.find_factor("R1") == 1.21
     assert winter.find_factor("another") is None
 
@@ -129,11 +120,10 @@ def test_a_row_has_its_own_height_factor(sheets, save):
     ],
 )
 def test_a_height_factor_that_cannot_be_placed_is_one_finding(
-    sheets, save, factors, cell, told
+    book, factors, cell, told
 ):
     lines = rows_of(*factors)
-    with pytest.raises(SiteDataError) as refusal:
-        read_site(save(with_lines(sheets, *lines, headings=WITH_ROWS)))
-    (finding,) = [one for one in refusal.value.findings if one.severity == "error"]
+    findings = with_lines(book, *lines, headings=WITH_ROWS).refuse()
+    (finding,) = [one for one in findings if one.severity == "error"]
     assert (finding.sheet, finding.cell) == ("Winter", cell)
     assert told in str(finding)

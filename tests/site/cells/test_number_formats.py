@@ -103,31 +103,29 @@ def set_format(name, column, number_format, value=None):
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
-def test_a_unit_shown_is_the_heading_s_or_a_finding(
-    save, sheets, refused, name, column, field, seed
-):
+def test_a_unit_shown_is_the_heading_s_or_a_finding(book, name, column, field, seed):
     unit = random.Random(f"{seed} {name} {column}").choice(UNITS)
-    path = save(sheets, set_format(name, column, f'0.0" {unit}"'))
+    edit = set_format(name, column, f'0.0" {unit}"')
     if normalise_unit(unit) == field.unit:
-        assert len(read_site(path).rows) == 2
+        assert len(book.read(edit).rows) == 2
         return
-    (finding,) = refused(path)
+    (finding,) = book.refuse(edit)
     assert (finding.sheet, finding.cell) == (name, f"{chr(65 + column)}2")
     assert f"{unit}, the file holds" in str(finding.rule)
 
 
 @pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
-def test_the_heading_s_own_unit_may_be_shown(save, sheets, name, column, field):
-    path = save(sheets, set_format(name, column, f'0.0" {field.unit}"'))
-    assert read_site(path).rows == read_site(save(sheets)).rows
+def test_the_heading_s_own_unit_may_be_shown(book, name, column, field):
+    edit = set_format(name, column, f'0.0" {field.unit}"')
+    assert book.read(edit).rows == book.read().rows
 
 
 @pytest.mark.parametrize("number_format", ["0%", '0.0"%"', "0.0,"])
 @pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
 def test_hundredths_and_thousands_are_findings(
-    save, sheets, refused, name, column, field, number_format
+    book, name, column, field, number_format
 ):
-    (finding,) = refused(save(sheets, set_format(name, column, number_format)))
+    (finding,) = book.refuse(set_format(name, column, number_format))
     assert str(finding.rule).startswith("is ambiguous: its format shows ")
     assert field.unit in str(finding.rule)
 
@@ -137,21 +135,21 @@ SHARES = [0.03, 0.007, 0.285, 0.1234]
 
 
 @pytest.mark.parametrize("slack", SHARES)
-def test_a_share_may_be_shown_in_percent(save, sheets, slack):
+def test_a_share_may_be_shown_in_percent(book, slack):
     """The file holds 0.03 where 3 % is shown, whatever the heading's unit."""
-    sheets["Net types"][0].append(SLACK)
-    sheets["Net types"][1].append(slack)
-    path = save(sheets, set_format("Net types", 5, "0.00%"))
-    assert read_site(path).rows[0].slack == pytest.approx(slack, rel=2e-15)
+    book["Net types"][0].append(SLACK)
+    book["Net types"][1].append(slack)
+    row = book.read(set_format("Net types", 5, "0.00%")).rows[0]
+    assert row.slack == pytest.approx(slack, rel=2e-15)
 
 
 @pytest.mark.parametrize("slack", SHARES)
 @pytest.mark.parametrize("sign", ["%", " %"])
 def test_a_share_may_be_typed_in_percent(tmp_path, sign, slack):
-    sheets = {name: [*rows] for name, rows in SOUND.items()}
-    sheets["Net types"][0] = [*sheets["Net types"][0], SLACK]
-    sheets["Net types"][1] = [*sheets["Net types"][1], f"{100 * slack:.6g}{sign}"]
-    row = read_site(write_csv_folder(tmp_path / "site", sheets)).rows[0]
+    book = {name: [*rows] for name, rows in SOUND.items()}
+    book["Net types"][0] = [*book["Net types"][0], SLACK]
+    book["Net types"][1] = [*book["Net types"][1], f"{100 * slack:.6g}{sign}"]
+    row = read_site(write_csv_folder(tmp_path / "site", book)).rows[0]
     assert row.slack == pytest.approx(slack, rel=2e-15)
     echo = next(one for one in row.inputs if f"{one.label} [" in SLACK)
     assert echo.text.count("%") == 1
@@ -160,21 +158,20 @@ def test_a_share_may_be_typed_in_percent(tmp_path, sign, slack):
 @pytest.mark.parametrize("text", ["65%", "65 %", "65,3%", "0.65 %"])
 @pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
 def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field, text):
-    sheets = {key: [*rows] for key, rows in SOUND.items()}
-    sheets[name][1] = [*sheets[name][1]]
-    sheets[name][1][column] = text
+    book = {key: [*rows] for key, rows in SOUND.items()}
+    book[name][1] = [*book[name][1]]
+    book[name][1][column] = text
     with pytest.raises(SiteDataError) as caught:
-        read_site(write_csv_folder(tmp_path / "site", sheets))
+        read_site(write_csv_folder(tmp_path / "site", book))
     (finding,) = (one for one in caught.value.findings if one.severity == "error")
     assert finding.text == text
     assert str(finding.rule) == f"is in %, the unit of the column is {field.unit}"
 
 
-def test_a_percent_slope_below_percent_is_read_whatever_shows_it(save, sheets):
-    sheets["Rows"][0][1] = "slope ψ [%]"
-    sheets["Rows"][2][1] = 65.7
+def test_a_percent_slope_below_percent_is_read_whatever_shows_it(book):
+    book["Rows"][0][1] = "slope ψ [%]"
+    book["Rows"][2][1] = 65.7
     for value, number_format in ((65.7, '0.0"%"'), (0.657, "0.0%"), (65.7, "General")):
-        path = save(sheets, set_format("Rows", 1, number_format, value))
-        rows = read_site(path).rows
+        rows = book.read(set_format("Rows", 1, number_format, value)).rows
         assert rows[0].slope_angle == rows[1].slope_angle
     assert convert_unit(65.7, "%", "deg") == pytest.approx(33.305, abs=1e-3)

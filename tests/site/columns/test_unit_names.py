@@ -59,7 +59,8 @@ def test_conversions_by_hand(value, unit, first, result):
 @each(
     "value, unit, si",
     [
-        (-5.0, "degC", 268.15),
+        *((-5.0, "degC", 268.15), (180.0, "deg", math.pi), (2.0, "m", 2.0)),
+        *((2.0, "kN", 2000.0), (2.0, "kN/m", 2000.0)),
         (28.0, "mm", 0.028),
         (34.0, "cm2", 0.0034),
         (318.0, "cm4", 3.18e-6),

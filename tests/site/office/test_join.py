@@ -155,15 +155,6 @@ def list_types(row):
     return [(one.member, one.mode, one.type_id) for one in row.resistances]
 
 
-def test_the_nearest_ids_are_offered(tmp_path):
-    tables = draw_tables(1)
-    known = tables["net_types"][0]["id"]
-    tables["rows"][0]["net_type"] = known + "0"
-    with pytest.raises(SiteDataError) as refused:
-        write_and_read(tmp_path / "site.xlsx", tables)
-    assert known in str(refused.value)
-
-
 def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
     sheets = lay_out(draw_tables(2))
     column = [one.field.key for one in load_columns("rows")].index("snow")
@@ -251,36 +242,6 @@ def test_a_pull_out_force_is_known_in_one_way(tmp_path, proven, basis):
         if (one.member, one.mode) == ("foot_anchor", "pull_out")
     )
     assert (known.basis, known.value) == (basis, 1e3 * anchor["pull_out"])
-
-
-def test_single_tests_are_counted_and_no_number_beside_them(tmp_path):
-    tables = draw_tables(9)
-    anchor = tables["anchor_types"][0]
-    for line in tables["rows"]:
-        line["foot_anchor"] = anchor["id"]
-    for key in ("pull_out", "proven", "test_count", "test_mean"):
-        del anchor[key]
-    forces = [141.5, 133.0, 150.5]
-    tables["tests"] = [
-        {"type": anchor["id"].upper(), "ground": "till", "force": one, "result": "held"}
-        for one in forces
-    ]
-    site = write_and_read(tmp_path / "site.xlsx", tables)
-    tests = find_tests(site.rows[0])
-    assert (tests.count, tests.least) == (3, 133e3)
-    del tables["tests"][1]["ground"]  # that of the type, as the sheet says
-    site = write_and_read(tmp_path / "of_type.xlsx", tables)
-    assert (find_tests(site.rows[0]).count, find_tests(site.rows[0]).least) == (
-        3,
-        133e3,
-    )
-    anchor["pull_out"] = 133.0
-    with pytest.raises(SiteDataError) as refused:
-        write_and_read(tmp_path / "twice.xlsx", tables)
-    heading = next(
-        one.field for one in load_columns("tests") if one.field.key == "force"
-    )
-    assert {str(one.field) for one in refused.value.findings} == {str(heading.title)}
 
 
 def test_layers_belong_to_the_rows_that_have_some(tmp_path):

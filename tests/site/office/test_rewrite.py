@@ -155,19 +155,6 @@ def test_types_with_the_same_values_are_one_net_type(tmp_path):
     assert nets["R8"] == nets[first["id"]] != nets["R9"]
 
 
-def test_a_faulty_cell_is_copied_as_it_is(tmp_path):
-    lines = copy.deepcopy(load_example())
-    path = tmp_path / "old.xlsx"
-    write_old(path, lines)
-    book = openpyxl.load_workbook(path)
-    headings = [cell.value for cell in book["Nets"][1]]
-    column = name_column(1 + headings.index("post spacing [m]"))
-    book["Nets"][f"{column}2"] = "about 3"
-    book.save(path)
-    made = rewrite(read_old(path, UNDECLARED), "en")
-    assert made.tables["rows"][0]["post_spacing"] == "about 3"
-
-
 def test_a_list_of_an_office_is_mapped(tmp_path):
     lines = {
         "Nets": [

@@ -17,9 +17,9 @@ def annotate(path, copy):
     return openpyxl.load_workbook(copy)
 
 
-def test_a_mended_copy_is_read_clean_and_its_marks_go(sheets, save, tmp_path):
-    sheets["Rows"][1][1] = "4O"
-    copy = annotate(save(sheets), tmp_path / "copy.xlsx")
+def test_a_mended_copy_is_read_clean_and_its_marks_go(book, tmp_path):
+    book["Rows"][1][1] = "4O"
+    copy = annotate(book.save(), tmp_path / "copy.xlsx")
     assert "is not a number" in copy["Rows"]["B2"].comment.text
     copy["Rows"]["B2"].value = 40
     copy["Rows"]["C3"].value = "x"
@@ -33,22 +33,22 @@ def test_a_mended_copy_is_read_clean_and_its_marks_go(sheets, save, tmp_path):
     assert read_site(tmp_path / "clean.xlsx").notes == ()
 
 
-def test_a_comment_of_the_engineer_stays(sheets, save, tmp_path):
-    sheets["Rows"][1][1] = "4O"
+def test_a_comment_of_the_engineer_stays(book, tmp_path):
+    book["Rows"][1][1] = "4O"
 
     def remark(workbook):
         workbook["Rows"]["B2"].comment = Comment("from the survey", "engineer")
 
-    copy = annotate(save(sheets, remark), tmp_path / "copy.xlsx")
+    copy = annotate(book.save(remark), tmp_path / "copy.xlsx")
     text = copy["Rows"]["B2"].comment.text
     assert text.startswith("from the survey")
     assert "is not a number" in text
 
 
-def test_findings_without_a_cell_are_in_the_list(sheets, save, tmp_path):
-    sheets["Rows"][1][1] = "4O"
-    del sheets["Anchors"]
-    copy = annotate(save(sheets), tmp_path / "copy.xlsx")
+def test_findings_without_a_cell_are_in_the_list(book, tmp_path):
+    book["Rows"][1][1] = "4O"
+    del book["Anchors"]
+    copy = annotate(book.save(), tmp_path / "copy.xlsx")
     listed = [[cell.value for cell in row] for row in copy[FINDINGS_SHEET].iter_rows()]
     assert [line[:3] for line in listed[1:]] == [
         ["error", "Rows", "B2"],
@@ -58,8 +58,8 @@ def test_findings_without_a_cell_are_in_the_list(sheets, save, tmp_path):
     assert "Rows" in (link.location or link.target)
 
 
-def test_text_in_the_list_is_never_a_formula(sheets, save, tmp_path):
-    sheets["Rows"][1][1] = "=HYPERLINK(1)"
-    copy = annotate(save(sheets), tmp_path / "copy.xlsx")
+def test_text_in_the_list_is_never_a_formula(book, tmp_path):
+    book["Rows"][1][1] = "=HYPERLINK(1)"
+    copy = annotate(book.save(), tmp_path / "copy.xlsx")
     cell = copy[FINDINGS_SHEET]["E2"]
     assert (cell.value, cell.data_type) == ("=HYPERLINK(1)", "s")
