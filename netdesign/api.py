@@ -224,8 +224,8 @@ def write_reports(
     files = [STUDY_FILE, *(names.get(kind, f"report.{kind}") for kind in kinds)]
     paths = [Path(folder) / name for name in files]
     require_free(paths, overwrite=overwrite, may_force=False)
-    style = ReportStyle(language=language)
-    contents = render_files([study], [paths], style)
+    plan = dict.fromkeys(paths, study)
+    contents = render_files(plan, ReportStyle(language=language))
     write_files(contents, overwrite=overwrite, is_recorded=True)
     return paths
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +31,6 @@ from netdesign.words.message import Message, say
 if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.edge.progress import RunProgress
-    from netdesign.report.files import ReportStyle
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.study.check_site import OnRow
@@ -64,7 +62,7 @@ def carry_out(
     run : CheckRun
         Settings, command line and time.
     outputs : Outputs
-        Places, language and extent of the reports.
+        Places of the reports.
     read_instead : callable or None
         Gives the site with some cells replaced; None without ``--size``.
     asked : mapping
@@ -86,12 +84,11 @@ def carry_out(
             studies, sized = _check_and_size(
                 site, profiles, run, read_instead, runner, progress
             )
-        begun = begin_outputs(outputs, studies, runner)
         if not asked["as_json"]:  # known before the reports are
             progress.clear()
             _print_summaries(studies, asked, has_rows=is_live)
         progress.enter("reports")
-        files = render_outputs(outputs, studies, sized, begun)
+        files = render_outputs(outputs, studies, sized, asked, runner)
     failed = print_faults(runner.faults)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     if asked["as_json"]:
@@ -173,14 +170,9 @@ def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     print_lines(lines, open_console(), 2)
 
 
-# Made by other processes, which first read the study: so this one makes the workbook,
-# which takes longest.
-_APART = (".html", ".docx")
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outputs:
-    """Places of all files, and the style of the reports.
+    """Places of all files.
 
     Attributes
     ----------
@@ -188,21 +180,18 @@ class Outputs:
         Of each profile.
     sized : list of list of Path
         Of the what-if studies of ``--size``, as far as there will be any.
-    style : ReportStyle
-        Of the reports.
     """
 
     of_studies: list[list[Path]]
     sized: list[list[Path]]
-    style: ReportStyle
 
 
 def plan_outputs(
     folder: Path | None, profiles: Sequence[str], asked: Mapping[str, Any]
 ) -> Outputs:
-    """Places of the outputs of each profile, by their ids.
+    """Places of the outputs of each profile, by their ids: several get a folder each.
 
-    ``asked`` are the options of the command line.
+    ``asked`` are the options of the command line. Without a folder there are none.
 
     Raises
     ------
@@ -210,70 +199,42 @@ def plan_outputs(
         Where something is there.
     """
     from netdesign.edge.output import require_free
-    from netdesign.report.files import name_files
 
     kinds = list_wanted(asked)
-    mark = partial(mark_names, is_what_if=asked["instead"], is_part=asked["rows"])
-    names = name_files(folder, profiles, mark([STUDY_FILE, *kinds]))
-    what_ifs = [
-        [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in group]
-        for group in names
-    ]
-    outputs = Outputs(
-        of_studies=names,
-        sized=what_ifs if asked["size"] else [],
-        style=choose_style(asked),
+    names = mark_names(
+        [STUDY_FILE, *kinds], is_what_if=asked["instead"], is_part=asked["rows"]
     )
+    outputs = Outputs(of_studies=[[] for _ in profiles], sized=[])
+    if folder is not None:
+        several = len(profiles) > 1
+        places = [folder / profile if several else folder for profile in profiles]
+        what_ifs = [f"{WHAT_IF_MARK}{name}" for name in names if asked["size"]]
+        outputs = Outputs(
+            of_studies=[[place / name for name in names] for place in places],
+            sized=[[place / name for name in what_ifs] for place in places],
+        )
     groups = (*outputs.of_studies, *outputs.sized)
     require_free([path for group in groups for path in group], overwrite=asked["force"])
     return outputs
-
-
-def begin_outputs(
-    outputs: Outputs, studies: Sequence[Study], runner: Runner
-) -> dict[Path, Callable[[], bytes]]:
-    """Reports that processes of the run make while this one makes the others.
-
-    What is returned for each waits for it.
-    """
-    from netdesign.report.files import render_kind
-
-    pool = runner.workers.pool
-    if pool is None:
-        return {}
-    return {
-        path: pool.begin(render_kind, path.suffix, study, outputs.style)
-        for study, paths in zip(studies, outputs.of_studies, strict=True)
-        for path in paths
-        if path.suffix in _list_apart(paths)
-    }
-
-
-def _list_apart(paths: Sequence[Path]) -> list[str]:
-    """Suffixes of a study's files that other processes make.
-
-    Not of its only file, nor of a page that is printed, too.
-    """
-    kinds = {path.suffix for path in paths}
-    apart = [one for one in _APART if not (one == ".html" and ".pdf" in kinds)]
-    return apart if len(paths) > 1 else []
 
 
 def render_outputs(
     outputs: Outputs,
     studies: Sequence[Study],
     sized: Sequence[Sized],
-    begun: Mapping[Path, Callable[[], bytes]],
+    asked: Mapping[str, Any],
+    runner: Runner,
 ) -> dict[Path, bytes]:
-    """Contents of all files; ``begun`` are those of `begin_outputs`."""
+    """Contents of all files; processes of the run make some of them."""
     from netdesign.report.files import render_files
 
-    style = outputs.style
-    files = render_files(studies, outputs.of_studies, style, begun)
-    for (_, what_if), paths in zip(sized, outputs.sized, strict=True):
-        if what_if is not None:
-            files |= render_files([what_if], [paths], style)
-    return files
+    what_ifs = [what_if for _, what_if in sized]
+    pairs = [
+        *zip(studies, outputs.of_studies, strict=True),
+        *zip(what_ifs, outputs.sized, strict=False),  # none unasked
+    ]
+    plan = {path: study for study, paths in pairs if study for path in paths}
+    return render_files(plan, choose_style(asked), runner.workers.pool)
 
 
 def _check_and_size(

@@ -87,19 +87,18 @@ def report(study_file: Path, **asked: Any) -> None:
     STUDY, OLD and NEW of such commands are a study.json or the folder with it.
     """
     from netdesign.edge.output import require_free, write_files
-    from netdesign.report.files import name_files, render_files
+    from netdesign.report.files import render_files
     from netdesign.study.document import load_study
 
     study = load_study(study_file)
     wanted = mark_names(
         list_wanted(asked), is_what_if=study.what_if, is_part=study.left_out
     )
-    names = name_files(asked["out"], [study.profile.id], wanted)
-    style = choose_style(asked)
-    require_free(names[0], overwrite=asked["force"])
+    paths = [asked["out"] / name for name in wanted]
+    require_free(paths, overwrite=asked["force"])
     is_verified = _look_at((study,), (study_file,), asked)
-    style = replace(style, is_verified=is_verified)
-    files = render_files([study], names, style)
+    style = replace(choose_style(asked), is_verified=is_verified)
+    files = render_files(dict.fromkeys(paths, study), style)
     write_files(files, overwrite=asked["force"], is_recorded=True)
     report_places(files, asked)
     sys.exit(find_exit_code([study]))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.json_text import list_fields
@@ -16,6 +15,7 @@ from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
+    from netdesign.solving.workers import ProcessPool
     from netdesign.study.records import Study
 
 
@@ -32,38 +32,44 @@ class ReportStyle:
     is_verified: bool = False  # a stored study was solved again in this run
 
 
-def name_files(
-    folder: Path | None, profiles: Sequence[str], names: Sequence[str]
-) -> list[list[Path]]:
-    """Paths of each study's files; several profiles get a folder each.
-
-    Without a folder there are none.
-    """
-    if folder is None:
-        return [[] for _ in profiles]
-    several = len(profiles) > 1
-    return [
-        [(folder / profile if several else folder) / name for name in names]
-        for profile in profiles
-    ]
+# Made by other processes, which first read the study: so this one makes the workbook,
+# which takes longest.
+_APART = (".html", ".docx")
 
 
 def render_files(
-    studies: Sequence[Study],
-    paths: Sequence[Sequence[Path]],
-    style: ReportStyle | None = None,
-    begun: Mapping[Path, Callable[[], bytes]] = MappingProxyType({}),
+    plan: Mapping[Path, Study], style: ReportStyle, pool: ProcessPool | None = None
 ) -> dict[Path, bytes]:
-    """Contents of all files; the suffix says what each of them is.
+    """Contents of all files.
 
-    ``begun`` are files that other processes make, and what waits for them.
+    Parameters
+    ----------
+    plan : mapping of Path to Study
+        What is shown in each file, whose suffix says what it is.
+    style : ReportStyle
+        Language, extent and look.
+    pool : ProcessPool, optional
+        Makes some of the files, while this process makes the others.
     """
+    begun = {
+        path: pool.begin(render_kind, path.suffix, study, style)
+        for path, study in plan.items()
+        if pool is not None and _is_apart(path, plan)
+    }
     contents: dict[Path, bytes] = {}
-    for study, of_study in zip(studies, paths, strict=True):
-        wanted = {path.suffix for path in of_study if path not in begun}
-        rendered = _render(study, wanted, style or ReportStyle())
-        contents |= {path: rendered.get(path.suffix, b"") for path in of_study}
+    for path, study in plan.items():
+        page = contents.get(path.with_suffix(".html"))
+        if path.suffix == ".pdf" and page:
+            contents[path] = _print_page(page)
+        elif path not in begun:
+            contents[path] = render_kind(path.suffix, study, style)
     return contents | {path: finish() for path, finish in begun.items()}
+
+
+def _is_apart(path: Path, plan: Mapping[Path, Study]) -> bool:
+    """Another process makes a file: no only one, and no page that is printed, too."""
+    is_printed = path.suffix == ".html" and path.with_suffix(".pdf") in plan
+    return path.suffix in _APART and len(plan) > 1 and not is_printed
 
 
 def render_kind(kind: str, study: Study, style: ReportStyle) -> bytes:
@@ -81,16 +87,6 @@ def render_kind(kind: str, study: Study, style: ReportStyle) -> bytes:
         Language, extent and look.
     """
     return _KINDS[kind](study, style)
-
-
-def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, bytes]:
-    """Wanted formats of a study; what several of them need is made once."""
-    alone = sorted(wanted - {".pdf"})
-    rendered = {kind: render_kind(kind, study, style) for kind in alone}
-    if ".pdf" in wanted:
-        page = rendered.get(".html") or _render_page(study, style)
-        rendered[".pdf"] = _print_page(page)
-    return rendered
 
 
 def _render_page(study: Study, style: ReportStyle) -> bytes:

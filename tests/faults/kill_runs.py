@@ -30,7 +30,7 @@ STEPS = (
     (store.CaseStore, "find"),
     (store.CaseStore, "keep_row"),
     (store.CaseStore, "find_row"),
-    (files, "_render"),
+    (files, "render_kind"),
     (html, "render_html"),
     (excel, "render_workbook"),
     (os, "fsync"),

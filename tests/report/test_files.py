@@ -22,7 +22,7 @@ def test_another_process_can_make_each_file():
     """From what was pickled comes what one process makes of all files together."""
     style = ReportStyle(language="fr")
     paths = [Path(f"one{kind}") for kind in KINDS]
-    together = render_files([STUDY], [paths], style)
+    together = render_files(dict.fromkeys(paths, STUDY), style)
     assert set(together) == set(paths)
     render, study, other = pickle.loads(pickle.dumps((render_kind, STUDY, style)))
     alone = {path: render(path.suffix, study, other) for path in paths}
