@@ -52,8 +52,8 @@ def find_tested_resistance(
     what : Message
         Type and cell, for a reason.
     """
-    factors = [_find_correlation(tests.count, standard, key) for key in _CORRELATIONS]
-    if None in factors:
+    factors = _find_correlations(tests.count, standard)
+    if factors is None:
         lack = say("check.no_correlation", count=tests.count, what=what)
         return leaf("R_k", None, "kN", source, lack=lack)
     on_mean, on_least = (
@@ -69,15 +69,12 @@ def find_tested_resistance(
     return resist_by_tests(mean, on_mean, least, on_least)
 
 
-def _find_correlation(count: int, standard: Standard, key: str) -> float | None:
-    table = standard.find_table(key)
-    return table.find(count) if table else None
-
-
-def find_wanted(standard: Standard) -> int | None:
-    """Number of tests of each type in each ground; None where no profile says it."""
-    limit = standard.find(TEST_COUNT)
-    return None if limit is None else math.ceil(limit.value)
+def _find_correlations(count: int, standard: Standard) -> list[float] | None:
+    """Factors on mean and least of so many tests [-]; None where one is missing."""
+    tables = [standard.find_table(key) for key in _CORRELATIONS]
+    factors = [table.find(count) if table else None for table in tables]
+    stated = [factor for factor in factors if factor is not None]
+    return stated if len(stated) == len(factors) else None
 
 
 def find_proof_factor(standard: Standard) -> float | None:
@@ -87,16 +84,14 @@ def find_proof_factor(standard: Standard) -> float | None:
     factors; an acceptance test of the profile may ask for more. None where it does not
     follow.
     """
-    count = find_wanted(standard)
+    limit = standard.find(TEST_COUNT)
     design = standard.find_resistance_factor("pull_out", "tested")
-    if count is None or design is None:
+    if limit is None or design is None:
         return None
-    factors = [_find_correlation(count, standard, key) for key in _CORRELATIONS]
-    stated = [factor for factor in factors if factor is not None]
-    if len(stated) < len(factors):
-        return None
+    factors = _find_correlations(math.ceil(limit.value), standard)
     acceptance = standard.find(ACCEPTANCE_TEST)
-    return max(max(stated) * design.value, acceptance.value if acceptance else 0.0)
+    least = acceptance.value if acceptance else 0.0
+    return None if factors is None else max(max(factors) * design.value, least)
 
 
 _NET = "net"
@@ -190,15 +185,8 @@ def leave_open(
 
 def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
-    values = map(standard.find, list_action_factors(mode))
-    factor = next((limit for limit in values if limit), None)
-    lack = None if factor else lack_factor(ACTION_FACTOR)
-    source = factor.id if factor else ACTION_FACTOR
-    return leaf(
-        *("γ_E", factor.value_si if factor else None, "-", source),
-        kind=Kind.PROFILE,
-        lack=lack,
-    )
+    ids = (key for key in list_action_factors(mode) if standard.find(key))
+    return find_profile_value(standard, next(ids, ACTION_FACTOR), "γ_E")
 
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:
@@ -256,13 +244,20 @@ def _find_resistance_factor(
     mode = next(mode for mode, factor in factors if factor is None)
     source = f"resistance.{mode}"
     ids = (value.id for value in standard.values)
-    bases = [
-        key.removeprefix(f"{source}.") for key in ids if key.startswith(f"{source}.")
-    ]
-    lack = _lack_resistance_factor(mode, resistance.basis, bases)
-    # without a resistance there is no basis yet, and no factor to miss
-    if bases and not resistance.basis and strength.lacks:
+    bases = [key.removeprefix(f"{source}.") for key in ids if f"{source}." in key]
+    if not bases:
+        named = say("factor.resistance", mode=name_mode(mode))
+        lack = say("check.no_factor", factor=named, id=source)
+    elif strength.lacks and not resistance.basis:
+        # without a resistance there is no basis yet, and no factor to miss
         lack = strength.lacks[0]
+    else:
+        lack = say(
+            "check.no_factor_of_basis",
+            mode=name_mode(mode),
+            basis=name("basis", resistance.basis),
+            known=tuple(name("basis", base) for base in bases),
+        )
     return leaf("γ_R", None, "-", source, kind=Kind.PROFILE, lack=lack), "-"
 
 
@@ -299,16 +294,3 @@ def _name_place(resistance: GivenResistance) -> Message:
 def lack_factor(factor: str) -> Message:
     """Message that a profile lacks a value, by its name and its id."""
     return say("check.no_factor", factor=name("factor", factor), id=factor)
-
-
-def _lack_resistance_factor(mode: str, basis: str, bases: Sequence[str]) -> Message:
-    """Message that a profile lacks a factor of a mode, with the bases that have one."""
-    if not bases:
-        factor = say("factor.resistance", mode=name_mode(mode))
-        return say("check.no_factor", factor=factor, id=f"resistance.{mode}")
-    return say(
-        "check.no_factor_of_basis",
-        mode=name_mode(mode),
-        basis=name("basis", basis),
-        known=tuple(name("basis", base) for base in bases),
-    )
