@@ -200,9 +200,8 @@ def _name(
 
 
 Span: TypeAlias = tuple[float, float]
-
-# What a name itself says is never recalled.
-_NAMED = frozenset({"depth", "width", "nominal_diameter", "rope_diameter", "grade"})
+# Values of one product that fits a name, by their quantities, and where they stand.
+Fitting: TypeAlias = tuple[Mapping[str, Span], Message]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -218,9 +217,6 @@ class Product:
     values : mapping of str to (float, float)
         Least and largest value of each quantity, SI units; they differ where several
         products fit the name, or where makers differ.
-    assumed : frozenset of str
-        Quantities that are recalled, not read; the others were read in a source that
-        quotes the original, or follow from what was read there.
     sources : tuple of Message
         Publications.
     """
@@ -228,7 +224,6 @@ class Product:
     id: str
     family: str
     values: Mapping[str, Span]
-    assumed: frozenset[str]
     sources: tuple[Message, ...]
 
 
@@ -239,30 +234,26 @@ def load_products() -> dict[str, Any]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def join(name: str, family: str, fitting: list[Product]) -> Product:
+def join(name: str, family: str, fitting: Sequence[Fitting]) -> Product:
     """Product of all that a name may mean: least and largest of shared values."""
-    shared = set.intersection(*(set(product.values) for product in fitting))
-    recalled = set().union(*(product.assumed for product in fitting))
     spans = {
-        quantity: [product.values[quantity] for product in fitting]
-        for quantity in fitting[0].values
-        if quantity in shared
+        quantity: [values[quantity] for values, _ in fitting]
+        for quantity in fitting[0][0]
+        if all(quantity in values for values, _ in fitting)
     }
     values = {
         quantity: (min(low for low, _ in listed), max(high for _, high in listed))
         for quantity, listed in spans.items()
     }
-    sources = dict.fromkeys(source for product in fitting for source in product.sources)
     return Product(
         id=name,
         family=family,
         values=MappingProxyType(values),
-        assumed=frozenset(shared & recalled),
-        sources=tuple(sources),
+        sources=tuple(dict.fromkeys(source for _, source in fitting)),
     )
 
 
-def make_beam(row: list[float]) -> Product:
+def make_beam(row: list[float]) -> Fitting:
     """I-section of its table.
 
     Parameters
@@ -273,10 +264,10 @@ def make_beam(row: list[float]) -> Product:
     table = load_products()["section"]
     columns = zip(row, table["columns"].items(), strict=True)
     values = {quantity: _span(values_, unit) for values_, (quantity, unit) in columns}
-    return _make(values, table)
+    return _quote(values, table)
 
 
-def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
+def make_hollow_section(sizes: tuple[float, ...]) -> list[Fitting]:
     """Round tube, or box: this is hot finished or cold formed, so two products.
 
     Parameters
@@ -288,7 +279,7 @@ def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
     *sides, wall = (size * 1e-3 for size in sizes)
     if len(sides) == 1:
         tube = compute_tube(sides[0], wall)
-        return [_make({key: _span(size) for key, size in tube.items()}, table["round"])]
+        return [_quote(tube, table["round"])]
     made = []
     for way in table["box"]:
         outer, inner = next(
@@ -297,11 +288,11 @@ def make_hollow_section(sizes: tuple[float, ...]) -> list[Product]:
             if sizes[-1] <= limit
         )
         box = compute_box(sides[0], sides[1], wall, outer=outer, inner=inner)
-        made.append(_make({key: _span(size) for key, size in box.items()}, way))
+        made.append(_quote(box, way))
     return made
 
 
-def make_bar(entry: dict[str, Any], diameters: list[float]) -> Product:
+def make_bar(entry: dict[str, Any], diameters: list[float]) -> Fitting:
     """Solid bar of one of some diameters.
 
     Parameters
@@ -317,10 +308,10 @@ def make_bar(entry: dict[str, Any], diameters: list[float]) -> Product:
     for word in ("yield", "ultimate"):
         low, high = values[f"{word}_strength"] = _span(entry[word], 1e6)
         values[f"{word}_force"] = area[0] * low, area[1] * high
-    return _make(values, entry)
+    return _quote(values, entry)
 
 
-def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
+def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Fitting:
     """Hollow bar; its strengths are its forces over its area."""
     units = load_products()["hollow"]["units"].items()
     values = {key: _span(bar[key], unit) for key, unit in units if key in bar}
@@ -329,7 +320,7 @@ def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Product:
         if f"{word}_force" in values:
             low, high = values[f"{word}_force"]
             values[f"{word}_strength"] = low / least, high / most
-    return _make(values, family)
+    return _quote(values, family)
 
 
 def list_constructions_of(strands: Iterable[str]) -> list[str]:
@@ -338,7 +329,7 @@ def list_constructions_of(strands: Iterable[str]) -> list[str]:
     return [rope for rope in constructions if rope.partition("-")[0] in strands]
 
 
-def make_rope(construction: str, diameter: float, grades: list[float]) -> Product:
+def make_rope(construction: str, diameter: float, grades: list[float]) -> Fitting:
     """Wire rope of one of some grades; THEORY.md, (R4) without its ends.
 
     Parameters
@@ -357,28 +348,17 @@ def make_rope(construction: str, diameter: float, grades: list[float]) -> Produc
         "grade": (min(grades) * 1e6, max(grades) * 1e6),
         "breaking_force": (force * min(grades), force * max(grades)),
     }
-    is_assumed = breaking.status == "assumed"
-    return Product(
-        id="",
-        family="",
-        values=values,
-        assumed=frozenset(values) - _NAMED if is_assumed else frozenset(),
-        sources=(breaking.source,),
-    )
+    return values, breaking.source
 
 
 def _span(value: Any, unit: float = 1.0) -> Span:
-    low, high = value if isinstance(value, list) else (value, value)
+    low, high = value if isinstance(value, list | tuple) else (value, value)
     return low * unit, high * unit
 
 
-def _make(values: dict[str, Span], entry: dict[str, Any]) -> Product:
-    """One product, before a name; the entry of the data says where it comes from."""
-    recalled = values if entry["status"] == "assumed" else entry.get("recalled", ())
-    return Product(
-        id="",
-        family="",
-        values=values,
-        assumed=(frozenset(recalled) - _NAMED) & values.keys(),
-        sources=(say(f"product_source.{entry['source']}"),),
-    )
+def _quote(
+    values: Mapping[str, float] | Mapping[str, Span], entry: dict[str, Any]
+) -> Fitting:
+    """Values with the source that the entry of the data names."""
+    spans = {quantity: _span(value) for quantity, value in values.items()}
+    return spans, say(f"product_source.{entry['source']}")
