@@ -112,7 +112,7 @@ THIRD_PARTY = {
     "pydantic": (
         "addons.evidence.validation",
         *("checks.schema", "files.scene", "study.document"),
-        "edge.json_text",
+        *("edge.json_text", "site.lists.list_map"),
     ),
     "pydantic_core": ("checks.schema", "edge.json_text", "words.message"),
     "jinja2": ("report.page.render",),

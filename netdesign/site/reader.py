@@ -31,10 +31,8 @@ from netdesign.site.headings import count_known
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
-    ListMap,
-    read_list,
+    read_answered_list,
     read_list_map,
-    require_answered,
 )
 from netdesign.site.model import NetRow, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
@@ -90,7 +88,7 @@ def read_site(
     path = Path(path)
     found = read_list_map(path)
     if found:
-        cells = _read_list(path, found, text_format)
+        cells = read_answered_list(path, found, text_format)
     else:
         cells = read_cells(path, text_format)
     workbook, replaced = replace_cells(cells, instead)
@@ -99,7 +97,7 @@ def read_site(
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
     if found:
-        used = say("map.used", file=found.answers.file)
+        used = say("map.used", file=found.file)
         findings.append(note_file(workbook.file, used))
         workbook = join_list(workbook, found, findings)
         workbook, changed = change_values(workbook, change, is_list=True)
@@ -108,7 +106,10 @@ def read_site(
     replaced += changed
     library = read_library(net_types, text_format, findings) if net_types else None
     lines = read_office(workbook, findings, library)
-    return replace(_build_site(lines, replaced, findings), text_format=text_format)
+    site = _build_site(lines, replaced, findings)
+    if found:
+        site = replace(site, map_file=found.file, map_sha256=found.sha256)
+    return replace(site, text_format=text_format)
 
 
 def read_frames(frames: Frames, change: Change = MappingProxyType({})) -> Site:
@@ -124,16 +125,10 @@ def read_frames(frames: Frames, change: Change = MappingProxyType({})) -> Site:
     return _build_site(read_office(workbook, findings), replaced, findings)
 
 
-def _read_list(path: Path, found: ListMap, text_format: TextFormat) -> Workbook:
-    """Every sheet of an office's own list, whose headings are answered."""
-    require_answered(found)
-    mark = text_format.decimal_mark or found.answers.decimal_mark
-    workbook = read_list(path, replace(text_format, decimal_mark=mark))
-    return replace(workbook, answers=found.answers)
-
-
 def _build_site(
-    lines: Lines, replaced: tuple[ReplacedCell, ...], findings: list[Finding]
+    lines: Lines,
+    replaced: tuple[ReplacedCell, ...],
+    findings: list[Finding],
 ) -> Site:
     workbook, ranges = lines.workbook, lines.ranges
     net_rows = build_net_rows(lines, findings)
@@ -162,8 +157,6 @@ def _build_site(
         project_cells=lines.project_cells,
         declared=declared,
         confirmed=tuple(sorted(confirmed)),
-        map_file=workbook.answers.file,
-        map_sha256=workbook.answers.sha256,
         library_file=lines.library[0],
         library_sha256=lines.library[1],
         catalogue=list_catalogue(lines.types),

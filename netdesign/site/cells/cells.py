@@ -44,26 +44,6 @@ UNDECLARED = TextFormat()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answers:
-    """File of answers to an office's own list, as `site.lists` reads it.
-
-    Attributes
-    ----------
-    file, sha256 : str
-        Of the file; empty where there is none.
-    decimal_mark : str
-        Of numbers stored as text.
-    """
-
-    file: str = ""
-    sha256: str = ""
-    decimal_mark: DecimalMark = ""
-
-
-UNASKED = Answers()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """One cell: where it is and what it holds.
 
@@ -209,7 +189,6 @@ class Workbook:
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...]
     hidden: frozenset[str] = frozenset()  # those of the unread that nobody sees
-    answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
     is_by_hand: bool = False  # formulas are calculated only where somebody asks for it
 

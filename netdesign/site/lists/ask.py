@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -19,7 +20,6 @@ from netdesign.site.cells.cells import (
     Cell,
     Sheet,
     TextFormat,
-    name_column,
 )
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.columns.all_tables import (
@@ -36,13 +36,15 @@ from netdesign.site.lists.guess import guess
 from netdesign.site.lists.join import (
     find_list_unit,
     find_units,
+    list_below,
     list_lacking,
-    name_asked,
+    name_headings,
 )
 from netdesign.site.lists.list_map import (
     SCHEMA,
     ListMap,
     ListTable,
+    declare_mark,
     read_list,
     read_list_map,
 )
@@ -50,6 +52,7 @@ from netdesign.site.lists.targets import (
     GROUPS,
     Target,
     find_table,
+    is_unanswered,
     list_targets,
     read_answer,
 )
@@ -88,7 +91,7 @@ class HeadingGuess:
         The first cells below it.
     """
 
-    name: str
+    name: str = ""
     answer: str
     target: Target | None = None
     how: Message | None = None
@@ -117,9 +120,8 @@ def write_list_map(
         has headings that are known.
     """
     given = read_list_map(path)
-    if given and not text_format.decimal_mark:
-        mark = given.answers.decimal_mark
-        text_format = replace(text_format, decimal_mark=mark)
+    if given:
+        text_format = declare_mark(text_format, given)
     workbook = read_list(path, text_format)
     lines = [*_begin(path, given, language)]
     count = 0
@@ -147,22 +149,14 @@ def is_open(line: str) -> bool:
 
 def is_own_list(path: Path, text_format: TextFormat) -> bool:
     """A workbook is an office's own: it lacks sheets or most headings of a template."""
-    workbook = read_list(path, text_format)
+    sheets = read_list(path, text_format).sheets
     for plan in map(load_plan, ("rows", "net_types")):
-        if not any(plan.matches(sheet.name) for sheet in workbook.sheets):
+        if not any(plan.matches(sheet.name) for sheet in sheets):
             return True
-    counts = [_count_of_template(sheet) for sheet in workbook.sheets]
-    known, every = (sum(one) for one in zip(*counts, strict=True)) if counts else (0, 0)
-    return 2 * known < every
-
-
-def _count_of_template(sheet: Sheet) -> tuple[int, int]:
-    """Headings that a template has just so, and all; of a sheet without any none."""
-    line = find_heading_line(sheet)
-    if not line:
-        return 0, 0
-    names = [split_heading(str(one.value))[0] for one in sheet.row(line)]
-    return sum(one in _list_template_names() for one in names), len(names)
+    cells = (cell for sheet in sheets for cell in sheet.row(find_heading_line(sheet)))
+    names = [split_heading(str(cell.value))[0] for cell in cells]
+    known = sum(name in _list_template_names() for name in names)
+    return 2 * known < len(names)
 
 
 def _list_template_names() -> frozenset[str]:
@@ -201,11 +195,8 @@ def _begin(path: Path, given: ListMap | None, language: Language) -> Iterator[st
         yield f"# {line}".rstrip()
     yield f'schema = "{SCHEMA}"'
     yield f"list = {_quote(path.name)}"
-    mark = (
-        {",": "comma", ".": "point"}.get(given.answers.decimal_mark) if given else None
-    )
-    if mark:
-        yield f'decimal_mark = "{mark}"'
+    if given and given.decimal_mark:
+        yield f'decimal_mark = "{given.decimal_mark}"'
     yield ""
 
 
@@ -213,16 +204,14 @@ def _write_sheet(
     sheet: Sheet, given: ListMap | None, language: Language
 ) -> tuple[list[str], int]:
     """Table of a sheet, and how many answers are missing."""
-    known = (
-        next((x for x in given.tables if x.name == sheet.name), None) if given else None
-    )
-    line = known.line if known else find_heading_line(sheet)
+    known = given.tables.get(sheet.name) if given else None
+    line = known.headings_in_line if known else find_heading_line(sheet)
     becomes = known.becomes if known else _find_kind(sheet, line)
     place = f"tables.{_quote(sheet.name)}"
     lines = [f"[{place}]"]
     if not becomes or not line:
         return [*lines, _IGNORED, ""], 0
-    table = ListTable(name=sheet.name, becomes=becomes, line=line)
+    table = ListTable(becomes=becomes, headings_in_line=line)
     guesses = list(guess_headings(sheet, table, language))
     old = known.headings if known else {}
     guesses = [_keep(one, old) for one in guesses]
@@ -236,7 +225,7 @@ def _write_sheet(
         about = render(say("list_map.always"), language)
         lines += ["", f"[{place}.always]  # {about}", *always]
     answered = [read_answer(one.answer, becomes).target for one in guesses]
-    own = {(one.table, one.key) for one in answered if one is not None}
+    own = {one.place for one in answered if one is not None}
     for one in list_lacking(becomes, own):
         about = render(say("list_map.lacks", column=one.label(language)), language)
         lines.append(f"# {about}")
@@ -250,7 +239,7 @@ def _find_kind(sheet: Sheet, line: int) -> str:
         return own
     counts = {}
     for table in GROUPS:
-        of = ListTable(name=sheet.name, becomes=table, line=line)
+        of = ListTable(becomes=table, headings_in_line=line)
         counts[table] = sum(
             x.target is not None for x in guess_headings(sheet, of, "en")
         )
@@ -270,93 +259,51 @@ def guess_headings(
     language : str
         Of the answers.
     """
-    units = find_units(sheet, table)
-    found = []
-    for name, cell in _name_headings(sheet, table):
-        below = _list_cells(sheet, table, cell, units)
+    line = table.headings_in_line
+    units = find_units(sheet, line)
+    rows = list_below(sheet, line)[1 if units else 0 :]
+    guesses = []
+    for name, cell in name_headings(sheet, line):
+        cells = (sheet.cell(row, cell.column) for row in rows)
+        below = list(islice((x for x in cells if not x.is_blank), _EXAMPLES))
         unit = find_list_unit(cell, units)
-        one = _guess(cell, unit, table.becomes, below, language)
-        found.append(replace(one, name=name))
-    for one in found:
-        alike = [x for x in found if x.target is not None and _is_same(x, one)]
-        if len(alike) > 1:
-            how = say("list_map.twice", count=len(alike), column=one.answer)
-            yield replace(one, answer=UNANSWERED, target=None, how=how)
+        guessed = _guess(str(cell.value), unit, table.becomes, below, language)
+        shown = "; ".join(make_printable(x.text) for x in below)
+        guesses.append(replace(guessed, name=name, cells=shown))
+    counts = Counter(x.target.place for x in guesses if x.target is not None)
+    for guessed in guesses:
+        count = counts[guessed.target.place] if guessed.target else 0
+        if count > 1:
+            how = say("list_map.twice", count=count, column=guessed.answer)
+            yield replace(guessed, answer=UNANSWERED, target=None, how=how)
         else:
-            yield one
-
-
-def _name_headings(sheet: Sheet, table: ListTable) -> list[tuple[str, Cell]]:
-    """Headings as the file names them: those that stand twice with their column."""
-    cells = sheet.row(table.line)
-    names = [name_asked(one) for one in cells]
-    return [
-        (
-            name if names.count(name) == 1 else f"{name_column(cell.column)}: {name}",
-            cell,
-        )
-        for name, cell in zip(names, cells, strict=True)
-    ]
-
-
-def _is_same(one: HeadingGuess, other: HeadingGuess) -> bool:
-    if one.target is None or other.target is None:
-        return False
-    return (one.target.table, one.target.key) == (other.target.table, other.target.key)
-
-
-def _list_cells(
-    sheet: Sheet, table: ListTable, cell: Cell, units: Mapping[int, str]
-) -> list[Cell]:
-    """First filled cells below a heading."""
-    rows = [row for row in sorted(sheet.rows) if row > table.line and sheet.row(row)]
-    below = (sheet.cell(row, cell.column) for row in rows[1 if units else 0 :])
-    return list(islice((one for one in below if not one.is_blank), _EXAMPLES))
+            yield guessed
 
 
 def _guess(
-    cell: Cell, unit: str, becomes: str, below: Sequence[Cell], language: Language
+    text: str, unit: str, becomes: str, below: Sequence[Cell], language: Language
 ) -> HeadingGuess:
     """First answer to one heading."""
-    text = str(cell.value)
-    shown = HeadingGuess(
-        name=name_asked(cell),
-        answer=UNANSWERED,
-        cells="; ".join(make_printable(one.text) for one in below),
-    )
     if has_no_part(text):
-        return replace(shown, answer=IGNORE, how=say("list_map.no_part"))
-    targets = list_targets(becomes)
-    by_key = {(one.table, one.field.key): one for one in targets}
-    fields = [replace(one.field, table=one.table) for one in targets]
-    found = guess(text, unit, fields)
-    ranked = " · ".join(
-        f"{by_key[field.table, field.key].title(language, unit)} {score:.0f}"
-        for field, score in found.ranked
+        return HeadingGuess(answer=IGNORE, how=say("list_map.no_part"))
+    targets = [one for one in list_targets(becomes) if one.has_unit(unit)]
+    ranked, alike = guess(text, unit, targets)
+    shown = (f"{one.title(language, unit)} {score:.0f}" for one, score in ranked)
+    question = HeadingGuess(
+        answer=UNANSWERED, how=say("list_map.unknown"), ranked=" · ".join(shown)
     )
-    shown = replace(shown, ranked=ranked)
     if is_allowable(text):
-        return replace(shown, how=say("list_map.allowable"))
-    known = [one for one in targets if _is_known(text, one) and _has_unit(unit, one)]
+        return replace(question, how=say("list_map.allowable"))
+    names = {split_heading(text)[0], normalise(text)}
+    known = [one for one in targets if not names.isdisjoint(one.field.names)]
     how = say("list_map.known")
-    if not known and found.field is not None and not _is_unclear(text, becomes):
-        known = [by_key[found.field.table, found.field.key]]
-        how = say("list_map.alike", score=found.ranked[0][1])
+    if not known and alike is not None:
+        known = [alike]
+        how = say("list_map.alike", score=ranked[0][1])
     if len(known) != 1 or _is_unclear(text, becomes):
-        return replace(shown, how=say("list_map.unknown"))
-    (target,) = known
-    answer = _complete(target, unit, below, language)
-    return replace(shown, answer=answer, target=target, how=how)
-
-
-def _is_known(text: str, target: Target) -> bool:
-    """A heading is a name of a column, whatever its case, accents and signs."""
-    own = split_heading(text)[0]
-    return own in target.field.names or normalise(text) in target.field.names
-
-
-def _has_unit(unit: str, target: Target) -> bool:
-    return not unit or unit in (target.field.units or ("-",))
+        return question
+    answer = _complete(known[0], unit, below, language)
+    return replace(question, answer=answer, target=known[0], how=how)
 
 
 # "N°" numbers the lines of a list, and is no glide factor N.
@@ -392,7 +339,7 @@ def _complete(
 def _keep(one: HeadingGuess, given: Mapping[str, str]) -> HeadingGuess:
     """Guess whose answer was given before."""
     answer = given.get(one.name, "")
-    if not answer or UNANSWERED in answer:
+    if is_unanswered(answer):
         return one
     return replace(one, answer=answer, how=None, ranked="")
 
@@ -407,7 +354,8 @@ def _ask_words(
     """Texts of cells that a column of words does not know, or that are answered."""
     given = known.words if known else {}
     yield from (f"{_quote(one)} = {_quote(text)}" for one, text in given.items())
-    cells = {name: cell for name, cell in _name_headings(sheet, table)}
+    line = table.headings_in_line
+    cells = dict(name_headings(sheet, line))
     asked = set(given)
     for one in guesses:
         target = read_answer(one.answer, table.becomes).target
@@ -415,7 +363,11 @@ def _ask_words(
             continue
         field, column = target.field, cells[one.name].column
         accepted = render(field.accepted, language)
-        below = (sheet.cell(row, column) for row in sheet.rows if row > table.line)
+        below = (
+            sheet.cell(row, column)
+            for row in sheet.rows
+            if row > table.headings_in_line
+        )
         for text in dict.fromkeys(x.text.strip() for x in below if not x.is_blank):
             if text not in asked and not knows_word(field, text):
                 asked.add(text)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from rapidfuzz.fuzz import token_sort_ratio
 
 from netdesign.site.columns.all_tables import is_allowable
-from netdesign.site.columns.fields import Field
+from netdesign.site.lists.targets import Target
 
 # Measured on 220 headings of eight lists: a wrong one reaches 83, a meaningless one 87,
 # and two columns of ours are 90 alike.
@@ -20,23 +20,22 @@ _WORD = re.compile(r"[^\W_]+")
 _BRACKET = re.compile(r"[\[(][^\[\]()]*[\])]\s*$")
 
 
-@dataclass(frozen=True, slots=True)
-class Guess:
-    """Fields that a heading may mean.
+class Guess(NamedTuple):
+    """Columns that a heading may mean.
 
     Attributes
     ----------
-    ranked : tuple of Field and float
+    ranked : list of Target and float
         The likeliest first, with how alike their names are, of 100.
-    field : Field or None
+    target : Target or None
         The one that may be taken; None where only an engineer knows.
     """
 
-    ranked: tuple[tuple[Field, float], ...]
-    field: Field | None
+    ranked: list[tuple[Target, float]]
+    target: Target | None
 
 
-def guess(text: str, unit: str, fields: Iterable[Field]) -> Guess:
+def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
     """Guess at a heading by the likeness of its words to known names.
 
     Parameters
@@ -44,8 +43,8 @@ def guess(text: str, unit: str, fields: Iterable[Field]) -> Guess:
     text : str
         The heading as typed.
     unit : str
-        Its unit; empty where it has none, which then excludes no field.
-    fields : iterable of Field
+        Its unit; empty where it has none, which then excludes no column.
+    targets : iterable of Target
         What it may mean.
 
     Returns
@@ -55,19 +54,15 @@ def guess(text: str, unit: str, fields: Iterable[Field]) -> Guess:
     """
     plain = _list_words(_BRACKET.sub("", text) or text)
     scores = [
-        (one, max(token_sort_ratio(plain, _list_words(name)) for name in one.raw_names))
-        for one in fields
-        if _fits(unit, one)
+        (target, max(token_sort_ratio(plain, _list_words(x)) for x in names))
+        for target in targets
+        if target.has_unit(unit) and (names := target.field.raw_names)
     ]
-    scores.sort(key=lambda one: -one[1])
+    scores.sort(key=lambda scored: -scored[1])
     best, second = [*(score for _, score in scores), 0.0, 0.0][:2]
     is_sure = best >= _SURE and best - second >= _APART and not is_allowable(text)
-    listed = [one for one in scores if one[1] >= _LEAST]
-    return Guess(tuple(listed[:_MOST_LISTED]), scores[0][0] if is_sure else None)
-
-
-def _fits(unit: str, field: Field) -> bool:
-    return not unit or unit in (field.units or ("-",))
+    listed = [scored for scored in scores if scored[1] >= _LEAST]
+    return Guess(listed[:_MOST_LISTED], scores[0][0] if is_sure else None)
 
 
 def _list_words(text: str) -> str:

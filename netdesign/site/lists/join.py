@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
 from netdesign.site.cells.findings import Finding, quote
@@ -22,18 +20,10 @@ from netdesign.site.titles import find_heading_unit, is_unit, read_unit
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
-_SLOPE = ("rows", "slope_angle")
-_COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MappedColumn:
-    """A column of a list and the one that it becomes, with the unit of its numbers."""
-
-    number: int
-    target: Target
-    unit: str
+# Columns of a sheet that is made: heading, and cells by line of the list, by number.
+Columns = dict[int, tuple[str, Mapping[int, Cell]]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,8 +36,8 @@ class MappedSheet:
         As read.
     table : ListTable
         What becomes of it.
-    columns : tuple of MappedColumn
-        Those that are read.
+    columns : mapping of int to tuple of Target and str
+        What its columns become, with the unit of their numbers.
     lines : tuple of int
         Rows below the headings, and below their units, that hold something.
     file : str
@@ -56,16 +46,19 @@ class MappedSheet:
 
     sheet: Sheet
     table: ListTable
-    columns: tuple[MappedColumn, ...]
+    columns: Mapping[int, tuple[Target, str]]
     lines: tuple[int, ...]
     file: str
 
-    def find(self, table: str, key: str) -> MappedColumn | None:
-        """Column that becomes one of a sheet."""
+    def find(self, table: str, key: str) -> int | None:
+        """Number of the column that becomes one of a sheet."""
         names = (table, key)
-        return next(
-            (x for x in self.columns if (x.target.table, x.target.key) == names), None
-        )
+        columns = self.columns.items()
+        return next((n for n, (x, _) in columns if (x.table, x.key) == names), None)
+
+    def cells(self, number: int) -> dict[int, Cell]:
+        """Cells of a column by line."""
+        return {line: self.sheet.cell(line, number) for line in self.lines}
 
 
 def join_list(workbook: Workbook, found: ListMap, findings: list[Finding]) -> Workbook:
@@ -83,86 +76,73 @@ def join_list(workbook: Workbook, found: ListMap, findings: list[Finding]) -> Wo
     findings : list of Finding
         Appended to: what of the answers does not fit.
     """
-    by_name = {one.name: one for one in workbook.sheets}
+    sheets = {sheet.name: sheet for sheet in workbook.sheets}
     mapped: list[MappedSheet] = []
-    for table in found.tables:
-        sheet = by_name.get(table.name)
-        if sheet is None:
-            told = say("map.sheet_absent")
-            findings.append(
-                Finding(file=found.answers.file, sheet=table.name, rule=told)
-            )
+    for name, table in found.tables.items():
+        if name not in sheets:
+            rule = say("map.sheet_absent")
+            findings.append(Finding(file=found.file, sheet=name, rule=rule))
         elif table.becomes:
-            mapped.append(map_sheet(sheet, table, found, findings))
-    sheets = [made for one in mapped for made in _make_sheets(one)]
+            mapped.append(map_sheet(sheets[name], table, found.file, findings))
+    made = [_make_sheet(x, of) for x in mapped for of in GROUPS[x.table.becomes]]
     if not any(one.table.becomes == "anchor_types" for one in mapped):
-        named = map(_name_anchors, mapped)
-        sheets += [one for one in named if one is not None]
+        made += map(_name_anchors, mapped)
+    read = {one.sheet.name for one in mapped}
     return replace(
         workbook,
-        sheets=tuple(sheets),
-        unread=tuple(
-            one for one in by_name if one not in {x.table.name for x in mapped}
-        ),
-        answers=found.answers,
+        sheets=tuple(filter(None, made)),
+        unread=tuple(name for name in sheets if name not in read),
     )
 
 
 def map_sheet(
-    sheet: Sheet, table: ListTable, found: ListMap, findings: list[Finding]
+    sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
 ) -> MappedSheet:
     """Columns of a sheet by the answers; a heading without one is a finding."""
-    cells = sheet.row(table.line)
-    units = find_units(sheet, table)
-    columns = []
-    seen: set[str] = set()
-    for cell in cells:
-        key = next((one for one in table.headings if _is_asked(cell, one)), None)
-        if key is None:
-            rule = say("list_map.new_heading", file=found.answers.file)
+    units = find_units(sheet, table.headings_in_line)
+    asked = {normalise(heading): heading for heading in table.headings}
+    columns: dict[int, tuple[Target, str]] = {}
+    for name, cell in name_headings(sheet, table.headings_in_line):
+        own = split_heading(str(cell.value))[0]
+        heading = asked.get(normalise(name)) or asked.get(own)
+        if heading is None:
+            rule = say("list_map.new_heading", file=file)
             findings.append(cell.finding(rule, say("list_map.again")))
             continue
-        seen.add(key)
-        answer = read_answer(table.headings[key], table.becomes)
+        asked = {key: one for key, one in asked.items() if one != heading}
+        answer = read_answer(table.headings[heading], table.becomes)
         if answer.target is None:
             continue
-        own = find_list_unit(cell, units)
-        unit = answer.unit or own
-        if answer.target.measure and own and answer.unit and own != answer.unit:
-            rule = say("list_map.other_unit", unit=own, other=answer.unit)
+        unit = find_list_unit(cell, units)
+        if answer.target.measure and unit and answer.unit not in ("", unit):
+            rule = say("list_map.other_unit", unit=unit, other=answer.unit)
             findings.append(cell.finding(rule, say("list_map.one_unit")))
-        columns.append(
-            MappedColumn(number=cell.column, target=answer.target, unit=unit)
-        )
-    for key in table.headings.keys() - seen:
-        rule = say("list_map.no_heading", heading=quote(key))
+        columns[cell.column] = answer.target, answer.unit or unit
+    for heading in asked.values():
+        rule = say("list_map.no_heading", heading=quote(heading))
         findings.append(sheet.finding(rule, say("list_map.again")))
-    lines = [row for row in sorted(sheet.rows) if row > table.line and sheet.row(row)]
-    if units and lines:
-        lines = lines[1:]
+    lines = list_below(sheet, table.headings_in_line)[1 if units else 0 :]
     return MappedSheet(
-        sheet=sheet,
-        table=table,
-        columns=tuple(columns),
-        lines=tuple(lines),
-        file=found.answers.file,
+        sheet=sheet, table=table, columns=columns, lines=tuple(lines), file=file
     )
 
 
-def name_asked(cell: Cell) -> str:
-    """Heading as a file of answers names it."""
-    return " ".join(str(cell.value).split())
+def name_headings(sheet: Sheet, line: int) -> list[tuple[str, Cell]]:
+    """Headings as a file of answers names them: alike ones with their column."""
+    cells = sheet.row(line)
+    names = [" ".join(str(cell.value).split()) for cell in cells]
+    return [
+        (
+            name if names.count(name) == 1 else f"{name_column(cell.column)}: {name}",
+            cell,
+        )
+        for name, cell in zip(names, cells, strict=True)
+    ]
 
 
-def _is_asked(cell: Cell, key: str) -> bool:
-    """A key of the answers names this heading."""
-    in_column = _COLUMN.fullmatch(key)
-    if in_column and in_column[1] != name_column(cell.column):
-        return False
-    asked = normalise(in_column[2] if in_column else key)
-    text = str(cell.value)
-    names = {normalise(one) for one in (text, text.partition("[")[0])}
-    return asked in names | {split_heading(text)[0]}
+def list_below(sheet: Sheet, line: int) -> list[int]:
+    """Filled rows below the headings."""
+    return [row for row in sorted(sheet.rows) if row > line and sheet.row(row)]
 
 
 def find_list_unit(cell: Cell, units: Mapping[int, str]) -> str:
@@ -171,181 +151,125 @@ def find_list_unit(cell: Cell, units: Mapping[int, str]) -> str:
     return unit if unit in KNOWN_UNITS else ""
 
 
-def find_units(sheet: Sheet, table: ListTable) -> Mapping[int, str]:
+def find_units(sheet: Sheet, line: int) -> Mapping[int, str]:
     """Units by column, where the row below the headings has them and nothing else."""
-    number = next(
-        (row for row in sorted(sheet.rows) if row > table.line and sheet.row(row)), None
-    )
-    cells = sheet.row(number) if number is not None else ()
+    below = list_below(sheet, line)
+    cells = sheet.row(below[0]) if below else ()
     plain = Field(key="", units=("-",))
-    if not cells or not all(is_unit(one, plain) for one in cells):
+    if not all(is_unit(cell, plain) for cell in cells):
         return {}
-    return {one.column: read_unit(one)[0] for one in cells}
+    return {cell.column: read_unit(cell)[0] for cell in cells}
 
 
-def _make_sheets(mapped: MappedSheet) -> Iterator[Sheet]:
-    """Sheets of the input workbook that a sheet of a list makes."""
-    names = _name_nets(mapped) if mapped.table.becomes == "rows" else {}
-    for table in GROUPS[mapped.table.becomes]:
-        columns = [one for one in mapped.columns if one.target.table == table]
-        rows = _begin(mapped, table, columns)
-        for line in mapped.lines:
-            cells = {one.number: mapped.sheet.cell(line, one.number) for one in columns}
-            rows[line] = {**cells, **_say_always(mapped, table, line)}
-        if table == "net_types" and mapped.table.becomes == "rows":
-            if not columns:
-                continue
-            rows = _keep_nets(rows, names, mapped)
-        elif table == "rows":
-            _name_in_rows(rows, names, mapped)
-        yield replace(
-            mapped.sheet,
-            name=load_plan(table).name_in("en"),
-            rows=rows,
-            merged=tuple(x for x in mapped.sheet.merged if x.row > mapped.table.line),
-            words=mapped.table.words,
-            answered_in=mapped.file,
-        )
-
-
-def _begin(
-    mapped: MappedSheet, table: str, columns: Sequence[MappedColumn]
-) -> dict[int, dict[int, Cell]]:
-    """Headings of a sheet, in the line and the columns of the list's."""
-    line = mapped.table.line
-    cells = {
-        one.number: replace(
-            mapped.sheet.cell(line, one.number), value=one.target.heading(one.unit)
-        )
-        for one in columns
+def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
+    """Sheet of the input workbook that a sheet of a list makes."""
+    columns: Columns = {
+        number: (target.heading(unit), mapped.cells(number))
+        for number, (target, unit) in mapped.columns.items()
+        if target.table == table
     }
-    blank = partial(Cell, file=mapped.sheet.file, sheet=mapped.sheet.name, row=line)
-    for number, target, _ in _list_always(mapped, table):
-        cells[number] = blank(column=number, value=target.heading(target.field.unit))
-    return {line: cells}
-
-
-def _list_always(mapped: MappedSheet, table: str) -> Iterator[tuple[int, Target, str]]:
-    """Columns with one text in every line, behind those of the list."""
-    number = _find_width(mapped.sheet)
-    for name, text in mapped.table.always.items():
-        number += 1
+    if table == "net_types" and mapped.table.becomes == "rows" and not columns:
+        return None
+    widths = [max(row, default=0) for row in mapped.sheet.rows.values()]
+    last = max((*widths, *(one.last_column for one in mapped.sheet.merged)), default=0)
+    for number, (name, text) in enumerate(mapped.table.always.items(), last + 1):
         target = read_answer(name, mapped.table.becomes).target
         if target is not None and target.table == table:
-            yield number, target, text
+            cells = mapped.cells(number).items()
+            said = {line: replace(cell, value=text) for line, cell in cells}
+            columns[number] = target.heading(target.field.unit), said
+    lines: Sequence[int] = mapped.lines
+    if mapped.table.becomes == "rows":
+        key = "net_type" if table == "rows" else "id"
+        own = mapped.find(table, key)
+        names = _name_nets(mapped)
+        behind = last + len(mapped.table.always) + 1
+        columns[own or behind] = _name_column(table, key), names
+        lines = lines if table == "rows" else _list_different(columns, names)
+    return _build(mapped, table, columns, lines)
 
 
-def _say_always(mapped: MappedSheet, table: str, line: int) -> dict[int, Cell]:
-    return {
-        number: Cell(
-            file=mapped.sheet.file,
-            sheet=mapped.sheet.name,
-            row=line,
-            column=number,
-            value=text,
-        )
-        for number, _, text in _list_always(mapped, table)
+def _name_column(table: str, key: str) -> str:
+    fields = load_plan(table).fields
+    return next(one.label_in("en") for one in fields if one.key == key)
+
+
+def _build(
+    mapped: MappedSheet, table: str, columns: Columns, lines: Collection[int]
+) -> Sheet:
+    """Sheet with headings of the input workbook, in the list's line."""
+    head = mapped.table.headings_in_line
+    headings = {
+        number: replace(mapped.sheet.cell(head, number), value=heading)
+        for number, (heading, _) in columns.items()
     }
-
-
-def _find_width(sheet: Sheet) -> int:
-    return max((max(row, default=0) for row in sheet.rows.values()), default=0)
+    below = {
+        line: {n: cells[line] for n, (_, cells) in columns.items() if line in cells}
+        for line in lines
+    }
+    return replace(
+        mapped.sheet,
+        name=load_plan(table).name_in("en"),
+        rows={head: headings, **below},
+        merged=tuple(one for one in mapped.sheet.merged if one.row > head),
+        words=mapped.table.words,
+        answered_in=mapped.file,
+    )
 
 
 def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
     """Name of the net of each line: as typed, or made of what is said of the net."""
-    own = mapped.find("rows", "net_type")
-    nets = [one for one in mapped.columns if one.target.table == "net_types"]
-    height, slope = mapped.find("net_types", "net_height"), mapped.find(*_SLOPE)
+    own, slope = (mapped.find("rows", key) for key in ("net_type", "slope_angle"))
+    typed = mapped.cells(own) if own else {}
+    names = {line: cell for line, cell in typed.items() if not cell.is_blank}
+    height = mapped.find("net_types", "net_height")
+    nets = [n for n, (x, _) in mapped.columns.items() if x.table == "net_types"]
     named: dict[tuple[str, ...], str] = {}
-    names: dict[int, Cell] = {}
-    for line in mapped.lines:
-        typed = mapped.sheet.cell(line, own.number) if own else None
-        if typed is not None and not typed.is_blank:
-            names[line] = typed
-        elif height is not None:
-            cell = mapped.sheet.cell(line, height.number)
-            values = tuple(mapped.sheet.cell(line, x.number).text.strip() for x in nets)
-            # neither a line of sums nor an empty one has a net whose height is missing
-            if cell.is_blank and (not slope or _is_blank(mapped, line, slope)):
-                names[line] = cell
-                continue
-            if values not in named:
-                stem = f"D_K {cell.text.strip()}"
-                count = sum(one.startswith(stem) for one in named.values())
-                named[values] = f"{stem} {_LETTERS[count]}" if count else stem
-            names[line] = replace(cell, value=named[values], formula="")
+    for line, cell in mapped.cells(height).items() if height else ():
+        values = tuple(mapped.sheet.cell(line, n).text.strip() for n in nets)
+        # neither a line of sums nor an empty one has a net whose height is missing
+        is_sum = not slope or mapped.sheet.cell(line, slope).is_blank
+        if line in names:
+            continue
+        if cell.is_blank and is_sum:
+            names[line] = cell
+            continue
+        if values not in named:
+            stem = f"D_K {cell.text.strip()}"
+            count = sum(name.startswith(stem) for name in named.values())
+            named[values] = f"{stem} {_LETTERS[count]}" if count else stem
+        names[line] = replace(cell, value=named[values], formula="")
     return names
 
 
-def _is_blank(mapped: MappedSheet, line: int, column: MappedColumn) -> bool:
-    return mapped.sheet.cell(line, column.number).is_blank
-
-
-def _name_in_rows(
-    rows: dict[int, dict[int, Cell]], names: Mapping[int, Cell], mapped: MappedSheet
-) -> None:
-    """Put the names of the nets in a column of the rows, which is needed there."""
-    own = mapped.find("rows", "net_type")
-    number = own.number if own else _find_width(mapped.sheet) + _AFTER
-    if own is None:
-        rows[mapped.table.line][number] = _head(mapped, "rows", "net_type", number)
-    for line, name in names.items():
-        rows[line][number] = name
-
-
-_AFTER = 50  # columns behind those of a list, where no other column stands
-
-
-def _head(mapped: MappedSheet, table: str, key: str, number: int) -> Cell:
-    target = next(one.field for one in load_columns(table) if one.field.key == key)
-    return Cell(
-        file=mapped.sheet.file,
-        sheet=mapped.sheet.name,
-        row=mapped.table.line,
-        column=number,
-        value=target.label_in("en"),
-    )
-
-
-def _keep_nets(
-    rows: Mapping[int, dict[int, Cell]], names: Mapping[int, Cell], mapped: MappedSheet
-) -> dict[int, dict[int, Cell]]:
-    """Lines of the net types: the first of those that say the same of a name."""
-    number = _find_width(mapped.sheet) + _AFTER
-    line = mapped.table.line
-    kept = {line: {**rows[line], number: _head(mapped, "net_types", "id", number)}}
-    seen = set()
-    for row, cells in rows.items():
-        if row == line or row not in names or names[row].is_blank:
-            continue
-        said = (names[row].text.strip(), *(one.text.strip() for one in cells.values()))
-        if said not in seen:
-            seen.add(said)
-            kept[row] = {**cells, number: names[row]}
-    return kept
+def _list_different(columns: Columns, names: Mapping[int, Cell]) -> list[int]:
+    """First lines of those that say the same of the net with a name."""
+    first: dict[tuple[str, ...], int] = {}
+    for line in sorted(names):
+        if not names[line].is_blank:
+            cells = (cells[line] for _, cells in columns.values())
+            first.setdefault(tuple(cell.text.strip() for cell in cells), line)
+    return list(first.values())
 
 
 def _name_anchors(mapped: MappedSheet) -> Sheet | None:
     """Sheet of the anchor types that the rows name; None where they name none."""
-    columns = [one for key in _ANCHORS if (one := mapped.find("rows", key))]
+    numbers = [number for key in _ANCHORS if (number := mapped.find("rows", key))]
+    cells = (mapped.sheet.cell(line, n) for line in mapped.lines for n in numbers)
     first: dict[str, Cell] = {}
-    for line in mapped.lines:
-        for one in columns:
-            cell = mapped.sheet.cell(line, one.number)
-            if not cell.is_blank:
-                first.setdefault(" ".join(cell.text.split()).casefold(), cell)
+    for cell in cells:
+        if not cell.is_blank:
+            first.setdefault(" ".join(cell.text.split()).casefold(), cell)
     if not first:
         return None
-    # headings are known as such by three of them
-    heads = {
-        number: replace(_head(mapped, "anchor_types", key, number), row=1)
+    columns: Columns = {
+        number: (_name_column("anchor_types", key), {})
         for number, key in enumerate(("id", "kind", "ground"), 1)
     }
-    rows = {1: heads}
-    rows |= {number: {1: cell} for number, cell in enumerate(first.values(), 2)}
-    name = load_plan("anchor_types").name_in("en")
-    return replace(mapped.sheet, name=name, rows=rows, merged=())
+    made = _build(mapped, "anchor_types", columns, ())
+    head = mapped.table.headings_in_line
+    below = {n: {1: cell} for n, cell in enumerate(first.values(), head + 1)}
+    return replace(made, rows={**made.rows, **below}, merged=())
 
 
 def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]:
@@ -368,8 +292,6 @@ def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]
         needed.discard(("rows", "net_type"))
     elif ("rows", "net_type") in own:
         needed.discard(("net_types", "net_height"))
-    found: dict[tuple[str, str], Target] = {}
-    for one in list_targets(becomes):
-        if (one.table, one.key) in needed.difference(own):
-            found.setdefault((one.table, one.key), one)
-    return list(found.values())
+    lacking = needed.difference(own)
+    targets = {(x.table, x.key): x for x in reversed(list_targets(becomes))}
+    return [target for name, target in reversed(targets.items()) if name in lacking]

@@ -4,36 +4,38 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, ClassVar, Final, Literal
+
+from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
 
 from netdesign.edge.input_files import (
     MAX_TOML_BYTES,
+    explain,
+    explain_shape,
     is_there,
     parse_toml,
     read_bounded,
 )
-from netdesign.edge.input_files import explain as explain_cause
 from netdesign.outcome import ContentError, SiteDataError
-from netdesign.site.cells.cells import Answers, TextFormat, Workbook
-from netdesign.site.cells.findings import (
-    Finding,
-    fold_findings,
-    quote,
-    refuse_file,
-)
+from netdesign.site.cells.cells import TextFormat, Workbook
+from netdesign.site.cells.findings import Finding, fold_findings, quote, refuse_file
 from netdesign.site.cells.spreadsheet import read_workbook
-from netdesign.site.columns.all_tables import UNANSWERED
 from netdesign.site.columns.office import is_heading
-from netdesign.site.lists.targets import find_table, read_answer
+from netdesign.site.lists.targets import find_table, is_unanswered, read_answer
 from netdesign.site.titles import MARKS, name_map
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
-SCHEMA = "netdesign.map/2"
-_KEYS = {"schema", "list", "decimal_mark", "tables"}
-_OF_TABLE = {"becomes", "headings_in_line", "headings", "words", "always"}
-_WANTED = say("map.wanted")
+SCHEMA: Final = "netdesign.map/2"
+_SHAPE = {"extra": "forbid"}
+
+
+def _find_becomes(text: str) -> str:
+    table = find_table(text)
+    if table is None:
+        raise ContentError(say("map.no_sheet", answer=quote(text)))
+    return table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,31 +44,44 @@ class ListTable:
 
     Attributes
     ----------
-    name : str
-        Of the sheet.
     becomes : str
         Table of the input workbook; empty where the sheet is not read.
-    line : int
-        In which its headings stand.
+    headings_in_line : int
+        Line in which its headings stand.
     headings, words, always : mapping of str to str
         Answer by heading as typed; word of the input workbook by text of a cell; and
         column to what stands in every line.
     """
 
-    name: str
-    becomes: str
-    line: int = 1
-    headings: Mapping[str, str] = field(default_factory=dict)
-    words: Mapping[str, str] = field(default_factory=dict)
-    always: Mapping[str, str] = field(default_factory=dict)
+    __pydantic_config__: ClassVar = _SHAPE
+
+    becomes: Annotated[str, AfterValidator(_find_becomes)]
+    headings_in_line: Annotated[int, Field(strict=True, ge=1)] = 1
+    headings: dict[str, str] = field(default_factory=dict)
+    words: dict[str, str] = field(default_factory=dict)
+    always: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _AnswerFile:
+    """What a file of answers holds."""
+
+    __pydantic_config__: ClassVar = _SHAPE
+
+    schema: Literal["netdesign.map/2"]
+    list: str = ""
+    decimal_mark: Literal["", "comma", "point"] = ""
+    tables: dict[str, ListTable]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ListMap:
     """Answers to a list, with the file that they stand in."""
 
-    answers: Answers
-    tables: tuple[ListTable, ...]
+    file: str
+    sha256: str
+    decimal_mark: str  # its word, as the file has it
+    tables: Mapping[str, ListTable]  # by the name of a sheet of the list
 
 
 def read_list_map(site_file: Path) -> ListMap | None:
@@ -75,28 +90,34 @@ def read_list_map(site_file: Path) -> ListMap | None:
     Raises
     ------
     SiteDataError
-        With each answer that is missing, or names no column.
+        With each fault of the form of the file.
     """
     path = name_map(site_file)
     if not is_there(path):
         return None
+    wanted = say("map.wanted")
     try:
         content = read_bounded(path, MAX_TOML_BYTES)
-        table = parse_toml(content)
+        held = TypeAdapter(_AnswerFile).validate_python(parse_toml(content))
+    except ValidationError as error:
+        findings = [
+            Finding(
+                file=path.name,
+                text=".".join(map(str, fault["loc"])),
+                rule=say("text.as_given", text=explain_shape(fault)),
+                accepted=wanted,
+            )
+            for fault in error.errors()
+        ]
+        raise SiteDataError(findings, fold_findings(findings)) from None
     except (ContentError, OSError) as error:
-        cause = error.message if isinstance(error, ContentError) else None
-        rule = say("map.faulty", cause=cause or explain_cause(error))
-        raise refuse_file(path.name, rule, _WANTED) from error
-    if table.get("schema") != SCHEMA:
-        rule = say("map.other_schema", schema=SCHEMA)
-        raise refuse_file(path.name, rule, _WANTED)
-    if fault := _find_fault(table):
-        raise refuse_file(path.name, fault, _WANTED)
-    mark = MARKS[table.get("decimal_mark", "")]
-    digest = hashlib.sha256(content).hexdigest()
+        rule = say("map.faulty", cause=explain(error))
+        raise refuse_file(path.name, rule, wanted) from error
     return ListMap(
-        answers=Answers(file=path.name, sha256=digest, decimal_mark=mark),
-        tables=tuple(_read(name, one) for name, one in table["tables"].items()),
+        file=path.name,
+        sha256=hashlib.sha256(content).hexdigest(),
+        decimal_mark=held.decimal_mark,
+        tables=held.tables,
     )
 
 
@@ -107,84 +128,48 @@ def read_list(path: Path, text_format: TextFormat) -> Workbook:
     )
 
 
-def require_answered(found: ListMap) -> None:
-    """Refuse answers that are missing, or that name no column.
+def read_answered_list(path: Path, answers: ListMap, declared: TextFormat) -> Workbook:
+    """Every sheet of a list whose headings are answered, its numbers as answered.
 
     Raises
     ------
     SiteDataError
-        With each of them.
+        With each answer that is missing, or names no column.
     """
-    findings = [one for table in found.tables for one in _judge(found, table)]
+    findings = [
+        finding
+        for name, table in answers.tables.items()
+        for finding in _judge(answers.file, name, table)
+    ]
     if findings:
         raise SiteDataError(findings, fold_findings(findings))
+    return read_list(path, declare_mark(declared, answers))
 
 
-def _judge(found: ListMap, table: ListTable) -> Iterator[Finding]:
+def declare_mark(declared: TextFormat, answers: ListMap) -> TextFormat:
+    """Form of a list's text, with the decimal mark of its answers if none is typed."""
+    mark = declared.decimal_mark or MARKS[answers.decimal_mark]
+    return replace(declared, decimal_mark=mark)
+
+
+def _judge(file: str, name: str, table: ListTable) -> Iterator[Finding]:
+    """Answers of a sheet that are missing, or name no column."""
     if not table.becomes:
         return
-    texts = (*table.headings.items(), *((key, key) for key in table.always))
-    for heading, text in texts:
-        answer = read_answer(text, table.becomes)
-        key = "list_map.unanswered" if answer.is_open else "list_map.no_column"
-        if answer.is_open or answer.fault:
-            yield _tell(found, table, heading, say(key, answer=quote(text)))
-    for column, text in (*table.words.items(), *table.always.items()):
-        if UNANSWERED in text:
-            rule = say("list_map.unanswered", answer=quote(text))
-            yield _tell(found, table, column, rule)
-
-
-def _tell(found: ListMap, table: ListTable, heading: str, rule: Message) -> Finding:
-    return Finding(
-        file=found.answers.file,
-        sheet=table.name,
-        text=heading,
-        rule=rule,
-        accepted=say("list_map.wanted"),
-    )
-
-
-def _read(name: str, table: Mapping[str, Any]) -> ListTable:
-    return ListTable(
-        name=name,
-        becomes=find_table(table["becomes"]) or "",
-        line=table.get("headings_in_line", 1),
-        headings=table.get("headings", {}),
-        words=table.get("words", {}),
-        always=table.get("always", {}),
-    )
-
-
-def _find_fault(table: Mapping[str, Any]) -> Message | None:
-    """First fault of the form of the file."""
-    stranger = next((key for key in table if key not in _KEYS), None)
-    if stranger is not None:
-        return say("map.unknown_key", key=quote(stranger))
-    if table.get("decimal_mark", "") not in MARKS:
-        return say("map.decimal_mark")
-    tables = table.get("tables", {})
-    if not isinstance(tables, dict) or not tables:
-        return say("map.no_table")
-    faults = (_find_fault_of(name, one) for name, one in tables.items())
-    return next((one for one in faults if one is not None), None)
-
-
-def _find_fault_of(name: str, table: Any) -> Message | None:
-    if not isinstance(table, dict) or not isinstance(table.get("becomes"), str):
-        return say("map.no_text", key=quote(name))
-    stranger = next((key for key in table if key not in _OF_TABLE), None)
-    if stranger is not None:
-        return say("map.unknown_key", key=quote(stranger))
-    if find_table(table["becomes"]) is None:
-        return say("map.no_sheet", answer=quote(table["becomes"]), key=quote(name))
-    line = table.get("headings_in_line", 1)
-    if not isinstance(line, int) or isinstance(line, bool) or line < 1:
-        return say("list_map.no_line", key=quote(name))
-    for part in (table.get(one, {}) for one in ("headings", "words", "always")):
-        if not isinstance(part, dict):
-            return say("map.no_table")
-        for key, answer in part.items():
-            if not isinstance(answer, str) or not answer.strip():
-                return say("map.no_text", key=quote(key))
-    return None
+    columns = (*table.headings.items(), *((key, key) for key in table.always))
+    read = [(key, text, read_answer(text, table.becomes)) for key, text in columns]
+    words = (*table.words.items(), *table.always.items())
+    unanswered = "list_map.unanswered"
+    faults = [
+        *((key, text, "list_map.no_column") for key, text, one in read if one.fault),
+        *((key, text, unanswered) for key, text, one in read if one.is_open),
+        *((key, text, unanswered) for key, text in words if is_unanswered(text)),
+    ]
+    for key, text, fault in faults:
+        yield Finding(
+            file=file,
+            sheet=name,
+            text=key,
+            rule=say(fault, answer=quote(text)),
+            accepted=say("list_map.wanted"),
+        )

@@ -54,6 +54,11 @@ class Target:
     measure: str = ""
     field: Field
 
+    @property
+    def place(self) -> tuple[str, str]:
+        """Table and key of the column."""
+        return self.table, self.key
+
     def label(self, language: Language) -> str:
         """Name of sheet and column, as the file of answers has it."""
         sheet = load_plan(self.table).name_in(language)
@@ -70,6 +75,10 @@ class Target:
         shown = name_measure(choice, self.measure, language)
         first, _, word = shown.partition(" ")
         return f"{unit or first} {word}"
+
+    def has_unit(self, unit: str) -> bool:
+        """A unit fits its numbers; the lack of one does."""
+        return not unit or unit in (self.field.units or ("-",))
 
     def heading(self, unit: str) -> str:
         """Heading of the column in the input workbook."""
@@ -180,7 +189,7 @@ def read_answer(text: str, becomes: str) -> Answer:
     plain = " ".join(text.split())
     if plain.casefold() == IGNORE:
         return Answer()
-    if UNANSWERED in plain:
+    if is_unanswered(plain):
         return Answer(is_open=True)
     label, _, bracket = plain.partition("[")
     bracket = bracket.rstrip("] ")
@@ -195,6 +204,11 @@ def read_answer(text: str, becomes: str) -> Answer:
         if normalise(word) in words:
             return Answer(target=target, unit=normalise_unit(unit))
     return Answer(fault=True)
+
+
+def is_unanswered(text: str) -> bool:
+    """An answer is a question mark, has one for its unit, or is empty."""
+    return UNANSWERED in text or not text.strip()
 
 
 def _is_named(target: Target, label: str) -> bool:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from netdesign.site.columns.all_tables import list_unclear
 from netdesign.site.columns.fields import normalise
 from netdesign.site.lists.guess import guess
-from netdesign.site.lists.targets import list_targets
+from netdesign.site.lists.targets import Target, list_targets
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.make import name_heading
@@ -98,12 +98,11 @@ def test_a_word_more_is_another_heading(drawn, word):
 def test_a_guess_is_taken_where_it_is_sure_and_its_unit_fits(
     table, heading, unit, taken, ranked
 ):
-    fields = [one.field for one in list_targets(table)]
-    found = guess(heading, unit, fields)
-    assert (found.field and found.field.key) == taken
-    keys = {field.key for field, _ in found.ranked}
-    assert ranked is None or ranked in keys
-    units = {one for field, _ in found.ranked for one in field.units}
+    found = guess(heading, unit, list_targets(table))
+    assert (found.target and found.target.field.key) == taken
+    fields = [target.field for target, _ in found.ranked]
+    assert ranked is None or ranked in {field.key for field in fields}
+    units = {one for field in fields for one in field.units}
     assert not found.ranked or unit in units
 
 
@@ -112,8 +111,9 @@ def test_a_guess_is_taken_where_it_is_sure_and_its_unit_fits(
 def test_without_its_own_name_a_heading_is_never_taken_for_an_allowable_one(one):
     table, _, name = one
     fields = PLANS[table].fields
-    assert guess(f"zul. {name}", "", fields).field is None
-    assert guess(f"{name} admissible", "", fields).field is None
+    targets = [Target(table=table, key=one.key, field=one) for one in fields]
+    assert guess(f"zul. {name}", "", targets).target is None
+    assert guess(f"{name} admissible", "", targets).target is None
 
 
 @each("sheet", QUANTITIES)

@@ -23,7 +23,7 @@ def judge(office, path):
     for sheet in read_list(path, UNDECLARED).sheets:
         line = find_heading_line(sheet)
         kind = _find_kind(sheet, line)
-        table = ListTable(name=sheet.name, becomes=kind, line=line)
+        table = ListTable(becomes=kind, headings_in_line=line)
         for one in guess_headings(sheet, table, office.language):
             meaning = names[sheet.name].headings[one.name]
             yield one.name, rate(one, meaning, kind, office.language)
@@ -61,7 +61,7 @@ def test_a_number_of_a_line_is_no_glide_factor(tmp_path, heading):
     text = f"{heading};pente [°];hauteur de neige [m]\nN1;34;2,9\nN2;37;3,3\n"
     path.write_text(text, encoding="utf-8")
     (sheet,) = read_list(path, UNDECLARED).sheets
-    table = ListTable(name=sheet.name, becomes="rows", line=1)
+    table = ListTable(becomes="rows")
     first = next(iter(guess_headings(sheet, table, "fr")))
     assert first.target is None
     assert "?" in first.answer
@@ -95,7 +95,7 @@ def make_list(*headings, language="de"):
 def guess_at(tmp_path, *headings):
     office = make_list(*headings)
     (sheet,) = read_list(office.write(tmp_path), UNDECLARED).sheets
-    table = ListTable(name=sheet.name, becomes="rows", line=1)
+    table = ListTable(becomes="rows")
     found = {one.name: one for one in guess_headings(sheet, table, "de")}
     return [found[one] for one in headings]
 

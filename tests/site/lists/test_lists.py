@@ -159,9 +159,9 @@ BOOKS = [one for one in OFFICES if one.file.endswith(".xlsx")]
 
 def find_cell(office, path, meaning, line):
     """Address of a cell in a line of the first sheet, from 0."""
-    (sheet, *_), table = office.sheets, read_list_map(path).tables[0]
+    (sheet, *_), tables = office.sheets, read_list_map(path).tables
     column = 1 + list(sheet.headings.values()).index(meaning)
-    row = table.line + bool(sheet.units) + 1 + line
+    row = tables[sheet.name].headings_in_line + bool(sheet.units) + 1 + line
     return f"{name_column(column)}{row}"
 
 
@@ -233,9 +233,13 @@ def spoil(path, old, new):
         ('"Comments" = "ignore"', '"Comments" = "Rows: nothing"', "list_map.no_column"),
         ('"Comments" = "ignore"', '"Other" = "ignore"', "list_map.new_heading"),
         ("headings_in_line = 1", "headings_in_line = 2", "list_map.new_heading"),
-        ("headings_in_line = 1", "headings_in_line = 0", "list_map.no_line"),
-        ('becomes = "Rows"', 'becomes = "Rooms"', "map.no_sheet"),
-        ('list = "', 'lists = "', "map.unknown_key"),
+        (
+            "headings_in_line = 1",
+            "headings_in_line = 0",
+            "tables.net_schedule.headings_in_line",
+        ),
+        ('becomes = "Rows"', 'becomes = "Rooms"', "tables.net_schedule.becomes"),
+        ('list = "', 'lists = "', "lists"),
     ],
 )
 def test_a_faulty_answer_is_refused(old, new, rule, tmp_path):
@@ -244,7 +248,8 @@ def test_a_faulty_answer_is_refused(old, new, rule, tmp_path):
     spoil(path, old, new)
     with pytest.raises(SiteDataError) as refused:
         read_site(path)
-    assert rule in {one.rule.key for one in refused.value.findings}
+    findings = refused.value.findings
+    assert rule in {one.rule.key for one in findings} | {one.text for one in findings}
 
 
 def test_an_answer_in_another_unit_than_the_list_is_refused(tmp_path):
