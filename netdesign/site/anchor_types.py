@@ -6,7 +6,7 @@ What nobody gives of the steel that bends is assumed: resistance/THEORY.md, (R9d
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TypeVar
 
 from netdesign.outcome import ModelError
@@ -40,25 +40,16 @@ def read_axes(
     )
 
 
-def read_anchor_types(row: Row, types: Types) -> tuple[tuple[Member, AnchorType], ...]:
-    """Kind and steel of each anchor whose type is in its sheet."""
-    return tuple(read_anchors(row, ANCHORS, types).items())
-
-
 def read_anchors(
-    row: Row, members: Sequence[AnyMember], types: Types
-) -> dict[AnyMember, AnchorType]:
+    row: Row, members: Iterable[AnyMember], types: Types
+) -> tuple[tuple[AnyMember, AnchorType], ...]:
     """Kind and steel of those anchors of a row whose type is in its sheet."""
     lines, ground = types["anchor_types"], row["ground"].word
-    named = {member: row[name_column(member)].word for member in members}
-    return {
-        member: _read_anchor(lines[name], ground)
-        for member, name in named.items()
-        if name in lines
-    }
+    named = ((member, lines.get(row[name_column(member)].word)) for member in members)
+    return tuple((member, read_anchor(line, ground)) for member, line in named if line)
 
 
-def _read_anchor(line: Row, ground: str = "") -> AnchorType:
+def read_anchor(line: Row, ground: str) -> AnchorType:
     """What an anchor is, in the ground of its type, else of its row."""
     has_tube = line["tube_diameter"].state == "given"
     section, word = _build_section(line), line["ground"].word or ground

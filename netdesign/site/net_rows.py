@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
-from netdesign.site.anchor_types import ANCHORS, read_anchor_types, read_axes
+from netdesign.site.anchor_types import ANCHORS, read_anchors, read_axes
 from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
@@ -59,17 +59,10 @@ from netdesign.structure.members import Member, NetPart
 from netdesign.words.message import Message, say
 
 _ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
-# Columns by which rows are alike, numbers within a tenth.
-_ALIKE = 0.1
+_ALIKE = 0.1  # numbers of rows that are alike differ by a tenth at most
 _OF_NET = (
     *(Member.POST, Member.UPHILL_GUY, Member.DOWNHILL_GUY),
     *(NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE),
-)
-_COMPARED = (
-    *("rows.slope_angle", "rows.snow", "net_types.net_height", "rows.post_spacing"),
-    *("rows.glide_factor", "rows.glide_factor", "net_types.net_stiffness"),
-    *("net_types.slack", "net_types.post_tilt", "net_types.guy_count"),
-    *(f"net_types.{member}" for member in _OF_NET),
 )
 
 
@@ -141,8 +134,9 @@ def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
 
     Only alike rows load each other's ends as if the nets went on.
     """
-    pairs = zip(_list_compared(one), _list_compared(other), strict=True)
-    for key, (mine, its) in zip(_COMPARED, pairs, strict=True):
+    others = _list_compared(other)
+    for key, mine in _list_compared(one).items():
+        its = others[key]
         if isinstance(mine, float) and isinstance(its, float):
             is_alike = math.isclose(mine, its, rel_tol=_ALIKE)
         else:
@@ -151,17 +145,24 @@ def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
             yield key
 
 
-def _list_compared(row: NetRow) -> tuple[float | int | str, ...]:
+def _list_compared(row: NetRow) -> dict[str, float | int | str]:
+    """Values by which rows are alike or not, by their columns."""
     layout, ground = row.layout, row.ground
-    parts = (*row.resistances, *row.net_parts)
-    types = {one.member: one.type_id for one in parts}
-    return (
-        *(row.slope_angle, row.snow_thickness, row.net_height),
-        *(layout.post_spacing, ground.kind, row.glide_factor or ground.slip_length),
-        *(row.net_stiffness_per_m, row.slack),
-        *(layout.post_tilt, row.guys.count),
-        *(types.get(member, "") for member in _OF_NET),
-    )
+    types = {one.member: one.type_id for one in (*row.resistances, *row.net_parts)}
+    is_sliding = ground.kind == "sliding"
+    glide = row.glide_factor or ground.slip_length
+    return {
+        "rows.slope_angle": row.slope_angle,
+        "rows.snow": row.snow_thickness,
+        "net_types.net_height": row.net_height,
+        "rows.post_spacing": layout.post_spacing,
+        "rows.glide_factor": glide if is_sliding else ground.kind,
+        "net_types.net_stiffness": row.net_stiffness_per_m,
+        "net_types.slack": row.slack,
+        "net_types.post_tilt": layout.post_tilt,
+        "net_types.guy_count": row.guys.count,
+        **{f"net_types.{one}": types.get(one, "") for one in _OF_NET},
+    }
 
 
 def _judge_count(count: int) -> Refusal | None:
@@ -242,7 +243,7 @@ def _compose_net_row(
         layout=_build_layout(row),
         resistances=find_resistances(row, types),
         end_resistances=find_resistances(at_end, types) if is_other else None,
-        end_anchors=read_anchor_types(at_end, types) if is_other else None,
+        end_anchors=read_anchors(at_end, ANCHORS, types) if is_other else None,
         inputs=inputs,
         post_count=row["post_count"].given_count,
         gap=math.inf if gap is None else gap,
@@ -252,7 +253,7 @@ def _compose_net_row(
         glide_factor=None if ground.kind == "free" else row["glide_factor"].known_si,
         guys=read_guys(row),
         axes=read_axes(row, ANCHORS, types),
-        anchors=read_anchor_types(row, types),
+        anchors=read_anchors(row, ANCHORS, types),
         panels=build_panels(row, types["ropes"]),
         panel_assumed=list_assumed(row, types["ropes"]),
         row_end=None if gap == 0.0 else build_row_end(at_end, types),

@@ -7,8 +7,9 @@ slides on what presses it. Here stand the dimensions that the study works it out
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple, TypeAlias
 
 from netdesign.resistance.ground import BENDING, AnchorType
 from netdesign.resistance.post import PostSection
@@ -17,9 +18,8 @@ from netdesign.resistance.steel import (
 )
 from netdesign.site.anchor_types import (
     ANCHORS,
-    AnyMember,
     name_column,
-    read_anchor_types,
+    read_anchor,
     read_anchors,
     read_axes,
 )
@@ -43,7 +43,6 @@ from netdesign.site.type_resistances import (
 from netdesign.structure.members import (
     END_ANCHORS,
     END_MODES,
-    LIFTED_MODE,
     MEMBER_MODES,
     NET_MODES,
     EndMember,
@@ -52,6 +51,8 @@ from netdesign.structure.members import (
 )
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message, say
+
+AnyMember: TypeAlias = Member | EndMember | NetPart
 
 _ENDS = ("head_eccentricity", "foot_eccentricity")  # one column says both
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
@@ -73,6 +74,60 @@ def read_guys(row: Row) -> Guys:
     )
 
 
+class _Typed(NamedTuple):
+    """Member of a row: the cell that names its type, its line, what an anchor is."""
+
+    member: AnyMember
+    cell: Reading
+    line: Row | None
+    anchor: AnchorType | None
+
+    def leave_open(
+        self,
+        mode: str,
+        dimensions: AnchorType | PostSection | float | None = None,
+        lack: Message | None = None,
+        source: str = "",
+    ) -> Resistance:
+        """Resistance of which only the dimensions are known."""
+        return Resistance(
+            member=self.member,
+            mode=mode,
+            basis="computed" if dimensions else "",
+            type_id=self.cell.word,
+            source=source or self.cell.place or "Rows",
+            dimensions=dimensions,
+            lack=lack,
+        )
+
+
+def _list_typed(
+    row: Row, members: Iterable[AnyMember], types: Types
+) -> Iterator[_Typed]:
+    """Members of a row with their types, where they have some."""
+    for member in members:
+        cell = row[name_column(member)]
+        table = cell.field.refers_to
+        line = types[table].get(cell.word)
+        anchor = None
+        if line and table == "anchor_types":
+            anchor = read_anchor(line, row["ground"].word)
+        yield _Typed(member, cell, line, anchor)
+
+
+def _resist_modes(
+    row: Row, modes: Sequence[tuple[AnyMember, str]], types: Types
+) -> Iterator[Resistance]:
+    """Resistances of members in their modes; no type or no value gives None."""
+    members = _list_typed(row, (member for member, _ in modes), types)
+    for typed, (member, mode) in zip(members, modes, strict=True):
+        if typed.line is None:
+            source = typed.cell.place or "Rows"
+            yield Resistance(member=member, mode=mode, source=source)
+        else:
+            yield _describe_type(typed.line, mode, member)
+
+
 def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     """Resistances of all members of a row in every mode, given or not.
 
@@ -83,34 +138,30 @@ def find_resistances(row: Row, types: Types) -> tuple[Resistance, ...]:
     types : mapping of str to mapping of str to Row
         Lines of types by table.
     """
-    anchors, post = dict(read_anchor_types(row, types)), row[Member.POST]
-    line = types["posts"].get(post.word)
+    of_post = (Member.POST, Member.POST_BASE, Member.POST_FOOT)
+    post, base, foot = _list_typed(row, of_post, types)
     return (
-        *(_find_resistance(row, mode, member, types) for member, mode in MEMBER_MODES),
-        *_list_beside_axis(row, ANCHORS, anchors, types),
-        _bend_post(post, line),
-        _slide(post, line),
-        _hold_foot(post, line),
+        *_resist_modes(row, MEMBER_MODES, types),
+        *_list_beside_axis(tuple(_list_typed(row, ANCHORS, types))),
+        _bend_post(post),
+        _slide(base),
+        _hold_foot(foot),
     )
 
 
-def _list_beside_axis(
-    row: Row,
-    members: Sequence[AnyMember],
-    anchors: Mapping[AnyMember, AnchorType],
-    types: Types,
-) -> Iterator[Resistance]:
+def _list_beside_axis(anchors: Sequence[_Typed]) -> Iterator[Resistance]:
     """Resistances of anchors that follow how they are pulled, and of their ground."""
-    named = {member: row[name_column(member)] for member in members}
-    bent = (_bend_anchor(named[x], x, anchors.get(x), types) for x in members)
-    yield from (one for one in bent if one is not None)
-    for member, kind in anchors.items():
-        if kind.soil:
-            yield _hold_by_ground(named[member], member, kind, types)
-    for member in members:
-        own = anchors.get(member)
+    for typed in anchors:
+        if typed.anchor is None or typed.anchor.kind != "rope anchor":  # it turns
+            yield _bend_anchor(typed)
+    for typed in anchors:
+        if typed.line and typed.anchor and typed.anchor.soil:
+            place = typed.line["soil_cohesion"].place
+            yield typed.leave_open("wedge", typed.anchor, source=place)
+    for typed in anchors:
+        own = typed.anchor
         if own is None or own.kind not in BENDING or own.across is not None:
-            yield _open(named[member], member, "direction", own)
+            yield typed.leave_open("direction", own)
 
 
 def build_row_end(at_end: Row, types: Types) -> RowEnd:
@@ -118,7 +169,7 @@ def build_row_end(at_end: Row, types: Types) -> RowEnd:
 
     ``at_end`` is its line with the types of its first and last support.
     """
-    anchors = read_anchors(at_end, END_ANCHORS, types)
+    anchors = tuple(_list_typed(at_end, END_ANCHORS, types))
     axes = dict(read_axes(at_end, END_ANCHORS, types))
     angle = at_end["end_guy_angle"].given_si
     sliding = at_end["ropes_at_supports"].word
@@ -128,10 +179,10 @@ def build_row_end(at_end: Row, types: Types) -> RowEnd:
         ropes_slide=sliding == "slide" if sliding else None,
         lateral_axis=axes.get(EndMember.LATERAL_ANCHOR),
         resistances=(
-            *(_find_resistance(at_end, mode, one, types) for one, mode in END_MODES),
-            *_list_beside_axis(at_end, END_ANCHORS, anchors, types),
+            *_resist_modes(at_end, END_MODES, types),
+            *_list_beside_axis(anchors),
         ),
-        anchors=tuple(anchors.items()),
+        anchors=read_anchors(at_end, END_ANCHORS, types),
     )
 
 
@@ -145,11 +196,8 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
         value=strength.given_si,
         basis="declared" if strength.state == "given" else "",
     )
-    return mesh, *(
-        _find_resistance(row, mode, part, types)
-        for part, mode in NET_MODES
-        if part is not NetPart.MESH
-    )
+    ropes = tuple(one for one in NET_MODES if one[0] is not NetPart.MESH)
+    return mesh, *_resist_modes(row, ropes, types)
 
 
 def list_catalogue(types: Types) -> tuple[Resistance, ...]:
@@ -158,49 +206,32 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
     Those that follow the demand have no place here: they need a member.
     """
     return tuple(
-        _describe_type(kind, mode, member, sheet)
+        _describe_type(kind, mode, member)
         for sheet, (member, modes) in _CATALOGUE.items()
         for kind in types[sheet].values()
         for mode in modes
     )
 
 
-def _find_resistance(
-    row: Row, mode: str, member: Member | EndMember | NetPart, types: Types
-) -> Resistance:
-    """Resistance of a member in one mode; no type or no value gives None."""
-    reading = row[name_column(member)]
-    if not reading.word:
-        return Resistance(member=member, mode=mode, source=reading.place or "Rows")
-    sheet = reading.field.refers_to
-    return _describe_type(types[sheet][reading.word], mode, member, sheet)
-
-
-def _describe_type(
-    kind: Row, mode: str, member: Member | EndMember | NetPart, sheet: str
-) -> Resistance:
+def _describe_type(kind: Row, mode: str, member: AnyMember) -> Resistance:
     """Resistance of a type in one mode, given or not."""
-    resistance = kind[mode]
-    is_pulled = mode == "pull_out"
+    given, is_pulled, is_anchor = kind[mode], mode == "pull_out", "ground" in kind
     tests = find_tests(kind) if is_pulled else None
-    is_given = resistance.state == "given"
-    is_derived = is_given and resistance.derivation is not None
+    is_given = given.state == "given"
     # A report counts once sheet Declared names it; other numbers are makers' values.
-    basis = "computed" if is_derived or is_pulled else "declared"
-    is_strut = is_derived and mode == "compression"
+    is_computed = is_pulled or given.derivation is not None
+    basis = ("computed" if is_computed else "declared") if is_given else ""
+    is_strut = is_given and mode == "compression" and is_computed
     value, derivation = _find_strength(kind, mode)
-    if tests:
-        value = None
     is_rope = mode == "tendon" and may_be_rope(kind)
-    place = (resistance if is_given or not tests else kind["test_least"]).place
-    is_anchor = "ground" in kind
+    place = (given if is_given or not tests else kind["test_least"]).place
     return Resistance(
         member=member,
         mode=mode,
-        value=value,
-        basis="tested" if tests else basis if is_given else "",
+        value=None if tests else value,
+        basis="tested" if tests else basis,
         type_id=kind["id"].word,
-        source=place or kind["id"].place or sheet,
+        source=place or kind["id"].place,
         derivation=derivation,
         tests=tests,
         buckling_length=kind["buckling_length"].si if is_strut else None,
@@ -241,59 +272,26 @@ def _read_wear(kind: Row, mode: str) -> Wear | None:
     )
 
 
-def _bend_anchor(
-    named: Reading, member: Member | EndMember, anchor: AnchorType | None, types: Types
-) -> Resistance | None:
-    """Resistance of an anchor to bending; None of a rope anchor, which turns."""
-    if anchor is None:
-        return _open(named, member, "bending")
-    if anchor.kind == "rope anchor":
-        return None
-    wear = _read_wear(types["anchor_types"][named.word], "bending")
-    if wear is not None and anchor.has_tube and anchor.section is not None:
-        outer, inner = anchor.section.outer, anchor.section.inner
-        wear = replace(wear, outer=outer, inner=inner)
-    return replace(_open(named, member, "bending", anchor), wear=wear)
+def _bend_anchor(typed: _Typed) -> Resistance:
+    """Resistance of an anchor to bending."""
+    bent = typed.leave_open("bending", typed.anchor)
+    if typed.line is None or typed.anchor is None:
+        return bent
+    wear, section = _read_wear(typed.line, "bending"), typed.anchor.section
+    if wear is not None and typed.anchor.has_tube and section is not None:
+        wear = replace(wear, outer=section.outer, inner=section.inner)
+    return replace(bent, wear=wear)
 
 
-def _hold_by_ground(
-    named: Reading, member: Member | EndMember, anchor: AnchorType, types: Types
-) -> Resistance:
-    """Resistance of the ground that an anchor may pull out with itself."""
-    place = types["anchor_types"][named.word]["soil_cohesion"].place
-    return _open(named, member, "wedge", anchor, source=place)
-
-
-def _open(
-    named: Reading,
-    member: Member | EndMember,
-    mode: str,
-    dimensions: AnchorType | PostSection | float | None = None,
-    lack: Message | None = None,
-    source: str = "",
-) -> Resistance:
-    """Resistance of which only the dimensions are known."""
-    return Resistance(
-        member=member,
-        mode=mode,
-        basis="computed" if dimensions else "",
-        type_id=named.word,
-        source=source or named.place or "Rows",
-        dimensions=dimensions,
-        lack=lack,
-    )
-
-
-def _bend_post(named: Reading, line: Row | None) -> Resistance:
+def _bend_post(post: _Typed) -> Resistance:
     """Resistance of a post to compression and the snow against it."""
-    mode = "compression_bending"
+    mode, line = "compression_bending", post.line
     if line is None:
-        return _open(named, Member.POST, mode)
+        return post.leave_open(mode)
     blank = [key for key in _BENT_POST if line[key].state != "given"]
     if blank:
         names = tuple(line[key].field.name for key in blank)
-        lack = say("check.bent_post_needs", names=names)
-        return _open(named, Member.POST, mode, lack=lack)
+        return post.leave_open(mode, lack=say("check.bent_post_needs", names=names))
     buckling, typed = compute_buckling(line), line["head_eccentricity"].given_si
     eccentricity = 0.5 * find_depth(line) if typed is None else typed
     section = PostSection(
@@ -307,25 +305,23 @@ def _bend_post(named: Reading, line: Row | None) -> Resistance:
         at_foot=eccentricity,
         assumed=("efficiency", *(_ENDS if typed is None else ())),
     )
-    place = line["post_width"].place
-    found = _open(named, Member.POST, mode, section, source=place)
-    return replace(found, buckling_length=section.length)
+    bent = post.leave_open(mode, section, source=line["post_width"].place)
+    return replace(bent, buckling_length=section.length)
 
 
-def _slide(named: Reading, line: Row | None) -> Resistance:
+def _slide(base: _Typed) -> Resistance:
     """Resistance of a post's base to sliding: by its friction."""
-    friction = line["base_friction"] if line else None
-    typed = friction.given_si if friction else None
-    friction_si = assume("base_friction").low if typed is None else typed
-    place = friction.place if friction and typed is not None else ""
-    return _open(named, Member.POST_BASE, "sliding", friction_si, source=place)
+    friction = base.line["base_friction"] if base.line else None
+    if friction is None or friction.state != "given":
+        return base.leave_open("sliding", assume("base_friction").low)
+    return base.leave_open("sliding", friction.si, source=friction.place)
 
 
-def _hold_foot(named: Reading, line: Row | None) -> Resistance:
+def _hold_foot(foot: _Typed) -> Resistance:
     """Resistance of a post's foot to tension, as declared; 0 is that of a loose one."""
-    held = line["foot_tension"] if line else None
+    held = foot.line["foot_tension"] if foot.line else None
     if held is None or held.state != "given":
-        return _open(named, *LIFTED_MODE, lack=say("check.no_foot_tension"))
+        return foot.leave_open("tension", lack=say("check.no_foot_tension"))
     lack = None if held.si > 0.0 else say("check.foot_loose")
-    found = _open(named, *LIFTED_MODE, lack=lack, source=held.place)
-    return replace(found, value=None if lack else held.si, basis="declared")
+    tension = foot.leave_open("tension", lack=lack, source=held.place)
+    return replace(tension, value=None if lack else held.si, basis="declared")
