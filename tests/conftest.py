@@ -34,59 +34,19 @@ import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
-from netdesign.cable.net import Net  # noqa: E402
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings  # noqa: E402
 from netdesign.coupling.solution import Solution  # noqa: E402
 from netdesign.coupling.steady.solve import solve_steady  # noqa: E402
-from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
-from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
+from netdesign.snow.ground import GroundKind  # noqa: E402
 from netdesign.snow.law import FlowLayer, FlowProblem  # noqa: E402
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes  # noqa: E402
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh  # noqa: E402
-from netdesign.snow.snowpack import GravityMode, Snowpack  # noqa: E402
 from tests.program import Ended, call_program  # noqa: E402
+from tests.scenes import build_scene  # noqa: E402
 
 # Drawn values are the same in every run, and a slow machine is no failure.
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.load_profile("fixed")
-
-ICE = 917.0  # [kg/m3]
-
-
-def _build_scene(
-    *,
-    slope_deg: float = 40.0,
-    thickness_m: float = 4.0,
-    length_m: float = 20.0,
-    relative_density: float = 0.4,
-    gravity: GravityMode = "full",
-    ground: GroundKind = "free",
-    slip_length_m: float = 0.0,
-    inclination_deg: float = 0.0,
-    height_m: float | None = None,
-    stiffness_kN_per_m: float = 2e4,
-    slack: float = 0.0,
-    friction_deg: float = 30.0,
-    creep_law: CreepLaw = BOUTILLIER_2004,
-) -> Scene:
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(slope_deg),
-            thickness=thickness_m,
-            upslope_length=length_m,
-            density=ICE * relative_density,
-            gravity=gravity,
-        ),
-        ground=GroundLaw(kind=ground, slip_length=slip_length_m),
-        net=Net(
-            height_normal=thickness_m if height_m is None else height_m,
-            inclination=math.radians(inclination_deg),
-            stiffness_per_m=1e3 * stiffness_kN_per_m,
-            slack=slack,
-            friction_angle=math.radians(friction_deg),
-        ),
-        creep_law=creep_law,
-    )
 
 
 def _build_flow_problem(
@@ -139,7 +99,7 @@ def _solve(first_level: int = 0, **scene: object) -> Solution:
         levels=FINE_LEVELS[first_level : first_level + 2],
     )
     solution = solve_steady(
-        _build_scene(**scene),  # type: ignore[arg-type]
+        build_scene(**scene),  # type: ignore[arg-type]
         settings,
         on_failure="raise",
     )
@@ -150,7 +110,7 @@ def _solve(first_level: int = 0, **scene: object) -> Solution:
 @pytest.fixture(scope="session")
 def a_scene() -> Callable[..., Scene]:
     """Scene from engineer's units: ``a_scene(inclination_deg=30)``."""
-    return _build_scene
+    return build_scene
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,6 @@
 """Solves many cases of many net rows; says what memory and file handles come to."""
 
 import json
-import math
 import os
 import sys
 import tempfile
@@ -10,14 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Outcome
-from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import Job, OwnProcess, ProcessPool
+from tests.scenes import ICE, build_scene
 
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 STEPS = 20
@@ -29,25 +26,17 @@ def build_job(number):
     """Case of a row; ranges as of the example."""
     draw = np.random.default_rng([number])
     row = np.random.default_rng([number // CASES_OF_A_ROW, 1])
-    return Job(
-        scene=Scene(
-            snowpack=Snowpack(
-                slope_angle=math.radians(38.0),
-                thickness=3.0,
-                upslope_length=float(row.uniform(6.0, 30.0)),
-                density=float(draw.uniform(270.0, 400.0)),
-            ),
-            ground=GroundLaw(kind="free"),
-            net=Net(
-                height_normal=3.0,
-                inclination=math.radians(draw.uniform(25.0, 35.0)),
-                stiffness_per_m=1e7,
-                slack=0.05,
-                friction_angle=math.radians(draw.uniform(15.0, 45.0)),
-            ),
-        ),
-        settings=COARSE,
+    scene = build_scene(
+        slope_deg=38.0,
+        thickness_m=3.0,
+        length_m=float(row.uniform(6.0, 30.0)),
+        relative_density=draw.uniform(270.0, 400.0) / ICE,
+        inclination_deg=draw.uniform(25.0, 35.0),
+        stiffness_kN_per_m=1e4,
+        slack=0.05,
+        friction_deg=draw.uniform(15.0, 45.0),
     )
+    return Job(scene=scene, settings=COARSE)
 
 
 def list_processes():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-SOAK = Path(__file__).with_name("soak.py")
+ROOT = Path(__file__).parents[2]
 IN_THE_SUITE, ALL = 200, 20_000
 GROWTH = 1.05  # largest, from the middle to the end
 
@@ -15,8 +15,10 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="need
 
 
 def soak(cases, processes):
-    command = [sys.executable, SOAK, str(cases), str(processes)]
-    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "tests.faults.soak", str(cases), str(processes)]
+    ended = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=False
+    )
     assert ended.returncode == 0, ended.stderr
     lines = [json.loads(line) for line in ended.stdout.splitlines()]
     assert lines[-1]["cases"] == cases

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.verification.panels import solve_net_in_space
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.panel.equations import estimate_force_along
@@ -18,12 +17,11 @@ from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.row_end import compute_end_forces
 from netdesign.panel.solve import STATIONS, PanelSolution, solve_panel
 from netdesign.panel.strips import ROPE_POINTS, build_stations, take_strip
-from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
 from tests.each import each
 from tests.panel.one_rope import find_force_along
+from tests.scenes import ICE, build_scene
 
 FACTS = (Path(__file__).parent / "FACTS.md").read_text(encoding="utf-8")
 SECTION = FACTS.partition("## 13 ")[2]
@@ -53,26 +51,14 @@ def solve_section(number: int) -> Solution:
     psi, height, ground, slack, density, _ = GIVEN[number]
     thickness = float(height)
     slip = re.match(r"D\* (\S+) d", ground)
-    law = (
-        GroundLaw(kind="sliding", slip_length=float(slip[1]) * thickness)
-        if slip
-        else GroundLaw(kind=ground)
-    )
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(float(psi)),
-            thickness=thickness,
-            upslope_length=20.0,
-            density=float(density),
-        ),
-        ground=law,
-        net=Net(
-            height_normal=thickness,
-            inclination=math.radians(30),
-            stiffness_per_m=2e7,
-            slack=float(slack),
-            friction_angle=math.radians(30),
-        ),
+    scene = build_scene(
+        slope_deg=float(psi),
+        thickness_m=thickness,
+        relative_density=float(density) / ICE,
+        ground="sliding" if slip else ground,
+        slip_length_m=float(slip[1]) * thickness if slip else 0.0,
+        inclination_deg=30.0,
+        slack=float(slack),
     )
     solution = solve_steady(scene, SolverSettings(accuracy=1e-3))
     assert isinstance(solution, Solution)
@@ -143,16 +129,6 @@ def test_scenes_of_the_prototype(number, cut):
         lower.mid_displacement[1],
     ]
     assert got == [as_printed(one) for one in expected]
-
-
-@each("number", SCENES)
-def test_plain_scenes_are_those_of_the_prototype(number):
-    """Otherwise the panels would be compared on other sections."""
-    section = solve_section(number)
-    foot, head, *_ = FORCES[number, "plain"]
-    width = spacing(number)
-    assert same_force((section.foot.x * width, section.foot.y * width), foot)
-    assert same_force((section.head.x * width, section.head.y * width), head)
 
 
 @pytest.mark.parametrize("number", ENDS)

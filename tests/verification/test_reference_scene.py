@@ -1,12 +1,12 @@
 """The paper's scene, with psi = 40 deg and ES = 20 MN/m, against another code."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
@@ -76,7 +76,7 @@ LAYERED = {
 
 
 @pytest.mark.parametrize("ground", LAYERED)
-def test_layered_scenes(ground):
+def test_layered_scenes(a_scene, ground):
     """Interfaces level up to the net as it hangs; the lowest layer slips."""
     law, foot, head, tolerance = LAYERED[ground]
     pack = build_layered_snowpack(
@@ -84,22 +84,15 @@ def test_layered_scenes(ground):
         slope_angle=math.radians(38.0),
         upslope_length=20.0,
     )
-    net = Net(
-        height_normal=3.0,
-        inclination=math.radians(30.0),
-        stiffness_per_m=2e7,
-        slack=0.03,
-        friction_angle=math.radians(30.0),
-    )
+    plain = a_scene(thickness_m=3.0, inclination_deg=30.0, slack=0.03)
+    scene = replace(plain, snowpack=pack, ground=law)
     settings = SolverSettings(
         accuracy=0.1,
         stress_tolerance=1e-8,
         shape_tolerance=1e-7,
         levels=MESH_LEVELS[1:3],
     )
-    found = solve_steady(
-        Scene(snowpack=pack, ground=law, net=net), settings, on_failure="raise"
-    )
+    found = solve_steady(scene, settings, on_failure="raise")
     assert found.foot.size == pytest.approx(1e3 * foot, rel=tolerance)
     if head is not None:
         assert found.head.size == pytest.approx(1e3 * head, rel=tolerance)

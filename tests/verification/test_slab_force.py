@@ -15,12 +15,12 @@ from netdesign.addons.evidence.verification.exact_solutions import (
     compute_slab_force,
     scale_slip_length,
 )
-from netdesign.addons.evidence.verification.rigid import Wall, solve_rigid
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
+from netdesign.coupling.scene import SolverSettings
 from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import GRAVITY, Snowpack
+from netdesign.snow.snowpack import GRAVITY
+from tests.scenes import ICE
 
 PAGE = (
     Path(netdesign.addons.evidence.verification.__file__)
@@ -103,22 +103,17 @@ def test_what_is_out_of_range_is_refused():
         compute_slab_force(SLAB, slip_length=-0.1)
 
 
-def solve_in_two_dimensions(slip_ratio, aspect, friction_angle):
+def solve_in_two_dimensions(a_scene, slip_ratio, aspect, friction_angle):
     """Force on a wall over rho g d^2 by finite elements with n = 1."""
-    ground = GroundLaw(kind="no-slip")
-    if slip_ratio:
-        ground = GroundLaw(kind="sliding", slip_length=slip_ratio * 3.0)
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(40.0),
-            thickness=3.0,
-            upslope_length=aspect * 3.0,
-            density=300.0,
-        ),
-        ground=ground,
-        net=Wall(height_normal=3.0, friction_angle=friction_angle),
+    scene = a_scene(
+        thickness_m=3.0,
+        length_m=aspect * 3.0,
+        relative_density=300.0 / ICE,
+        ground="sliding" if slip_ratio else "no-slip",
+        slip_length_m=slip_ratio * 3.0,
         creep_law=replace(BOUTILLIER_2004, exponent=1.0),
     )
+    scene = put_wall(scene, Wall(height_normal=3.0, friction_angle=friction_angle))
     solution = solve_rigid(scene, SolverSettings(accuracy=0.01))
     return solution.force.x / (300.0 * GRAVITY * 9.0)
 
@@ -127,14 +122,14 @@ def solve_in_two_dimensions(slip_ratio, aspect, friction_angle):
     ("row", "column", "friction_angle"),
     [(0, 3, 0.0), (1, 4, None), (2, 3, 0.0), (5, 3, 0.0), (8, 4, None)],
 )
-def test_page_holds_what_two_dimensions_give(row, column, friction_angle):
+def test_page_holds_what_two_dimensions_give(a_scene, row, column, friction_angle):
     texts = read_table("D* / d")[row]
     slip, aspect, closed = (float(texts[i]) for i in range(3))
     slab = Slab(thickness=3.0, slope_angle=math.radians(40.0), density=300.0)
     force = compute_slab_force(slab, slip_length=3.0 * slip, upslope_length=3 * aspect)
     scaled = force.total / (300.0 * GRAVITY * 9.0)
     assert scaled == pytest.approx(closed, abs=6e-4)
-    flow = solve_in_two_dimensions(slip, aspect, friction_angle)
+    flow = solve_in_two_dimensions(a_scene, slip, aspect, friction_angle)
     assert scaled / flow == pytest.approx(float(texts[column]), abs=2e-3)
 
 

@@ -17,11 +17,25 @@ from tests.addons.winter.made_up_row import SLOPE, a_scene, a_solver, slides
 HIGHEST = 2.90  # [m], of this winter
 
 
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
 def day_of(season_day):
     return date(2020, 11, 1) + timedelta(days=season_day.index)
 
 
-def assert_season(ground, foot, head, at_highest, density):
+@pytest.mark.parametrize(
+    ("ground", "foot", "head", "at_highest", "density"),
+    [
+        (GroundLaw(kind="no-slip"), 18.2, 16.5, 14.9, 263.0),
+        slow(slides(1.2, HIGHEST), 21.1, 18.1, 17.4, 269.0),
+        slow(slides(2.4, HIGHEST), 36.5, 27.1, 30.1, 273.0),
+        slow(GroundLaw(), 126.9, 81.6, 123.1, 305.0),
+    ],
+    ids=["no slip", "N 1.2", "N 2.4", "free"],
+)
+def test_made_up_winter(ground, foot, head, at_highest, density):
     """Peaks within 3 %; of the largest height up to 9 % above, by its layers."""
     season = solve_winter(ground)
     governing = season.governing
@@ -33,24 +47,6 @@ def assert_season(ground, foot, head, at_highest, density):
     assert season.equivalent_density == pytest.approx(density, rel=0.03)
     assert season.maximum.is_proven
     assert season.maximum.foot >= 0.99 * governing.foot.value
-
-
-def test_winter_without_slip():
-    assert_season(GroundLaw(kind="no-slip"), 18.2, 16.5, 14.9, 263.0)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("ground", "foot", "head", "at_highest", "density"),
-    [
-        (slides(1.2, HIGHEST), 21.1, 18.1, 17.4, 269.0),
-        (slides(2.4, HIGHEST), 36.5, 27.1, 30.1, 273.0),
-        (GroundLaw(), 126.9, 81.6, 123.1, 305.0),
-    ],
-    ids=["N 1.2", "N 2.4", "free"],
-)
-def test_winter_on_ground_that_slips(ground, foot, head, at_highest, density):
-    assert_season(ground, foot, head, at_highest, density)
 
 
 def test_four_layers_pull_as_eight():

@@ -107,29 +107,6 @@ def test_one_increment_differs_from_the_exact_step_at_second_order():
     np.testing.assert_allclose(orders, 2.0, atol=0.02)
 
 
-def end_tensions(count: int):
-    """Tensions at time 1 after ``count`` steps: increments, and exact sliding."""
-    state = initial_state()
-    lengths = state.unstressed_lengths
-    exact = None
-    for time in np.linspace(0.0, 1.0, count + 1)[1:]:
-        step = advance(state, net_points(time))
-        state = step
-        exact = slide(net_points(time), lengths)
-        lengths = exact.lengths
-    return state.tensions, exact.tensions
-
-
-def test_many_increments_tend_to_exact_sliding_at_first_order():
-    errors = []
-    for count in (20, 40, 80, 160):
-        increments, exact = end_tensions(count)
-        errors.append(np.abs(increments / exact - 1.0).max())
-    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    assert errors[-1] < 2e-4
-    np.testing.assert_allclose(orders, 1.0, atol=0.02)
-
-
 def trace(way):
     """Points of a net by its complex steps."""
     places = np.cumsum(np.append(0.0, way))

@@ -25,15 +25,6 @@ def sizes(moments, end):
     return np.array([np.hypot(*getattr(moment, end)) for moment in moments])
 
 
-@each("start", ["straight", "sagged"])
-@each("friction_deg", [0.0, 5.0, 30.0])
-def test_every_step_is_in_balance(a_scene, start, friction_deg):
-    scene = a_scene(inclination_deg=20.0, friction_deg=friction_deg)
-    history = run(scene, start=start)
-    assert len(history.moments) > 5
-    assert max(moment.residual for moment in history.moments) < 1e-8
-
-
 @pytest.mark.parametrize("densifies", [False, True])
 def test_mass_is_kept(a_scene, densifies):
     """What crosses the net's line while its nodes are spread anew is counted."""
@@ -51,10 +42,8 @@ def test_mass_is_kept(a_scene, densifies):
 
 @each("inclination_deg", [0.0, 30.0])
 @each("friction_deg", [15.0, 30.0, 45.0])
-def test_the_papers_history_takes_few_steps_and_is_smooth(
-    a_scene, inclination_deg, friction_deg
-):
-    """Straight start to the plateau: no step fails, none takes back the one before."""
+def test_the_papers_history_takes_few_steps(a_scene, inclination_deg, friction_deg):
+    """Straight start to the plateau; balance and smoothness are cases history-*."""
     scene = a_scene(inclination_deg=inclination_deg, friction_deg=friction_deg)
     settings = TransientSettings(start="straight", stops_at_plateau=True)
     history = run_history(scene, TRANSIENT_LEVELS[1], settings, 5.0)
@@ -62,11 +51,6 @@ def test_the_papers_history_takes_few_steps_and_is_smooth(
     assert history.rejected == 0
     assert len(history.moments) <= 45
     assert history.linear_solves <= 4.5 * len(history.moments)
-    later = [moment for moment in history.moments if moment.time > 1e-4]
-    for end in ("foot", "head"):
-        change = np.diff(np.log(sizes(later, end)))
-        back = np.where(change[1:] * change[:-1] < 0.0, np.abs(change[1:]), 0.0)
-        assert np.minimum(back, np.abs(change[:-1])).max() < 5e-3
 
 
 @pytest.mark.long

@@ -9,42 +9,30 @@ import numpy as np
 
 from netdesign.addons.winter.day import DaySolver, WinterRow
 from netdesign.addons.winter.settling import DayPack
-from netdesign.cable.net import Net
 from netdesign.checks.result import Band
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import SolverSettings
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.snowpack import Snowpack
+from tests.scenes import ICE, build_scene
 
-SLOPE = math.radians(40.0)
+SLOPE_DEG = 40.0
+SLOPE = math.radians(SLOPE_DEG)
 
 
-def a_scene(ground=None, net_height=3.0, **changes):
+def a_scene(ground=None, net_height=3.0, density=300.0, thickness=None, **changes):
     """Scene of the figures of winters; slack, stiffness and angles may be others."""
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=SLOPE,
-            thickness=net_height,
-            upslope_length=20.0,
-            density=300.0,
-        ),
-        ground=ground or GroundLaw(kind="no-slip"),
-        net=Net(
-            height_normal=net_height,
-            inclination=math.radians(changes.pop("inclination_deg", 30.0)),
-            stiffness_per_m=2e7,
-            slack=changes.pop("slack", 0.03),
-            friction_angle=math.radians(30.0),
-        ),
-        **changes,
+    scene = build_scene(
+        slope_deg=SLOPE_DEG,
+        thickness_m=net_height if thickness is None else thickness,
+        height_m=net_height,
+        relative_density=density / ICE,
+        **{"inclination_deg": 30.0, "slack": 0.03} | changes,
     )
+    return replace(scene, ground=ground or GroundLaw(kind="no-slip"))
 
 
 def loaded(density, thickness, ground):
     """Scene under uniform snow."""
-    snow = Snowpack(
-        slope_angle=SLOPE, thickness=thickness, upslope_length=20.0, density=density
-    )
-    return replace(a_scene(ground), snowpack=snow)
+    return a_scene(ground, density=density, thickness=thickness)
 
 
 def a_solver(ground=None, accuracy=0.01, factor=1.0, layout=None, **changes):

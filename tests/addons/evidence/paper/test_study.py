@@ -103,16 +103,14 @@ def picture(density):
     return "one", Shape(nodes=nodes, triangles=triangles, density=density, curve=curve)
 
 
-def test_density_scale_spans_the_densities():
-    shown = texts(draw_meshes([picture([300.0, 500.0])]))
-    assert {"300", "400", "500", "density [kg/m³]"} <= set(shown)
-
-
-def test_uniform_snow_needs_no_scale():
-    shown = texts(draw_meshes([picture([300.0, 300.0])]))
-    assert "density 300 kg/m³ throughout" in shown
-
-
-def test_drawings_hold_no_pictures_that_could_be_blocked():
-    svg = draw_meshes([picture([300.0, 500.0])])
-    assert not re.search(r"<image|base64|<script", svg)
+@pytest.mark.parametrize(
+    ("densities", "shown"),
+    [
+        ((300.0, 500.0), {"300", "400", "500", "density [kg/m³]"}),
+        ((300.0, 300.0), {"density 300 kg/m³ throughout"}),
+    ],
+)
+def test_density_scale_spans_the_densities(densities, shown):
+    svg = draw_meshes([picture(densities)])
+    assert shown <= set(texts(svg))
+    assert not re.search(r"<image|base64|<script", svg)  # which could be blocked

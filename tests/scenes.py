@@ -1,0 +1,50 @@
+"""Scenes of snow and net in an engineer's units."""
+
+import math
+
+from netdesign.cable.net import Net
+from netdesign.coupling.scene import Scene
+from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
+from netdesign.snow.ground import GroundKind, GroundLaw
+from netdesign.snow.snowpack import GravityMode, Snowpack
+
+ICE = 917.0  # [kg/m3]
+
+
+def build_scene(
+    *,
+    slope_deg: float = 40.0,
+    thickness_m: float = 4.0,
+    length_m: float = 20.0,
+    relative_density: float = 0.4,
+    gravity: GravityMode = "full",
+    ground: GroundKind = "free",
+    slip_length_m: float = 0.0,
+    inclination_deg: float = 0.0,
+    height_m: float | None = None,
+    stiffness_kN_per_m: float = 2e4,
+    slack: float = 0.0,
+    friction_deg: float = 30.0,
+    creep_law: CreepLaw = BOUTILLIER_2004,
+    **more: object,
+) -> Scene:
+    """Scene in an engineer's units; by default the paper's reference scene."""
+    return Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(slope_deg),
+            thickness=thickness_m,
+            upslope_length=length_m,
+            density=ICE * relative_density,
+            gravity=gravity,
+        ),
+        ground=GroundLaw(kind=ground, slip_length=slip_length_m),
+        net=Net(
+            height_normal=thickness_m if height_m is None else height_m,
+            inclination=math.radians(inclination_deg),
+            stiffness_per_m=1e3 * stiffness_kN_per_m,
+            slack=slack,
+            friction_angle=math.radians(friction_deg),
+        ),
+        creep_law=creep_law,
+        **more,  # type: ignore[arg-type]
+    )
