@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import xlsxwriter
+from pandas import DataFrame
 from xlsxwriter.utility import xl_col_to_name
 
 from netdesign.site.columns.all_tables import MONITORING, UNCERTAINTY, WINTER
@@ -21,6 +22,7 @@ from netdesign.site.columns.office import (
     load_text,
     name_measure,
 )
+from netdesign.site.reader import read_frames
 from netdesign.words.catalogue import render
 
 MEASURES = {
@@ -102,9 +104,29 @@ def write_site(path, tables, language="en", measures=None):
     return write_sheets(path, lay_out(tables, language, measures))
 
 
+def read_tables(tables, measures=None):
+    """Site of these tables, without a file in between: a third of the time."""
+    said, frames = MEASURES | (measures or {}), {}
+    for table, lines in tables.items():
+        columns = {one.field.key: one for one in load_columns(table)}
+        headings = {key: key for key in columns}
+        for key in (one for one in columns if columns[one].choice):
+            field, choice = columns[key].field, columns[key].choice
+            measure = name_measure(choice, said[table, key], "en")
+            headings[key] = f"{field.label} [{measure}]"
+        frames[table] = DataFrame(
+            [
+                {headings[k]: _say(columns[k].field, x, "en") for k, x in one.items()}
+                for one in lines
+            ],
+            dtype=object,
+        )
+    return read_frames(frames)
+
+
 def write_sheets(path, sheets):
     """Workbook of sheets by name, each a list of lines."""
-    book = xlsxwriter.Workbook(str(path))
+    book = xlsxwriter.Workbook(str(path), {"in_memory": True})
     for name, lines in sheets.items():
         sheet = book.add_worksheet(name)
         for row, line in enumerate(lines):

@@ -10,7 +10,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
-from tests.make import find_cell, load_tables, write_site
+from tests.make import find_cell, load_tables, read_tables, write_site
 
 
 def tiny():
@@ -18,14 +18,9 @@ def tiny():
     return load_tables("tiny")
 
 
-def read(path, tables, language="en"):
-    write_site(path / "site.xlsx", tables, language)
-    return read_site(path / "site.xlsx")
-
-
 def refuse(path, tables):
     with pytest.raises(SiteDataError) as caught:
-        read(path, tables)
+        read_site(write_site(path / "site.xlsx", tables))
     return [one for one in caught.value.findings if one.severity == "error"]
 
 
@@ -56,9 +51,9 @@ ROPE = ("tendon", "rope")  # factors of a tendon that may be a rope
         ("GEWI 32", None, 1.0, ()),  # a bar by its name
     ],
 )
-def test_tendon_by_the_kind_of_anchor(tmp_path, name, kind, share, factors):
+def test_tendon_by_the_kind_of_anchor(name, kind, share, factors):
     tables = name_anchor(tiny(), name, tendon=431, kind=kind)
-    found = find(read(tmp_path, tables), "foot_anchor", "tendon")
+    found = find(read_tables(tables), "foot_anchor", "tendon")
     assert found.value == pytest.approx(share * 431e3, rel=1e-12)
     assert found.factored_as == factors
     assert (found.derivation is None) is (not factors)
@@ -74,10 +69,10 @@ def test_tendon_by_the_kind_of_anchor(tmp_path, name, kind, share, factors):
     ],
 )
 def test_section_and_steel_of_a_bar_follow_from_its_name(
-    tmp_path, name, kind, tendon, outer, inner
+    name, kind, tendon, outer, inner
 ):
     """By hand, pi/4 d^2 f [N]; a hollow bar by its maker's yield force."""
-    site = read(tmp_path, name_anchor(tiny(), name, kind=kind, lever_arm=10))
+    site = read_tables(name_anchor(tiny(), name, kind=kind, lever_arm=10))
     steel = find(site, "foot_anchor", "tendon")
     bent = find(site, "foot_anchor", "bending").dimensions
     if tendon is None:
@@ -89,56 +84,56 @@ def test_section_and_steel_of_a_bar_follow_from_its_name(
 
 
 @each("seed", range(5))
-def test_the_steel_of_a_bar_is_that_of_its_force_and_diameter(tmp_path, seed):
+def test_the_steel_of_a_bar_is_that_of_its_force_and_diameter(seed):
     draw = random.Random(seed)
     diameter, strength = draw.uniform(22, 50), draw.uniform(420, 900)
     force = math.pi / 4 * diameter**2 * strength / 1e3
     cells = {"kind": "bar", "tendon": force, "bar_diameter": diameter}
-    site = read(tmp_path, name_anchor(tiny(), "own bar", **cells))
+    site = read_tables(name_anchor(tiny(), "own bar", **cells))
     section = find(site, "foot_anchor", "bending").dimensions.section
     assert 1e3 * section.outer == pytest.approx(diameter, rel=1e-9)
     assert section.strength == pytest.approx(1e6 * strength, rel=1e-9)
 
 
-def test_a_type_without_a_ground_stands_in_that_of_every_row(tmp_path):
+def test_a_type_without_a_ground_stands_in_that_of_every_row():
     """Once its bond was worked out for the row's ground, and its id was unknown."""
     cells = {"kind": "bar", "tendon": 400, "drill_diameter": 90, "bond_length": 4}
-    site = read(tmp_path, name_anchor(tiny(), "A1", **cells))
+    site = read_tables(name_anchor(tiny(), "A1", **cells))
     found = find(site, "foot_anchor", "pull_out")
     assert (found.type_id, found.value, found.basis) == ("A1", None, "")
 
 
-def test_compression_of_a_post_by_hand(tmp_path):
+def test_compression_of_a_post_by_hand():
     """EN 1993-1-1, curve c: of 34 cm2, 318 cm4, 3 m and S235 411.1 kN."""
     tables = tiny()
     tables["posts"][0] |= {
         **{"area": 34, "second_moment": 318, "buckling_length": 3.0},
         **{"yield_strength": 235, "buckling_curve": "c"},
     }
-    post = find(read(tmp_path, tables), "post", "compression")
+    post = find(read_tables(tables), "post", "compression")
     assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
     assert "courbe c" in render(post.derivation, "fr")
     assert "Knicklinie c" in render(post.derivation, "de")
     del tables["posts"][0]["area"]
-    assert find(read(tmp_path, tables), "post", "compression").value is None
+    assert find(read_tables(tables), "post", "compression").value is None
 
 
 @each("name", ["HEB 120", "HEA 160"])
-def test_the_section_of_a_post_follows_from_its_name(tmp_path, name):
+def test_the_section_of_a_post_follows_from_its_name(name):
     tables = tiny()
     tables["posts"] = [{"id": name, "yield_strength": 235}]
     tables["net_types"][0]["post"] = name
-    post = find(read(tmp_path, tables), "post", "compression")
+    post = find(read_tables(tables), "post", "compression")
     assert post.value > 0.0
     assert "second moment" not in str(post.lack)
     assert post.buckling_length == pytest.approx(1.5 / math.cos(math.radians(15)) + 0.3)
 
 
 @each("end, loss", [("swaged", 0.9), ("spelter", 1.0), (None, 0.75), ("included", 1.0)])
-def test_the_ends_of_a_rope_take_their_share(tmp_path, end, loss):
+def test_the_ends_of_a_rope_take_their_share(end, loss):
     tables = tiny()
     tables["ropes"][0] |= {"termination": end}
-    found = find(read(tmp_path, tables), "uphill_guy", "rope")
+    found = find(read_tables(tables), "uphill_guy", "rope")
     assert found.value == pytest.approx(loss * 1400e3, rel=1e-9)
 
 
@@ -196,18 +191,19 @@ def test_tests_count_for_their_type_in_their_ground(tmp_path, language):
     for ground, listed in forces.items():
         tables = with_tests(tests)
         tables["rows"][0]["ground"] = ground
-        found = find(read(tmp_path, tables, language), "foot_anchor", "pull_out")
+        path = write_site(tmp_path / "site.xlsx", tables, language)
+        found = find(read_site(path), "foot_anchor", "pull_out")
         assert (found.ground, found.tests.count) == (ground, 4)
         assert found.tests.least == pytest.approx(1e3 * min(listed))
         assert found.tests.mean == pytest.approx(1e3 * fmean(listed))
 
 
-def test_they_are_what_the_same_numbers_on_sheet_anchors_are(tmp_path):
+def test_they_are_what_the_same_numbers_on_sheet_anchors_are():
     tests = [{"type": "A1", "ground": "till", "force": x} for x in (210.0, 260.0)]
-    counted = find(read(tmp_path, with_tests(tests, ground="till")), *PULLED).tests
+    counted = find(read_tables(with_tests(tests, ground="till")), *PULLED).tests
     typed = {"pull_out": 210, "proven": "tests", "test_count": 2, "test_mean": 235}
     tables = name_anchor(tiny(), "A1", tendon=900, ground="till", **typed)
-    known = find(read(tmp_path, tables), *PULLED).tests
+    known = find(read_tables(tables), *PULLED).tests
     sums = ("count", "least", "mean")
     assert [getattr(counted, x) for x in sums] == [getattr(known, x) for x in sums]
 
@@ -242,7 +238,7 @@ def test_single_tests_beside_a_number_of_the_type_are_refused(tmp_path, seed):
     tests = draw_tests(draw, draw.choice((2, 3, 5)))
     forces = [one["force"] for one in tests]
     alone = with_tests(tests, ground="till")
-    assert find(read(tmp_path, alone), *PULLED).tests.least == 1e3 * min(forces)
+    assert find(read_tables(alone), *PULLED).tests.least == 1e3 * min(forces)
     typed = {"test_count": len(forces), "test_mean": 200.5, "pull_out": min(forces)}
     keys = draw.sample(sorted(typed), draw.randint(1, 3))
     typed = {key: typed[key] for key in keys}
@@ -253,22 +249,22 @@ def test_single_tests_beside_a_number_of_the_type_are_refused(tmp_path, seed):
 
 @each("seed", range(6))
 def test_a_list_of_tests_that_stands_twice_is_asked_about(tmp_path, seed):
-    draw = random.Random(seed)
+    path, draw = tmp_path / "site.xlsx", random.Random(seed)
     tests = draw_tests(draw, draw.choice((1, 3, 4)))
     pasted = [*tests, *map(dict, tests)]
-    site = read(tmp_path, with_tests(pasted, ground="till"))
+    site = read_site(write_site(path, with_tests(pasted, ground="till")))
     again = [one for one in map(str, site.questions) if "again" in one]
     assert len(again) == len(tests)
     assert all(row.questions for row in site.rows)
     told = [one | {"displacement": 10.0 + k} for k, one in enumerate(pasted)]
-    site = read(tmp_path, with_tests(told, ground="till"))
+    site = read_site(write_site(path, with_tests(told, ground="till")))
     assert not any("again" in one for one in map(str, site.questions))
 
 
 # Links, and ropes between the posts
 
 
-def test_links_of_a_type_make_its_chain_in_their_order(tmp_path):
+def test_links_of_a_type_make_its_chain_in_their_order():
     tables = tiny()
     tables["links"] = [
         {"type": "G1", "link": "thimble", "force": 213.5, "meaning": "strength"},
@@ -290,7 +286,7 @@ def test_links_of_a_type_make_its_chain_in_their_order(tmp_path):
     ]
     tables["links"][2]["count"] = 2
     tables["links"][3] |= {"angle": 12, "chain": "complete"}
-    site = read(tmp_path, tables)
+    site = read_tables(tables)
     assert [link.is_of_whole for link in site.links["A1"]] == [False, True]
     assert not any(link.is_of_whole for link in site.links["G1"])
     thimble, shackle = site.links["G1"]
@@ -317,7 +313,7 @@ def test_a_link_that_is_none_is_one_finding(tmp_path, link):
     assert finding.sheet == "Parts"
 
 
-def test_the_panel_of_a_row_in_si(tmp_path):
+def test_the_panel_of_a_row_in_si():
     tables = tiny()
     tables["ropes"].append({"id": "B2", "rope": 241, "axial_stiffness": 18700})
     net = tables["net_types"][0]
@@ -327,7 +323,7 @@ def test_the_panel_of_a_row_in_si(tmp_path):
         "lower_sag": 14.1,
         "mid_anchors": "yes",
     }
-    (row,) = read(tmp_path, tables).rows
+    (row,) = read_tables(tables).rows
     for panel in row.panels:
         assert panel.post_spacing == row.layout.post_spacing
         assert (panel.upper.stiffness, panel.lower.stiffness) == (60e6, 18.7e6)
@@ -335,12 +331,12 @@ def test_the_panel_of_a_row_in_si(tmp_path):
         assert panel.lower.sag == pytest.approx(0.141, rel=1e-12)
         assert panel.has_mid_anchors
     del tables["ropes"][-1]["axial_stiffness"]
-    (row,) = read(tmp_path, tables).rows
+    (row,) = read_tables(tables).rows
     assert len({one.lower.stiffness for one in row.panels}) > 1
     assert any("of rope B2" in render(one, "en") for one in row.panel_assumed)
     for key in ("ridge_rope", "lower_rope", "ridge_sag", "lower_sag"):
         del net[key]
-    (row,) = read(tmp_path, tables).rows
+    (row,) = read_tables(tables).rows
     for side in ("lower", "upper"):
         ropes = [getattr(one, side) for one in row.panels]
         sags, known = {one.sag for one in ropes}, {one.stiffness for one in ropes}
@@ -378,11 +374,11 @@ EMPTIED = {
 
 
 @each("key", EMPTIED)
-def test_what_is_emptied_is_listed_and_nothing_else(tmp_path, key):
+def test_what_is_emptied_is_listed_and_nothing_else(key):
     tables = tiny()
-    whole = {one.key for row in read(tmp_path, tables).rows for one in row.assumed}
+    whole = {one.key for row in read_tables(tables).rows for one in row.assumed}
     table, column = EMPTIED[key]
     tables[table][0].pop(column)
-    less = {one.key for row in read(tmp_path, tables).rows for one in row.assumed}
+    less = {one.key for row in read_tables(tables).rows for one in row.assumed}
     beside = {"lever_arm"} if key == "anchor_kind" else set()
     assert less - whole == {key} | beside

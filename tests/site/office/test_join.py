@@ -12,7 +12,7 @@ from netdesign.site.office.rows import join_rows
 from netdesign.site.reader import read_site
 from netdesign.site.readings import read_nothing
 from tests.each import each
-from tests.make import find_cell, lay_out, write_sheets, write_site
+from tests.make import find_cell, lay_out, read_tables, write_sheets, write_site
 from tests.site.office.drawn import draw_tables
 
 LANGUAGES = ("en", "fr", "de")
@@ -132,23 +132,18 @@ def test_a_fault_names_its_cell(tmp_path, table, key, text):
 
 
 @each("seed", range(5))
-def test_an_id_is_known_whatever_its_case(tmp_path, seed):
+def test_an_id_is_known_whatever_its_case(seed):
     tables = draw_tables(seed)
-    plain = write_and_read(tmp_path / "plain.xlsx", tables)
+    plain = read_tables(tables)
     for line in tables["rows"]:
         for key in ("net_type", "foot_anchor", "end_anchor"):
             line[key] = line[key].lower().replace(" ", "  ")
     for net in tables["net_types"]:
         net["ridge_rope"] = net["ridge_rope"].lower()
-    other = write_and_read(tmp_path / "other.xlsx", tables)
+    other = read_tables(tables)
     assert [list_types(row) for row in plain.rows] == [
         list_types(row) for row in other.rows
     ]
-
-
-def write_and_read(path, tables, **more):
-    write_site(path, tables, **more)
-    return read_site(path)
 
 
 def list_types(row):
@@ -164,14 +159,14 @@ def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
     assert {one.cell[:1] for one in refused.value.findings} == {"ABCDEF"[column]}
 
 
-def test_nets_that_go_on_at_both_ends_have_no_end(tmp_path):
+def test_nets_that_go_on_at_both_ends_have_no_end():
     tables = draw_tables(5, rows=4)
     first = tables["rows"][0]
     for line in tables["rows"]:  # alike, so that the nets are one
         line |= {key: first[key] for key in first if key not in ("id", "gap")}
     for line, gap in zip(tables["rows"], ("into a2", "into A3", 1.5, 2.0), strict=True):
         line["gap"] = gap
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     assert [row.gap for row in site.rows] == [math.inf, 0.0, 1.5, 2.0]
     assert [row.row_end is None for row in site.rows] == [False, True, False, False]
 
@@ -180,19 +175,19 @@ def test_nets_that_go_on_at_both_ends_have_no_end(tmp_path):
 def test_snow_may_glide_freely(tmp_path, language, word):
     tables = draw_tables(4)
     tables["rows"][1]["glide_factor"] = word
-    site = write_and_read(tmp_path / "site.xlsx", tables, language=language)
+    site = read_site(write_site(tmp_path / "site.xlsx", tables, language))
     kinds = [row.ground.kind for row in site.rows]
     assert kinds == ["sliding", "free", "sliding", "sliding"]
 
 
-def test_other_types_may_stand_at_the_ends(tmp_path):
+def test_other_types_may_stand_at_the_ends():
     tables = draw_tables(6)
     inside, other = (one["id"] for one in tables["anchor_types"][:2])
     for line in tables["rows"]:
         line["foot_anchor"] = inside
     tables["anchor_types"][0]["at_end"] = other.lower()
     tables["ropes"][0]["at_end"] = "S 24"
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     for row in site.rows:
         at_end = {one.member: one.type_id for one in row.resistances_at("edge")}
         assert at_end["foot_anchor"] == other
@@ -200,7 +195,7 @@ def test_other_types_may_stand_at_the_ends(tmp_path):
         assert at_end["post"] == "HEA 160"
 
 
-def test_the_line_of_the_row_s_ground_counts(tmp_path):
+def test_the_line_of_the_row_s_ground_counts():
     tables = draw_tables(7)
     of_scree = {"ground": "scree", "pull_out": 77, "test_count": 1, "test_mean": 80}
     tables["anchor_types"] += [one | of_scree for one in tables["anchor_types"]]
@@ -208,7 +203,7 @@ def test_the_line_of_the_row_s_ground_counts(tmp_path):
     for number, line in enumerate(tables["rows"]):
         line["foot_anchor"] = scree["id"]
         line["ground"] = ("till", "scree")[number % 2]
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     found = [find_tests(row).least for row in site.rows]
     till = 1e3 * tables["anchor_types"][0]["pull_out"]
     assert found == [till, 77e3] * 2
@@ -226,7 +221,7 @@ WAYS = [("report", "computed"), ("calculated", "computed"), (None, "computed")]
 
 
 @each("proven, basis", WAYS)
-def test_a_pull_out_force_is_known_in_one_way(tmp_path, proven, basis):
+def test_a_pull_out_force_is_known_in_one_way(proven, basis):
     tables = draw_tables(8)
     anchor = tables["anchor_types"][0]
     for key in ("test_count", "test_mean", "proven"):
@@ -235,7 +230,7 @@ def test_a_pull_out_force_is_known_in_one_way(tmp_path, proven, basis):
         anchor["proven"] = proven
     for line in tables["rows"]:
         line["foot_anchor"] = anchor["id"]
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     known = next(
         one
         for one in site.rows[0].resistances
@@ -244,7 +239,7 @@ def test_a_pull_out_force_is_known_in_one_way(tmp_path, proven, basis):
     assert (known.basis, known.value) == (basis, 1e3 * anchor["pull_out"])
 
 
-def test_layers_belong_to_the_rows_that_have_some(tmp_path):
+def test_layers_belong_to_the_rows_that_have_some():
     tables = draw_tables(10)
     line = tables["rows"][2]
     height = line["snow"]
@@ -253,30 +248,30 @@ def test_layers_belong_to_the_rows_that_have_some(tmp_path):
         {"row": "a3", "layer": 2, "thickness": round(0.6 * height, 3), "density": 310},
     ]
     measures = dict.fromkeys((("layers", "thickness"), ("rows", "snow")), "vertical")
-    site = write_and_read(tmp_path / "site.xlsx", tables, measures=measures)
+    site = read_tables(tables, measures)
     assert [len(row.layers) for row in site.rows] == [0, 0, 2, 0]
     total = sum(layer.thickness for layer in site.rows[2].layers)
     factor = math.cos(math.radians(line["slope_angle"]))
     assert total == pytest.approx(height * factor, abs=0.011)
 
 
-def test_a_word_declares_several_checks_of_several_rows(tmp_path):
+def test_a_word_declares_several_checks_of_several_rows():
     tables = draw_tables(11)
     document = {"document": "EX-G7", "author": "B. Example"}
     tables["declared"] = [{"row": "A1, a3", "check": "post base", **document}]
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     assert {one.row_id for one in site.declared} == {"A1", "A3"}
     assert {one.mode for one in site.declared} == {"bearing", "sliding"}
     assert {one.proof.document for one in site.declared} == {"EX-G7"}
 
 
-def test_the_ground_of_the_wedge_is_that_of_the_type(tmp_path):
+def test_the_ground_of_the_wedge_is_that_of_the_type():
     tables = draw_tables(12)
     tables["soils"] = [
         {"ground": "till", "soil_cohesion": 5, "soil_friction": 32, "soil_weight": 20},
         {"ground": "scree", "soil_cohesion": 0, "soil_friction": 38, "soil_weight": 19},
     ]
-    site = write_and_read(tmp_path / "site.xlsx", tables)
+    site = read_tables(tables)
     soil = dict(site.rows[0].anchors)["foot_anchor"].soil
     assert (soil.cohesion, soil.weight) == (5e3, 20e3)
 

@@ -16,12 +16,8 @@ from netdesign.site.template.annotate import annotate_workbook
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.each import each
-from tests.make import find_cell, load_tables, write_site
+from tests.make import find_cell, load_tables, read_tables, write_site
 from tests.site.plausible.office import alter, draw_office, list_office_slips
-
-
-def read(path, tables):
-    return read_site(write_site(path / "site.xlsx", tables))
 
 
 def two_rows():
@@ -37,8 +33,8 @@ def two_rows():
     return tables
 
 
-def test_nothing_is_asked_of_sound_tables(tmp_path):
-    site = read(tmp_path, two_rows())
+def test_nothing_is_asked_of_sound_tables():
+    site = read_tables(two_rows())
     assert [row.id for row in site.rows if row.questions] == []
     assert site.questions == ()
 
@@ -63,7 +59,8 @@ def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
     tmp_path, table, line, key, typed, rows, told
 ):
     """One of every sheet: none ends a study's other rows."""
-    site = read(tmp_path, alter(two_rows(), (table, line, key), typed))
+    tables = alter(two_rows(), (table, line, key), typed)
+    site = read_site(write_site(tmp_path / "site.xlsx", tables))
     (finding,) = [one for one in site.findings if one.severity == "question"]
     if table in ("project", "rows", "net_types", "anchor_types"):
         assert f"{finding.sheet}!{finding.cell}" == find_cell(table, key, line)
@@ -148,7 +145,7 @@ GROUNDS = {"till": (95, 335), "slate": (515, 1380), "gneiss": (35, 4200)}
     "ground, proven",
     [(one, proven) for one in GROUNDS for proven in ("calculated", "tests")],
 )
-def test_a_bond_that_its_ground_does_not_have_is_asked_about(tmp_path, ground, proven):
+def test_a_bond_that_its_ground_does_not_have_is_asked_about(ground, proven):
     """1.1 MPa in till, as a review found it."""
     low, high = GROUNDS[ground]
     room = 1.0 if proven == "calculated" else 1.5
@@ -172,7 +169,7 @@ def test_a_bond_that_its_ground_does_not_have_is_asked_about(tmp_path, ground, p
                     **{"drill_diameter": 90, "bond_length": 4, "proven": proven},
                     **{"pull_out": pull, "tendon": round(min(pull / 0.78, 2400.0), 1)},
                 }
-                told = list(map(str, read(tmp_path, tables).questions))
+                told = list(map(str, read_tables(tables).questions))
                 found = [one for one in told if "is a bond of" in one]
                 assert bool(found) == (expected == "asked"), (bond, told)
 
@@ -205,9 +202,9 @@ MOST_FALSE_ALARMS = 0.01
 
 
 @pytest.mark.parametrize("sites", [10, pytest.param(200, marks=pytest.mark.long)])
-def test_sensible_sites_are_asked_nothing(tmp_path, sites):
+def test_sensible_sites_are_asked_nothing(sites):
     """Drawn by what is built, not by what counts as usual here."""
     alarms = []
     for seed in range(5000, 5000 + sites):
-        alarms += [str(one) for one in read(tmp_path, draw_office(seed)).questions]
+        alarms += [str(one) for one in read_tables(draw_office(seed)).questions]
     assert len(alarms) <= MOST_FALSE_ALARMS * sites, alarms[:20]
