@@ -1,12 +1,16 @@
-"""Changes between two studies: verdicts, checks, inputs, and all else."""
+"""Changes between two studies: verdicts, checks, inputs, and all else.
+
+Each study is one mapping of values by area, net row and name; a change is a value that
+is not the same in both.
+"""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any, TypeVar
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
 from netdesign.checks.check import Check
 from netdesign.edge.input_files import make_printable
@@ -52,7 +56,7 @@ _OF_STEPS = {
 }
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
-# In the order of the terminal.
+# In the order in which they are told.
 _AREAS = (
     *("verdict", "quantity", "settings", "project", "profile", "range", "input"),
     *("governing", "check", "other"),
@@ -63,8 +67,8 @@ _FOLLOWS = (
     *("diff_check.utilisation_low", "diff_check.utilisation_high"),
     "diff.upper_bound",
 )
-_Value = TypeVar("_Value")
-Named = Mapping[Message, Any]  # values by their names
+Place = tuple[str, str, Message]  # area, net row, name of the value
+Pairs = Iterator[tuple[Message, Any]]  # names and values
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,12 +76,12 @@ class _Word:
     """Key of a value as documents have it, and its words."""
 
     key: str
-    name: Message
+    name: Message = field(compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """One value that is not the same in both studies; None where one has none.
+    """One value that is not the same in both studies.
 
     Attributes
     ----------
@@ -88,18 +92,25 @@ class Change:
         Id of the net row; empty for the whole study.
     what : Message
         Name of the value.
-    old, new : object
-        The values, in the unit that ``what`` names.
-    names : tuple of Message or None
-        Words of both values, where these are keys.
+    before, after : object
+        The values, in the unit that ``what`` names; None where a study has none.
     """
 
     area: str
     row: str = ""
     what: Message
-    old: Any
-    new: Any
-    names: tuple[Message | None, Message | None] = (None, None)
+    before: Any = None
+    after: Any
+
+    @property
+    def old(self) -> Any:
+        """Value before, as documents have it."""
+        return _take_key(self.before)
+
+    @property
+    def new(self) -> Any:
+        """Value after, as documents have it."""
+        return _take_key(self.after)
 
     def __str__(self) -> str:
         """``R1: utilisation: 0.73 -> 0.81``."""
@@ -108,9 +119,7 @@ class Change:
     def tell(self, language: Language, rows: Sequence[str] = ()) -> str:
         """The change on one line, in a language; of all rows that share it."""
         words = Words(language)
-        pairs = zip(self.names, (self.old, self.new), strict=True)
-        old, new = (words.show(name) if name else side for name, side in pairs)
-        before, after = _show(old, new, words)
+        before, after = _show(self.before, self.after, words)
         parts = {"what": self.name(words), "old": before, "new": after}
         names = ", ".join(rows or (self.row,))
         if self.area == "other":
@@ -135,55 +144,63 @@ class Change:
         return self.area == "verdict" and not is_new_pass
 
 
+def _take_key(value: Any) -> Any:
+    return value.key if isinstance(value, _Word) else value
+
+
 def compare_studies(old: Study, new: Study) -> list[Change]:
     """Every change from one study to another; what got worse comes first.
 
-    Only the time and the command of the two are left out, and rounding.
+    Causes stand before their effects, behind the verdicts. Only the time and the
+    command of the two are left out, and rounding.
     """
     rows_old = {row.id: row for row in old.rows}
     rows_new = {row.id: row for row in new.rows}
-    ids = list(dict.fromkeys((*rows_old, *rows_new)))
-    pairs = [(name, rows_old.get(name), rows_new.get(name)) for name in ids]
-    both = [(name, was, now) for name, was, now in pairs if was and now]
-
-    def compare(area: str, describe: Callable[[Study], Named]) -> Iterator[Change]:
-        return _compare(area, "", describe(old), describe(new))
-
-    def compare_rows(
-        area: str, describe: Callable[[RowStudy], Named]
-    ) -> Iterator[Change]:
-        for row, was, now in both:
-            yield from _compare(area, row, describe(was), describe(now))
-
-    verdicts = [
-        *compare("verdict", _name_verdict),
-        *(change for pair in pairs for change in _compare_verdicts(*pair)),
+    both = [row_id for row_id in rows_old if row_id in rows_new]
+    before, after = _describe(old, both), _describe(new, both)
+    pairs = ((x, before.get(x), after.get(x)) for x in dict.fromkeys((*before, *after)))
+    changes = [
+        Change(area=area, row=row, what=what, before=was, after=now)
+        for (area, row, what), was, now in pairs
+        if not _is_same(was, now)
     ]
-    return [
-        *compare("settings", _list_replaced),
-        *sorted(verdicts, key=_rank),
-        *compare("quantity", _list_quantities),
-        *compare_rows("governing", _list_governing),
-        *compare_rows("check", _list_checks),
-        *compare("project", _list_project),
-        *compare("profile", _list_profile),
-        *compare("range", lambda study: _list_inputs(study.range_inputs)),
-        *compare_rows("input", lambda row: _list_inputs(row.inputs)),
-        *compare("settings", _list_settings),
-        *_count_values("", _list_shared(old), _list_shared(new)),
-        *(change for pair in both for change in _count_values(*pair)),
-    ]
+    changes += _count_values("", _list_shared(old), _list_shared(new))
+    for row in both:
+        changes += _count_values(row, rows_old[row], rows_new[row])
+    ids = ["", *rows_old, *rows_new]
+    return sorted(
+        changes,
+        key=lambda x: (_AREAS.index(x.area), _rank(x), ids.index(x.row)),
+    )
+
+
+def _describe(study: Study, both: Sequence[str]) -> dict[Place, Any]:
+    """Values by their places; a name used again gets the number of its use.
+
+    Of a row that is not in ``both`` studies the verdict alone.
+    """
+    values: dict[Place, Any] = {}
+    counts: Counter[Place] = Counter()
+    listed = (
+        (area, row, what, value)
+        for area, row, pairs in _list_areas(study, both)
+        for what, value in pairs
+    )
+    for area, row, what, value in listed:
+        counts[area, row, what] += 1
+        count = counts[area, row, what]
+        name = say("diff.again", what=what, count=count) if count > 1 else what
+        values[area, row, name] = value
+    return values
 
 
 def share_rows(changes: Sequence[Change]) -> list[tuple[Change, list[str]]]:
     """Changes as a terminal tells them, each with the net rows that share it.
 
-    Causes stand before their effects, behind the verdicts; of a check that is used
-    otherwise only its utilisation is told.
+    Of a check that is used otherwise only its utilisation is told.
     """
     shared: dict[object, tuple[Change, list[str]]] = {}
-    told_first = sorted(changes, key=lambda change: _AREAS.index(change.area))
-    for change in filter(_is_told, told_first):
+    for change in filter(_is_told, changes):
         is_of_row = bool(change.row) and change.area != "verdict"
         texts = (change.area, change.what, str(change.old), str(change.new))
         key: object = texts if is_of_row else (*texts, change.row, len(shared))
@@ -223,7 +240,7 @@ def write_difference(
 
 def _rank(change: Change) -> int:
     """Sort key of a verdict: the study's, lost passes, else worse, gone, the others."""
-    if not change.row:
+    if not change.row or change.area != "verdict":
         return 0
     if change.new is None:
         return 3
@@ -231,34 +248,6 @@ def _rank(change: Change) -> int:
     if change.is_turned and (change.old is None or ranks[1] > ranks[0]):
         return 1 if change.old in _PASSING else 2
     return 4
-
-
-def _compare_verdicts(
-    name: str, old: RowStudy | None, new: RowStudy | None
-) -> Iterator[Change]:
-    """Changed verdicts of a row and its checks; of a new or lost row its own only."""
-    if old and new:
-        yield from _compare("verdict", name, _list_verdicts(old), _list_verdicts(new))
-        return
-    ends = [
-        {say("diff.net_row"): _tell(row.verdict)} if row else {} for row in (old, new)
-    ]
-    yield from _compare("verdict", name, ends[0], ends[1])
-
-
-def _compare(area: str, row: str, old: Named, new: Named) -> Iterator[Change]:
-    for what in dict.fromkeys((*old, *new)):
-        pair = [_split(values.get(what)) for values in (old, new)]
-        (before, after), names = zip(*pair, strict=True)
-        if not _is_same(before, after):
-            yield Change(
-                area=area, row=row, what=what, old=before, new=after, names=names
-            )
-
-
-def _split(value: Any) -> tuple[Any, Message | None]:
-    """Value as the document has it, and its words."""
-    return (value.key, value.name) if isinstance(value, _Word) else (value, None)
 
 
 def _is_same(old: Any, new: Any) -> bool:
@@ -279,7 +268,7 @@ def _count_values(row: str, old: object, new: object) -> Iterator[Change]:
     count = len(compare_values(old, new, is_exact=True))
     if count:
         what = say("diff.values_of", count=count)
-        yield Change(area="other", row=row, what=what, old=None, new=count)
+        yield Change(area="other", row=row, what=what, after=count)
 
 
 def _list_shared(study: Study) -> dict[str, object]:
@@ -293,75 +282,62 @@ def _list_shared(study: Study) -> dict[str, object]:
     }
 
 
-def _name_verdict(study: Study) -> Named:
-    return {say("diff.verdict"): _tell(study.verdict)}
+def _list_areas(
+    study: Study, both: Sequence[str]
+) -> Iterator[tuple[str, str, Iterable[tuple[Message, Any]]]]:
+    """Area and row of all that a study says, with the names and values of each."""
+    yield "verdict", "", [(say("diff.verdict"), _tell(study.verdict))]
+    yield "quantity", "", _list_quantities(study).items()
+    yield "settings", "", _list_settings(study)
+    yield "project", "", _list_project(study)
+    yield "profile", "", _list_profile(study)
+    yield "range", "", _list_inputs(study.range_inputs)
+    for row in study.rows:
+        if row.id not in both:
+            yield "verdict", row.id, [(say("diff.net_row"), _tell(row.verdict))]
+            continue
+        yield "verdict", row.id, _list_verdicts(row)
+        yield "governing", row.id, _list_governing(row)
+        yield "check", row.id, _list_checks(row)
+        yield "input", row.id, _list_inputs(row.inputs)
 
 
-def _list_verdicts(row: RowStudy) -> Named:
-    return {
-        say("diff.verdict"): _tell(row.verdict),
-        **{
-            say("diff.check", check=title): _tell(check.verdict)
-            for title, check in _name_checks(row).items()
-        },
-        **_name_all(
-            (
-                say("diff.law", law=name("law", law.name)),
-                _tell(_MET if law.is_met else _UNMET),
-            )
-            for law in row.independent
-        ),
-    }
-
-
-def _name_all(pairs: Iterable[tuple[Message, _Value]]) -> dict[Message, _Value]:
-    """Values by their names; a name used again gets the number of its use."""
-    named: dict[Message, _Value] = {}
-    counts: Counter[Message] = Counter()
-    for what, value in pairs:
-        counts[what] += 1
-        again = say("diff.again", what=what, count=counts[what])
-        named[again if counts[what] > 1 else what] = value
-    return named
-
-
-def _name_checks(row: RowStudy) -> dict[Message, Check]:
-    return _name_all((_name_check(check), check) for check in row.checks)
+def _list_verdicts(row: RowStudy) -> Pairs:
+    yield say("diff.verdict"), _tell(row.verdict)
+    for check in row.checks:
+        yield say("diff.check", check=_name_check(check)), _tell(check.verdict)
+    for law in row.independent:
+        what = say("diff.law", law=name("law", law.name))
+        yield what, _tell(_MET if law.is_met else _UNMET)
 
 
 def _name_check(check: Check) -> Message:
     return name_check(check.member, check.mode, check.position)
 
 
-def _list_governing(row: RowStudy) -> Named:
+def _list_governing(row: RowStudy) -> Pairs:
     """Governing check with its numbers, and the largest force of each member."""
-    values: dict[Message, Any] = {}
     check = find_governing(row.checks)
     if check is not None:
-        values[say("diff.governing_check")] = _Word(check.id, _name_check(check))
+        yield say("diff.governing_check"), _Word(check.id, _name_check(check))
         for key in ("utilisation", "demand_kN", "resistance_kN"):
-            values[say(f"diff_check.{key}")] = _read_value(check, key)
+            yield say(f"diff_check.{key}"), _read_value(check, key)
         point = check.case.values if check.case else {}
         for key, value in point.items():
             named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
-            values[say("diff.governing_case", key=named)] = value
-    extremes = _name_all(
-        (name_member(force.quantity), force) for force in row.member_forces
-    )
-    for quantity, extreme in extremes.items():
-        values[say("diff.largest", quantity=quantity)] = extreme.value_kN
-        values[say("diff.upper_bound", quantity=quantity)] = extreme.bound_kN
-    return values
+            yield say("diff.governing_case", key=named), value
+    for force in row.member_forces:
+        quantity = name_member(force.quantity)
+        yield say("diff.largest", quantity=quantity), force.value_kN
+        yield say("diff.upper_bound", quantity=quantity), force.bound_kN
 
 
-def _list_checks(row: RowStudy) -> Named:
-    return {
-        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): (
-            _read_value(check, key)
-        )
-        for title, check in _name_checks(row).items()
-        for key in (*_OF_CHECK, *_OF_STEPS)
-    }
+def _list_checks(row: RowStudy) -> Pairs:
+    for check in row.checks:
+        title = _name_check(check)
+        for key in (*_OF_CHECK, *_OF_STEPS):
+            what = say("diff.of_check", check=title, what=say(f"diff_check.{key}"))
+            yield what, _read_value(check, key)
 
 
 def _read_value(check: Check, key: str) -> Any:
@@ -390,15 +366,14 @@ def _name_proof(check: Check) -> str | None:
     return ", ".join(text for text in asdict(check.declared).values() if text)
 
 
-def _list_project(study: Study) -> Named:
-    fields = asdict(study.project).items()
-    return {say(f"diff_project.{key}"): value for key, value in fields}
+def _list_project(study: Study) -> Pairs:
+    for key, value in asdict(study.project).items():
+        yield say(f"diff_project.{key}"), value
 
 
-def _list_inputs(inputs: Sequence[InputEcho]) -> Named:
-    return _name_all(
-        (_add_unit(echo.label, echo.unit), _read_input(echo)) for echo in inputs
-    )
+def _list_inputs(inputs: Sequence[InputEcho]) -> Pairs:
+    for echo in inputs:
+        yield _add_unit(echo.label, echo.unit), _read_input(echo)
 
 
 def _read_input(echo: InputEcho) -> Any:
@@ -410,24 +385,16 @@ def _add_unit(what: Message, unit: str) -> Message:
     return say("diff.with_unit", what=what, unit=unit) if unit else what
 
 
-def _list_profile(study: Study) -> Named:
+def _list_profile(study: Study) -> Pairs:
     profile = study.profile
-    values = _name_all(
-        (say("diff.with_unit", what=value.id, unit=value.unit), value.value)
-        for value in profile.values
-    )
-    return {
-        say("diff.profile"): profile.id,
-        say("diff.edition"): profile.edition,
-        say("diff.version"): profile.version,
-        say("diff.choice"): profile.choice,
-        say("diff.floor"): profile.floor,
-        say("diff.shared_sum"): profile.shared_sum,
-        **values,
-    }
+    yield say("diff.profile"), profile.id
+    for key in ("edition", "version", "choice", "floor", "shared_sum"):
+        yield say(f"diff.{key}"), getattr(profile, key)
+    for value in profile.values:
+        yield say("diff.with_unit", what=value.id, unit=value.unit), value.value
 
 
-def _list_quantities(study: Study) -> Named:
+def _list_quantities(study: Study) -> dict[Message, Any]:
     """Numbers of anchors by type, as far as they are known."""
     counts: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
     for part in (piece for row in study.rows for piece in row.parts):
@@ -437,20 +404,20 @@ def _list_quantities(study: Study) -> Named:
     return counts
 
 
-def _list_replaced(study: Study) -> Named:
-    """Cells of a what-if: without them its verdicts would be read as the site's."""
-    return {say("diff.what_if", cell=cell.cell): cell.now for cell in study.what_if}
+def _list_settings(study: Study) -> Pairs:
+    """Cells of a what-if, then program, site file, settings and libraries.
 
-
-def _list_settings(study: Study) -> Named:
+    Without its cells the verdicts of a what-if would be read as the site's.
+    """
     provenance = study.provenance
-    settings = provenance.settings.items()
-    return {
-        say("diff.version"): provenance.version,
-        say("diff.site_file"): provenance.site_file,
-        **{name("setting", key): value for key, value in settings},
-        **{as_given(key): value for key, value in provenance.libraries.items()},
-    }
+    for cell in study.what_if:
+        yield say("diff.what_if", cell=cell.cell), cell.now
+    yield say("diff.version"), provenance.version
+    yield say("diff.site_file"), provenance.site_file
+    for key, value in provenance.settings.items():
+        yield name("setting", key), value
+    for key, value in provenance.libraries.items():
+        yield as_given(key), value
 
 
 def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:
@@ -463,6 +430,8 @@ def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:
 
 
 def _round(value: Any, digits: int, words: Words) -> str:
+    if isinstance(value, _Word):
+        return words.show(value.name)
     if value in _NOTHING:
         return words("diff.none")
     is_number = isinstance(value, float)
