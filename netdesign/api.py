@@ -17,7 +17,7 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.edge.progress import RunProgress, Standing
 from netdesign.envelope.ranges import Ranges
-from netdesign.envelope.rows import RowEnvelope, RowTask
+from netdesign.envelope.rows import RowEnvelope, build_search
 from netdesign.envelope.search import search_rows
 from netdesign.guideline.load_model import (
     SnowLoad,
@@ -26,7 +26,6 @@ from netdesign.guideline.load_model import (
     read_load_model,
 )
 from netdesign.outcome import ModelError
-from netdesign.search.maxima import SearchSettings
 from netdesign.site.frames import Change, Frames
 from netdesign.site.model import Site
 from netdesign.site.reader import read_frames, read_site
@@ -262,14 +261,8 @@ def find_envelope(
     -----------
     tests/test_api.py
     """
-    task = RowTask(
-        scene=scene,
-        ranges=ranges,
-        layouts=() if layout is None else (layout,),
-        settings=SolverSettings(accuracy=accuracy),
-        search=SearchSettings(gap=accuracy),
-        confirmed_by=None,
-    )
+    layouts = () if layout is None else (layout,)
+    task = build_search(scene, ranges, accuracy, layouts)
     (envelope,) = search_rows([task], Runner())
     return envelope
 

@@ -151,36 +151,25 @@ def _round_trip_example() -> Message:
     return say("doctor.example", rows=len(site.rows))
 
 
+# Uniform snow on freely gliding ground: the net carries its whole weight.
+_SCENE = {
+    "slope": {"angle_deg": 38.0},
+    "snow": {"thickness_m": 2.5, "upslope_length_m": 6.0, "density_kg_m3": 300.0},
+    "net": {"stiffness_kN_per_m": 8000.0, "slack": 0.05, "friction_deg": 30.0},
+    "solve": {"accuracy": 0.1},
+}
+
+
 def _solve_small_scene() -> Message:
-    """Uniform snow on freely gliding ground: the net carries its whole weight."""
-    import math
     import time
 
-    from netdesign.cable.net import Net
-    from netdesign.coupling.scene import Scene, SolverSettings
     from netdesign.coupling.solution import require_solved
-    from netdesign.coupling.steady.solve import solve_steady
-    from netdesign.snow.ground import GroundLaw
-    from netdesign.snow.snowpack import Snowpack
+    from netdesign.files.scene import SceneFile, build_scene_of_file
+    from netdesign.solving.solve import solve_scene
 
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(38.0),
-            thickness=2.5,
-            upslope_length=6.0,
-            density=300.0,
-        ),
-        ground=GroundLaw(kind="free"),
-        net=Net(
-            height_normal=2.5,
-            inclination=math.radians(30.0),
-            stiffness_per_m=8e6,
-            slack=0.05,
-            friction_angle=math.radians(30.0),
-        ),
-    )
+    given = build_scene_of_file(SceneFile.model_validate(_SCENE))
     start = time.perf_counter()
-    solution = require_solved(solve_steady(scene, SolverSettings(accuracy=0.1)))
+    solution = require_solved(solve_scene(given.scene, given.settings))
     elapsed = time.perf_counter() - start
     residual = solution.balance.relative_residual
     return say("doctor.solved", residual=residual, seconds=elapsed)

@@ -29,7 +29,6 @@ from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from netdesign.coupling.scene import Scene
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.ranges import Ranges
     from netdesign.envelope.rows import RowTask
@@ -55,9 +54,10 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
     from netdesign.envelope.ranges import require_valid
+    from netdesign.envelope.rows import build_search
     from netdesign.files.scene import read_scene_file
 
-    out, confirm = asked["out"], asked["confirm"]
+    out = asked["out"]
     refuse_jobs(asked["executor"])
     ranging = [one.name or "" for one in _list_options()]
     given = {name: asked[name] for name in ranging if asked[name] is not None}
@@ -70,7 +70,10 @@ def envelope(scene_file: Path, **asked: Any) -> None:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
     with open_phases(_list_phases(counts, len(given)), asked) as (runner, progress):
-        task = _build_task(read.scene, confirm, spans, asked["accuracy"])
+        task = build_search(
+            *(read.scene, spans, asked["accuracy"]),
+            is_confirmed=asked["confirm"] == "mesh",
+        )
         document = _solve(task, counts, runner, progress, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
@@ -113,47 +116,21 @@ def _list_phases(counts: dict[str, int], ranging: int) -> list[Phase]:
     from netdesign.edge.progress import Phase
 
     number = math.prod(counts.values()) if counts else _USUAL_CASES * ranging
-    phases = [
-        Phase(
-            key="envelope",
-            words=say("phase.grid" if counts else "phase.search"),
-            cases=number,
-        )
+    words = say("phase.grid" if counts else "phase.search")
+    return [
+        Phase(key="envelope", words=words, cases=number),
+        Phase(key="outputs", words=say("phase.outputs"), cases=0),
     ]
-    return [*phases, Phase(key="outputs", words=say("phase.outputs"), cases=0)]
 
 
 def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
     from netdesign.envelope.ranges import PARAMETERS, Interval, Ranges
 
-    return Ranges(
-        intervals=tuple(
-            (
-                name,
-                Interval(
-                    low=PARAMETERS[name].read(one.low),
-                    high=PARAMETERS[name].read(one.high),
-                ),
-            )
-            for name, one in given.items()
-        )
-    )
-
-
-def _build_task(scene: Scene, confirm: str, ranges: Ranges, accuracy: float) -> RowTask:
-    from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.rows import RowTask, refine_settings
-    from netdesign.search.maxima import SearchSettings
-
-    settings = SolverSettings(accuracy=accuracy)
-    return RowTask(
-        scene=scene,
-        ranges=ranges,
-        layouts=(),
-        settings=settings,
-        search=SearchSettings(gap=accuracy),
-        confirmed_by=refine_settings(settings) if confirm == "mesh" else None,
-    )
+    intervals = {}
+    for name, span in given.items():
+        read = PARAMETERS[name].read
+        intervals[name] = Interval(low=read(span.low), high=read(span.high))
+    return Ranges.of(**intervals)
 
 
 def _solve(

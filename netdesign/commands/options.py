@@ -84,13 +84,13 @@ def read_scopes(
     return tuple(dict.fromkeys(named))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class GivenRange:
     """A range as typed, in the engineer's unit; ``count`` is None where not given."""
 
     low: float
     high: float
-    count: int | None
+    count: int | None = None
 
 
 class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 8.5 only
@@ -112,22 +112,21 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
             If it is malformed, reversed or empty.
         """
         text = str(value)
-        parts = text.split(":")
         try:
-            low, high = (float(part) for part in parts[:2])
-            count = int(parts[2]) if len(parts) == 3 else None
-        except ValueError:
-            low = high = math.nan
-            count = None
-        if len(parts) not in (2, 3) or not (math.isfinite(low) and math.isfinite(high)):
-            raise ValueRefusal(say("usage.range_form", text=text), ctx, param)
-        if low > high:
-            raise ValueRefusal(say("usage.range_reversed", text=text), ctx, param)
-        if low == high:
-            raise ValueRefusal(say("usage.range_empty", text=text), ctx, param)
-        if count is not None and not 2 <= count <= 1000:
-            raise ValueRefusal(say("usage.range_samples", text=text), ctx, param)
-        return GivenRange(low=low, high=high, count=count)
+            low, high, *samples = text.split(":")
+            span = GivenRange(float(low), float(high), *map(int, samples))
+        except (ValueError, TypeError):
+            span = GivenRange(math.nan, math.nan)
+        faults = {
+            "range_form": not (math.isfinite(span.low) and math.isfinite(span.high)),
+            "range_reversed": span.low > span.high,
+            "range_empty": span.low == span.high,
+            "range_samples": span.count is not None and not 2 <= span.count <= 1000,
+        }
+        for key, is_fault in faults.items():
+            if is_fault:
+                raise ValueRefusal(say(f"usage.{key}", text=text), ctx, param)
+        return span
 
 
 class StudyType(click.Path):

@@ -216,6 +216,29 @@ class RowEnvelope:
         return replace(extreme, force=force, hidden=hidden)
 
 
+def build_search(
+    scene: Scene,
+    ranges: Ranges,
+    accuracy: float,
+    layouts: tuple[SupportLayout, ...] = (),
+    *,
+    is_confirmed: bool = False,
+) -> RowTask:
+    """Task of a scene alone, whose bounds are as close as its cases are accurate.
+
+    Its governing cases are solved again where they are to be confirmed.
+    """
+    settings = SolverSettings(accuracy=accuracy)
+    return RowTask(
+        scene=scene,
+        ranges=ranges,
+        layouts=layouts,
+        settings=settings,
+        search=SearchSettings(gap=accuracy),
+        confirmed_by=refine_settings(settings) if is_confirmed else None,
+    )
+
+
 def refine_settings(settings: SolverSettings) -> SolverSettings:
     """Settings of a confirmation: coarsest meshes left out, tighter accuracy.
 
