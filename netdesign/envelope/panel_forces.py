@@ -16,7 +16,7 @@ from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import SolvedState
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.outcome import Outcome, SolveError
+from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solve import (
     FailedPanel,
@@ -24,7 +24,7 @@ from netdesign.panel.solve import (
     SolvedPanels,
     solve_strips,
 )
-from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
+from netdesign.panel.strips import Strip, build_strip
 from netdesign.structure.anchors import (
     AnchorForces,
     Ways,
@@ -170,8 +170,6 @@ def stand_on(
 # Error of six stations over the panel's load, without and with anchors in mid-panel:
 # panel/THEORY.md, section 3.
 _STATIONS, _STATIONS_MID = 3e-4, 2e-3
-# Error of a history's few corners over the load: envelope/THEORY.md.
-_CORNERS = 0.01
 
 # In the order in which a search has them.
 PANEL_QUANTITIES = (*map(name_in_panel, CARRYING_MEMBERS), *RopeForce)
@@ -285,21 +283,20 @@ def resolve_panels(
     -------
     PanelForces or FailedPanel
         Before any support holds them; or the first failure of any panel. Its outcome is
-        ``out_of_validity`` also of a history that went on beyond its largest pulls, and
-        of a staggered one.
+        ``out_of_validity`` also of a history.
 
     Verified by
     -----------
     tests/envelope/test_panel_forces.py
     """
-    try:
-        strip, doubt = _build_strip(net, state)
-    except SolveError as failure:
-        return FailedPanel(outcome=failure.outcome, reason=failure.reason)
+    if state.method != "steady":
+        reason = say("panel.steady_only")
+        return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
+    strip = build_strip(net, state.net_curve, state.net_forces, state.foot)
     solved = _solve_panels(strip, panels)
     if isinstance(solved, FailedPanel):
         return solved
-    return PanelForces(solved=solved, pulls=_find_pulls(solved, state, doubt))
+    return PanelForces(solved=solved, pulls=_find_pulls(solved, state))
 
 
 # Panels that are not built like this: their pressure on the ground would be unknown.
@@ -349,28 +346,15 @@ def _hang_free(strip: Strip, panel: Panel, least: tuple[float, ...]) -> Panel | 
     return hung
 
 
-def _build_strip(net: Net, state: SolvedState) -> tuple[Strip, float]:
-    """Strip at the post, and the doubt about its load over that [-]."""
-    if state.method == "steady":
-        curve, forces = state.net_curve, state.net_forces
-        return build_strip(net, curve, forces, state.foot), 0.0
-    if state.method != "transient":
-        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.not_staggered"))
-    strip, distance = build_strip_at_end(
-        net, state.net_curve, state.net_forces, (state.foot, state.head)
-    )
-    return strip, distance + _CORNERS
-
-
-def _find_pulls(solved: SolvedPanels, state: SolvedState, doubt: float) -> Pulls:
+def _find_pulls(solved: SolvedPanels, state: SolvedState) -> Pulls:
     """Mean pulls of a bay on foot and head, with their errors.
 
     A panel answers less to its load than the net at the post, whose error counts;
-    that of the stations comes on top, and the doubt about a history's load.
+    that of the stations comes on top.
     """
     width = solved.panels[0].post_spacing
     load = np.hypot(*(solved.foot + solved.mid_foot + solved.head).T) / width
     shares = [_STATIONS_MID if x.has_mid_anchors else _STATIONS for x in solved.panels]
-    errors = max(state.foot.error, state.head.error) + (doubt + np.array(shares)) * load
+    errors = max(state.foot.error, state.head.error) + np.array(shares) * load
     ends = np.concatenate([solved.foot, solved.head], axis=1) / width
     return Pulls(ends, np.repeat(errors[:, None], 4, axis=1))

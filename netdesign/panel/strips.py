@@ -8,7 +8,7 @@ integrals of it are exact. Theory: panel/THEORY.md, section 1, (P1) and (P5).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -22,7 +22,7 @@ from netdesign.cable.funicular import (
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import EndPull, Solution
 from netdesign.numerics.arrays import Floats, Ints
-from netdesign.outcome import ModelError, Outcome, SolveError
+from netdesign.outcome import ModelError
 from netdesign.panel.inputs import Panel
 from netdesign.words.message import say
 
@@ -133,10 +133,6 @@ def _build_span(xi: Floats, powers: Ints, fit: Floats, *, is_held: bool) -> Span
     )
 
 
-# The pulls at a history's end over its largest, less 1, at most: later snow is denser.
-FURTHEST = 0.1
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Strip:
     """A metre of net as the section at the post has it.
@@ -231,70 +227,6 @@ def build_strip(net: Net, curve: Floats, forces: Floats, foot: EndPull) -> Strip
         foot_pull=foot_pull,
         alike=build_alike(forces, shares, net.stiffness_per_m),
     )
-
-
-def build_strip_at_end(
-    net: Net, curve: Floats, forces: Floats, pulls: tuple[EndPull, EndPull]
-) -> tuple[Strip, float]:
-    """Strip of a net that was followed in time, under its largest pulls.
-
-    The net is a polygon with the snow's forces at its corners, in equilibrium at the
-    end of the history. These forces are scaled so that the larger growth of both pulls,
-    from that end to their largest, is in them.
-
-    Parameters
-    ----------
-    net : Net
-        Its stiffness and slack.
-    curve, forces : ndarray, shape (2, n) and (2, m)
-        Its corners [m], and the forces on those that the snow reaches [N/m].
-    pulls : tuple of EndPull, shape (2,)
-        Largest ones on foot and head [N/m].
-
-    Returns
-    -------
-    Strip, float
-        And the distance between the growths of both pulls [-].
-
-    Raises
-    ------
-    SolveError
-        If one of them was further from its end than ``FURTHEST``.
-    """
-    above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
-    at_corners = np.concatenate([forces, above], axis=1)
-    foot, head = _pull_ends(curve, at_corners)
-    growths = [
-        pull.size / float(np.hypot(*end))
-        for pull, end in zip(pulls, (foot, head), strict=True)
-    ]
-    if not max(abs(growth - 1.0) for growth in growths) <= FURTHEST:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.history_went_on"))
-    nodes, on_nodes = np.zeros((2, 2, 2 * curve.shape[1] - 1))
-    nodes[:, ::2], on_nodes[:, ::2] = curve, at_corners
-    nodes[:, 1::2] = (curve[:, 1:] + curve[:, :-1]) / 2.0
-    end = EndPull(x=float(foot[0]), y=float(foot[1]), error=0.0)
-    strip = build_strip(net, nodes, on_nodes, end)
-    grown = max(growths) * on_nodes
-    scaled = replace(
-        strip,
-        forces=grown,
-        foot_pull=max(growths) * foot,
-        alike=build_alike(grown, strip.shares, strip.stiffness),
-    )
-    return scaled, abs(growths[0] - growths[1])
-
-
-def _pull_ends(curve: Floats, forces: Floats) -> tuple[Floats, Floats]:
-    """Pulls of a polygon in equilibrium on its foot and its head (2,) [N/m].
-
-    They point along its first and last side, and hold all that pulls between.
-    """
-    sides = np.diff(curve)[:, [0, -1]] * [1.0, -1.0]
-    sides /= np.hypot(*sides)
-    sizes = np.linalg.solve(sides, forces[:, 1:-1].sum(axis=1))
-    foot, head = (sizes * sides).T
-    return foot + forces[:, 0], head + forces[:, -1]
 
 
 def cut_strips(panel: Panel, stations: Stations) -> Floats:

@@ -111,4 +111,4 @@ def test_a_panel_that_fails_leaves_its_reason(section, language):
 def test_a_staggered_history_has_no_panel(section):
     written, _ = write(replace(section, method="staggered"), panel=PANEL)
     assert written["panel"] is None
-    assert "staggered exchange" in written["reason"]
+    assert "steady state of a net, not on a history" in written["reason"]

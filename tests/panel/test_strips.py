@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.cable.funicular import reach_ends
-from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError, Outcome
 from netdesign.panel.equations import build_problem
@@ -17,7 +15,6 @@ from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solve import solve_strips
 from netdesign.panel.strips import (
     build_stations,
-    build_strip_at_end,
     draw_strips,
     take_strip,
 )
@@ -123,37 +120,6 @@ def test_cut_that_leaves_no_net_is_named(solved):
     narrower = replace(panel, post_spacing=0.89 * strip.chord / 0.4)
     lengths = build_problem(strip, [narrower], 4).lengths
     assert lengths.min() == pytest.approx(0.11 * strip.chord, rel=1e-9)
-
-
-@pytest.mark.parametrize("seed", [3, 8])
-def test_pulls_of_a_polygon_follow_from_its_shape(seed):
-    """A chain whose corners carry what its tensions leave over."""
-    rng = np.random.default_rng(seed)
-    places = np.array([np.cumsum(rng.uniform(0.1, 0.5, 7)), np.arange(7.0) ** 1.3])
-    sides = np.diff(places) / np.hypot(*np.diff(places))
-    tensions = rng.uniform(3e4, 7e4, 6) * sides
-    own = rng.uniform(-2e3, 2e3, (2, 2))  # straight on both anchors
-    between = tensions[:, :-1] - tensions[:, 1:]
-    forces = np.column_stack([own[:, 0], between, own[:, 1]])
-    net = Net(
-        height_normal=1.0,
-        inclination=0.4,
-        stiffness_per_m=2e7,
-        slack=0.02,
-        friction_angle=0.5,
-    )
-    foot, head = tensions[:, 0] + own[:, 0], own[:, 1] - tensions[:, -1]
-    grown = 1.03
-    pulls = tuple(
-        EndPull(x=share * x, y=share * y, error=0.0)
-        for share, (x, y) in ((grown, foot), (1.01, head))
-    )
-    strip, doubt = build_strip_at_end(net, places, forces, pulls)
-    np.testing.assert_allclose(strip.foot_pull, grown * foot, rtol=1e-9)
-    np.testing.assert_allclose(strip.load, grown * forces.sum(axis=1), rtol=1e-9)
-    assert doubt == pytest.approx(0.02, rel=1e-6)
-    stretch = np.hypot(*np.diff(places)) / (1.0 + np.hypot(*tensions) / 2e7)
-    np.testing.assert_allclose(strip.shares, stretch / stretch.sum(), rtol=1e-9)
 
 
 def test_only_a_net_at_rest_has_strips(solved):
