@@ -100,20 +100,6 @@ def guess_at(tmp_path, *headings):
     return [found[one] for one in headings]
 
 
-@pytest.mark.parametrize(
-    "heading",
-    [
-        "zul. Stützenabstand [m]",
-        "zulässige Schneehöhe lotrecht [m]",
-        "Meereshöhe adm. [m]",
-        "allowable altitude [m]",
-    ],
-)
-def test_an_allowable_value_is_always_asked(tmp_path, heading):
-    (one,) = guess_at(tmp_path, heading)
-    assert one.answer == "?"
-
-
 def test_only_an_exact_word_is_ignored(tmp_path):
     found = guess_at(tmp_path, "Bemerkung", "Bemerkungg", "N")
     assert next(one.answer for one in found) == "ignore"

@@ -156,19 +156,10 @@ def test_types_with_the_same_values_are_one_net_type(tmp_path):
 
 
 def test_a_list_of_an_office_is_mapped(tmp_path):
+    net = {"id": "L1", "slope_angle": 35, "snow_thickness": 3, "glide_factor": 1.8}
+    net |= {"net_height": 3, "post_spacing": 3.5, "foot_anchor": "N32"}
     lines = {
-        "Nets": [
-            {
-                "id": "L1",
-                "slope_angle": 35,
-                "snow_thickness": 3,
-                "glide_factor": 1.8,
-                "net_height": 3,
-                "post_spacing": 3.5,
-                "foot_anchor": "N32",
-                "altitude": 2050,
-            }
-        ],
+        "Nets": [net | {"altitude": 2050}],
         "Anchors": [{"id": "N32", "tendon": 400, "pull_out": 320, "basis": "tested"}],
         "Ranges": [{"quantity": "density", "unit": "kg/m3"}],
     }
