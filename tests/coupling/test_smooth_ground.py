@@ -16,7 +16,6 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.coupling.drawn_scenes import draw_smooth_site
-from tests.each import each
 
 DAY = 86400.0
 STARTS = ("steady", "sagged", "straight")
@@ -50,20 +49,30 @@ def assert_steady_demand(scene):
     assert over.max() < 1.05
 
 
+def put_two_sided(seed):
+    return replace(draw_smooth_site(seed), ground_contact="two-sided")
+
+
 def put_on(scene, glide_factor):
     thickness = scene.snowpack.thickness
     ground = build_ground_from_glide_factor(glide_factor, thickness)
     return replace(scene, ground=ground)
 
 
-@each("seed", range(24))
-def test_a_smooth_site_is_solved(seed):
-    assert_pulls(draw_smooth_site(seed))
+WHOLE = pytest.mark.robustness
+MANY = pytest.param(range(24, 824), marks=WHOLE)
+DOZENS = [pytest.param(seed, marks=WHOLE) for seed in range(4, 32)]
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, 3])  # two-sided ground
+@pytest.mark.parametrize("seeds", [range(24), MANY])
+def test_smooth_sites_are_solved(seeds):
+    for seed in seeds:
+        assert_pulls(draw_smooth_site(seed))
+
+
+@pytest.mark.parametrize("seed", [*range(4), *DOZENS])
 def test_a_history_on_smooth_ground_demands_its_steady_state(seed):
-    assert_steady_demand(draw_smooth_site(seed))
+    assert_steady_demand(put_two_sided(seed))
 
 
 @pytest.mark.parametrize("seed", [8, 9, 10])
@@ -76,24 +85,11 @@ def test_pulls_grow_with_the_glide_factor_towards_those_of_free_ground(seed):
 
 
 @pytest.mark.robustness
-def test_hundreds_of_smooth_sites_are_solved():
-    for seed in range(24, 824):
-        assert_pulls(draw_smooth_site(seed))
-
-
-@pytest.mark.robustness
 @pytest.mark.parametrize("start", STARTS)
 def test_dozens_of_histories_on_smooth_ground_are_followed(start):
     """Seldom snow gathers for good; then the history says that it has no plateau."""
     restless = 0
     for seed in range(64):
-        scene = replace(draw_smooth_site(seed), ground_contact="two-sided")
-        restless += not follow(scene, start).history.plateau.reached
+        found = follow(put_two_sided(seed), start)
+        restless += not found.history.plateau.reached
     assert restless <= 3
-
-
-@pytest.mark.robustness
-def test_dozens_of_histories_on_smooth_ground_demand_their_steady_state():
-    for seed in range(32):
-        scene = replace(draw_smooth_site(seed), ground_contact="two-sided")
-        assert_steady_demand(scene)
