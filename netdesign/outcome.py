@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import ClassVar, Protocol, TypeVar
+from typing import ClassVar, NoReturn, Protocol, TypeVar
 
 from netdesign.units import given_degree_from_radian, given_kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -287,23 +287,20 @@ def _find_place(error: Exception) -> str:
     return places[-1] if places else "unknown"
 
 
+def _refuse(key: str, name: str, **details: float | str | tuple[str, ...]) -> NoReturn:
+    raise ModelError(say(key, name=name_quantity(name), **details))
+
+
 def require_positive(name: str, value: float, unit: str = "") -> None:
     """Refuse anything but a finite number above zero."""
     if not (math.isfinite(value) and value > 0):
-        raise ModelError(
-            say(
-                "guard.positive",
-                name=name_quantity(name),
-                value=float(value),
-                unit=_in(unit),
-            )
-        )
+        _refuse("guard.positive", name, value=float(value), unit=_in(unit))
 
 
 def require_count(name: str, value: int) -> None:
     """Refuse anything but a whole number above zero."""
     if not (isinstance(value, int) and value > 0):
-        raise ModelError(say("guard.count", name=name_quantity(name), value=value))
+        _refuse("guard.count", name, value=value)
 
 
 def require_within(
@@ -311,29 +308,14 @@ def require_within(
 ) -> None:
     """Refuse anything but a finite number with ``low <= value <= high``."""
     if not (math.isfinite(value) and low <= value <= high):
-        raise ModelError(
-            say(
-                "guard.within",
-                name=name_quantity(name),
-                value=value,
-                low=low,
-                high=high,
-                unit=_in(unit),
-            )
-        )
+        span = {"low": low, "high": high}
+        _refuse("guard.within", name, value=value, **span, unit=_in(unit))
 
 
 def require_one_of(name: str, value: str, accepted: tuple[str, ...]) -> None:
     """Refuse a word that is not one of the accepted ones."""
     if value not in accepted:
-        raise ModelError(
-            say(
-                "guard.one_of",
-                name=name_quantity(name),
-                value=value,
-                accepted=accepted,
-            )
-        )
+        _refuse("guard.one_of", name, value=value, accepted=accepted)
 
 
 def name_quantity(name: str) -> Message:

@@ -13,21 +13,16 @@ from netdesign.checks.result import Proof
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,
-    LEAST_PLAUSIBLE_SLOPE,
+    INCLINATIONS,
     MAX_GAP,
-    MAX_INCLINATION,
-    MAX_SLOPE,
-    MIN_INCLINATION,
-    MIN_SLOPE,
-    MOST_PLAUSIBLE_SLOPE,
+    PLAUSIBLE_SLOPES,
+    SLOPES,
     SPACING_CAP,
     StandardValue,
 )
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
 from netdesign.words.message import Message, say
-
-_PLAUSIBLE = (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,11 +109,9 @@ def check_inclination(low: float, high: float, standard: Standard) -> Check:
     Check
         Pass if the range lies inside, fail if it lies outside, else not proven.
     """
-    limits = (MIN_INCLINATION, MAX_INCLINATION)
+    check = _compare_angle("inclination", INCLINATIONS, standard, low, high)
     reason = say("geometry.no_inclination_limits")
-    return _compare_angle("inclination", limits, standard, low, high) or leave_open(
-        "inclination", OpenKind.RESISTANCE_MISSING, reason
-    )
+    return check or leave_open("inclination", OpenKind.RESISTANCE_MISSING, reason)
 
 
 def check_slope(slope_angle: float, standard: Standard) -> Check:
@@ -129,11 +122,11 @@ def check_slope(slope_angle: float, standard: Standard) -> Check:
     """
     inside, plausible = (
         _compare_angle("slope", limits, standard, slope_angle, slope_angle)
-        for limits in ((MIN_SLOPE, MAX_SLOPE), _PLAUSIBLE)
+        for limits in (SLOPES, PLAUSIBLE_SLOPES)
     )
     if inside and inside.verdict is not Verdict.PASS:
         return inside
-    least, most = map(standard.find, _PLAUSIBLE)
+    least, most = map(standard.find, PLAUSIBLE_SLOPES)
     if least is None or most is None or plausible is None:
         reason = say("geometry.no_plausible_slope")
         return leave_open("slope", OpenKind.RESISTANCE_MISSING, reason)

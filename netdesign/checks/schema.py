@@ -28,12 +28,10 @@ from netdesign.words.message import Message, say
 
 ACTION_FACTOR = "action.snow"
 UPLIFT_FACTOR = "action.uplift"  # EN 1997-1 UPL, of what lifts a post
-MIN_INCLINATION = "geometry.inclination.min"
-MAX_INCLINATION = "geometry.inclination.max"
-MIN_SLOPE = "geometry.slope.min"
-MAX_SLOPE = "geometry.slope.max"
-LEAST_PLAUSIBLE_SLOPE = "geometry.slope.plausible.min"
-MOST_PLAUSIBLE_SLOPE = "geometry.slope.plausible.max"
+# Least and largest value; both are given, or none.
+INCLINATIONS = ("geometry.inclination.min", "geometry.inclination.max")
+SLOPES = ("geometry.slope.min", "geometry.slope.max")
+PLAUSIBLE_SLOPES = ("geometry.slope.plausible.min", "geometry.slope.plausible.max")
 HEIGHT_RATIO = "geometry.height.ratio"
 MAX_GAP = "geometry.gap.max"
 GROUND_FRICTION = "geometry.spacing.ground_friction"
@@ -76,11 +74,7 @@ TABLE_COUNTS = {name: value["over"] for name, value in _VALUES["tables"].items()
 VALUE_BOUNDS: Mapping[str, tuple[float, float]] = {
     name: value["bounds"] for part in _VALUES.values() for name, value in part.items()
 }
-_PAIRS = (
-    (MIN_INCLINATION, MAX_INCLINATION),
-    (MIN_SLOPE, MAX_SLOPE),
-    (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE),
-)
+_PAIRS = (INCLINATIONS, SLOPES, PLAUSIBLE_SLOPES)
 # Values that are given all or none.
 _GROUPS = (
     *_PAIRS,
