@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
+from itertools import chain
 from statistics import median
 from typing import TypeAlias
 
@@ -17,7 +19,7 @@ from netdesign.resistance.products import find_product
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import from_si
 from netdesign.site.declared_sheet import show_value
-from netdesign.site.lines import TYPES, Lines, list_references
+from netdesign.site.lines import TYPES, Lines
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.type_lines import find_depth, name_bare
 from netdesign.site.type_resistances import (
@@ -28,7 +30,7 @@ from netdesign.words.message import Message, say
 
 
 def ask(
-    lines: Lines, confirmed: Container[str], findings: list[Finding]
+    lines: Lines, confirmed: Collection[str], findings: list[Finding]
 ) -> Mapping[str, tuple[Message, ...]]:
     """Open questions of every net row.
 
@@ -36,96 +38,88 @@ def ask(
     ----------
     lines : Lines
         Of the whole site.
-    confirmed : container of str
+    confirmed : collection of str
         Cells of numbers that somebody has confirmed.
     findings : list of Finding
         Appended to: each open question once.
     """
-    asked: dict[str, Message] = {}  # by cell: one question each
-    by_row: dict[str, dict[Message, None]] = {row: {} for row in lines.places}
-    for rows, (reading, rule) in _list_all(lines):
-        if reading.cell is None or reading.place in confirmed or not rows:
+    resting, asked = _find_resting(lines), dict[str, Message]()
+    for reading, rule in _list_all(lines):
+        place, is_open = reading.place, reading.place not in (*confirmed, *asked)
+        if reading.cell is None or not is_open or not resting[place]:
             continue
-        if reading.place not in asked:
-            sheet, value = say("sheet.Declared"), show_value(reading.cell)
-            how = say("plausible.settle", sheet=sheet, place=reading.place, value=value)
-            refuse(reading, rule, how, findings, severity="question")
-            asked[reading.place] = say(
-                "plausible.asked",
-                place=reading.place,
-                field=reading.field.name,
-                text=quote(reading.text),
-                rule=rule,
-            )
-        for row in rows:
-            by_row[row][asked[reading.place]] = None
-    return {row: tuple(questions) for row, questions in by_row.items()}
+        sheet, value = say("sheet.Declared"), show_value(reading.cell)
+        how = say("plausible.settle", sheet=sheet, place=place, value=value)
+        refuse(reading, rule, how, findings, severity="question")
+        asked[place] = say(
+            "plausible.asked",
+            place=place,
+            field=reading.field.name,
+            text=quote(reading.text),
+            rule=rule,
+        )
+    return {
+        row: tuple(one for place, one in asked.items() if row in resting[place])
+        for row in lines.places
+    }
 
 
-_Group = list[tuple[list[str], Row]]  # lines, each with the net rows that rest on it
+# Tables whose lines are named by net rows, or name what these name.
+_NAMED = {
+    "net_types": ("id", "net_types"),
+    "tests": ("type", "anchor_types"),
+    "links": ("type", "anchor_types", "ropes"),
+}
 
 
-def _list_all(lines: Lines) -> Iterator[tuple[list[str], Doubt]]:
-    """Doubts, each with the net rows that rest on its number."""
-    of_types: dict[str, dict[str, None]] = {}
-    for table in TYPES:
-        for name, rows in _list_users(lines, table).items():
-            for alike in (name, name_bare(name)):
-                of_types.setdefault(alike, {}).update(rows)
-    for users, line in _list_typed(lines, of_types):
-        yield from ((users, doubt) for doubt in _list_doubted_cells(line))
-    for sheet, group in _list_groups(lines, of_types):
-        for users, line in group:
-            yield from ((users, doubt) for doubt in list_doubts(line))
-        owner = {id(one): users for users, line in group for one in line.values()}
-        for doubt in list_column_doubts([line for _, line in group], sheet):
-            yield owner[id(doubt[0])], doubt
+def _find_resting(lines: Lines) -> Mapping[str, set[str]]:
+    """Net rows that rest on each cell; on one of sheet Project all of them do."""
+    resting: dict[str, set[str]] = defaultdict(lambda: set(lines.places))
+    for line, rows in _list_users(lines):
+        for one in line.values():
+            resting[one.place] = {*resting.get(one.place, ()), *rows}
+    return resting
 
 
-def _list_typed(
-    lines: Lines, of_types: Mapping[str, Iterable[str]]
-) -> Iterator[tuple[list[str], Row]]:
-    """Lines as they are typed, each with the net rows that rest on it."""
-    nets: dict[str, list[str]] = {}
-    for line in lines.rows:
-        nets.setdefault(line["net_type"].word, []).append(line["id"].word)
-    for table, found in lines.typed.items():
-        for line in found:
-            key = next((one for one in ("row", "type", "id") if one in line), "")
-            name = line[key].word if key else ""
-            if table == "rows" or key == "row":
-                yield [name], line
-            elif table == "net_types":
-                yield nets.get(name, []), line
-            else:
-                yield list(of_types.get(name, ())) if key else list(lines.places), line
-
-
-def _list_groups(
-    lines: Lines, of_types: Mapping[str, Iterable[str]]
-) -> Iterator[tuple[str, _Group]]:
-    """Lines by their table; without its name where columns are not looked along."""
-    yield "rows", [([line["id"].word], line) for line in lines.rows]
-    yield "", [([row], one) for row, layers in lines.snow.items() for one in layers]
-    yield "", [(list(lines.places), line) for line in lines.ranges.lines]
-    for table in TYPES:
-        users = _list_users(lines, table)
-        of_table = lines.types[table].items()
-        yield table, [(list(users[name]), line) for name, line in of_table]
-    strengths = [one for one in lines.links if one["force"].field.key == "force"]
-    limits = [one for one in lines.links if one not in strengths]
-    for table, of in (("links", strengths), ("links", limits), ("tests", lines.tests)):
-        yield table, [(list(of_types.get(one["type"].word, ())), one) for one in of]
-
-
-def _list_users(lines: Lines, table: str) -> dict[str, dict[str, None]]:
-    """Net rows that name each type of a table."""
-    users: dict[str, dict[str, None]] = {name: {} for name in lines.types[table]}
+def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
+    """Lines with the net rows that name them, or what they are of."""
+    named: dict[tuple[str, str], set[str]] = {}  # by table and id
     for line in lines.rows:
         row = line["id"].word
-        for one in list_references([line, lines.ends[row]], table):
-            users.setdefault(one.word, {})[row] = None
-    return users
+        yield line, [row]
+        for one in (*line.values(), *lines.ends[row].values()):
+            for name in {one.word, name_bare(one.word)}:
+                named.setdefault((one.field.refers_to, name), set()).add(row)
+    for row, layers in lines.snow.items():
+        yield from ((line, [row]) for line in layers)
+    for table in TYPES:
+        for name, line in lines.types[table].items():
+            yield line, named.get((table, name), ())
+    for table, (key, *tables) in _NAMED.items():
+        for line in lines.typed[table]:
+            yield (
+                line,
+                set().union(*(named.get((x, line[key].word), ()) for x in tables)),
+            )
+
+
+def _list_all(lines: Lines) -> Iterator[Doubt]:
+    """Doubts about all numbers, each line by itself and beside others of its table."""
+    for typed in lines.typed.values():
+        yield from chain.from_iterable(map(_list_doubted_cells, typed))
+    limits = [one for one in lines.links if one["force"].field.key != "force"]
+    strengths = [one for one in lines.links if one not in limits]
+    # without a name where columns are not looked along
+    groups: list[tuple[str, Sequence[Row]]] = [
+        ("rows", lines.rows),
+        ("", list(chain.from_iterable(lines.snow.values()))),
+        ("", lines.ranges.lines),
+        *((table, list(lines.types[table].values())) for table in TYPES),
+        *(("links", strengths), ("links", limits), ("tests", lines.tests)),
+    ]
+    for table, group in groups:
+        yield from chain.from_iterable(map(list_doubts, group))
+        yield from list_column_doubts(group, table)
 
 
 Doubt: TypeAlias = tuple[Reading, Message]

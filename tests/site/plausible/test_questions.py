@@ -69,6 +69,22 @@ def test_a_slip_is_asked_for_with_its_cell_and_its_rows(
     assert told in str(question)
 
 
+def test_every_row_of_a_net_type_is_asked_about_its_outlier(tmp_path):
+    """Once only the last row of the type was: the others passed on it."""
+    tables = load_tables("tiny")
+    (row,), (net,) = tables["rows"], tables["net_types"]
+    kinds = ("N1", "N1", "N2", "N3", "N4")
+    tables["rows"] = [
+        {**row, "id": f"R{k}", "net_type": kind} for k, kind in enumerate(kinds)
+    ]
+    tables["net_types"] = [
+        {**net, "id": one, "net_stiffness": 44_000 if one == "N1" else 3000}
+        for one in dict.fromkeys(kinds)
+    ]
+    site = read_site(write_site(tmp_path / "site.xlsx", tables))
+    assert [bool(one.questions) for one in site.rows] == [True, True, *[False] * 3]
+
+
 SLIP = ("rows", 0, "upslope_length")
 CELL = find_cell("rows", "upslope_length")
 CONFIRMED = ("all", f"{CELL} = 200", "Drawing 12", "B. Rüegg", "2026-11-03")
