@@ -200,5 +200,5 @@ def test_on_a_phone_only_tables_are_moved_sideways(twelve, tmp_path, language):
     assert {one.split()[1] for one in wide} <= {"table", "svg"}
 
 
-def test_paper_leaves_out_nothing(twelve, tmp_path):
-    assert list_hidden(render_html(twelve, has_annexes=True), tmp_path) == set()
+def test_paper_leaves_out_nothing(pages, tmp_path):
+    assert list_hidden(pages["example"], tmp_path) == set()
