@@ -79,19 +79,6 @@ def test_gravity_along_the_slope_alone_does_not_change_the_weight_along_it(solve
     assert solution.foot.x + solution.head.x == pytest.approx(expected, rel=1e-7)
 
 
-@pytest.mark.parametrize("scene", [{"ground": "no-slip"}, {"slope_deg": 20.0}], ids=str)
-def test_ground_takes_its_share(solved, scene):
-    """Rough ground holds most of it; on a free one the slope alone decides."""
-    solution = solved(**scene)
-    slope = solution.scene.snowpack.slope_angle
-    along = weight(solution) * math.sin(slope)
-    share = (solution.foot.x + solution.head.x) / along
-    if solution.scene.ground.kind == "free":
-        assert share == pytest.approx(1.0, rel=1e-7)
-    else:
-        assert 0.0 < share < 0.5
-
-
 @pytest.mark.parametrize("friction_angle", [None, 0.0, 0.5])
 def test_level_free_ground_pushes_nothing_downslope(a_scene, friction_angle):
     """Slope 0: no force along X in sum, since the upslope end is free too."""

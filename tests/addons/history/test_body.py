@@ -68,17 +68,6 @@ def uneven(body, seed=6):
     )
 
 
-# --- undeformed snow ---------------------------------------------------------
-
-
-@pytest.mark.parametrize("head_x", STRAIGHT)
-def test_mass_of_uniform_snow_is_its_area(a_flow_problem, head_x):
-    body = a_body(a_flow_problem(), head_x=head_x)
-    assert body.mass.sum() == pytest.approx(ASPECT + head_x / 2.0, rel=1e-13)
-    np.testing.assert_allclose(body.density, 1.0, rtol=1e-14)
-    np.testing.assert_array_equal(body.warmth, 1.0)
-
-
 LAYERS = (
     FlowLayer(top=0.4, bulk_ratio=1.8, density=1.2, warmth=2.0),
     FlowLayer(top=1.0, bulk_ratio=1.8, density=1.0 - 0.2 * 0.4 / 0.6, warmth=0.5),

@@ -144,14 +144,6 @@ def test_demand_on_sliding_ground_does_not_depend_on_the_horizon(seed):
     assert over.max() < 1.05
 
 
-@pytest.mark.parametrize("glide_factor", [1.2, 2.4])
-def test_the_issues_scene_demands_its_steady_state(a_scene, glide_factor):
-    scene = the_issues_scene(a_scene, glide_factor)
-    demands = np.array([demand(scene, days) for days in (10.0, 30.0, 100.0)])
-    np.testing.assert_allclose(demands / demands[0], 1.0, rtol=0.02)
-    np.testing.assert_allclose(demands[0] / at_rest(scene), 1.0, atol=0.03)
-
-
 def test_the_ground_stiffens_with_the_snow_on_it(a_scene):
     """With a(D) of the first day the foot's pull would rise by 60 % in a month."""
     scene = the_issues_scene(a_scene)

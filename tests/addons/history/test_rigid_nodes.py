@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.verification.closed_forms import slide_on
-from netdesign.addons.history.net_pulls import compute_tensions, measure_arcs
+from netdesign.addons.history.net_pulls import (
+    compute_tensions,
+    hold_net,
+    measure_arcs,
+)
 from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from tests.each import each
 
@@ -74,11 +78,17 @@ def test_optimality_of_random_nets(seed):
     assert largest_breach(case, net) <= 1e-9 + rounding
     assert net.tensions.min() > 0.0
     assert net.lengths.sum() == pytest.approx(case.old.sum(), rel=1e-13)
+    # sum of forces, and of their moments about the foot
+    size = np.hypot(*net.foot_pull)
+    forces = np.column_stack([net.foot_pull, net.forces, net.head_pull])
+    np.testing.assert_allclose(forces.sum(axis=1), 0.0, atol=1e-12 * size)
+    moment = (case.points[0] * forces[1] - case.points[1] * forces[0]).sum()
+    assert moment == pytest.approx(0.0, abs=1e-11 * size)
 
 
 @pytest.mark.parametrize("friction", [40.0, 1e4])
 def test_nothing_glides_under_large_friction(friction):
-    """To the last digit; the second parts the net at every node."""
+    """As a net that is held; the second friction parts it at every node."""
     rng = np.random.default_rng(8)
     points = bulged_points(rng, 12, grading=0.3)
     old = measure_arcs(points) / rng.uniform(1.01, 1.012, 13)
@@ -87,6 +97,34 @@ def test_nothing_glides_under_large_friction(friction):
     np.testing.assert_array_equal(net.lengths, old)
     tensions = compute_tensions(measure_arcs(points), old, STIFFNESS)
     np.testing.assert_allclose(net.tensions, tensions, rtol=1e-13)
+    held = hold_net(points, old, stiffness=STIFFNESS)
+    for name in ("tensions", "forces", "foot_pull", "head_pull"):
+        expected = getattr(net, name)
+        np.testing.assert_allclose(getattr(held, name), expected, rtol=1e-12)
+
+
+def arc_points(count, opening=1.2, exponent=1.0):
+    """Foot, ``count`` nodes and head on a circle of radius 1."""
+    angle = opening * (np.linspace(0.0, 1.0, count + 2) ** exponent - 0.5)
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5], ids=["even", "graded"])
+def test_arcs_of_a_circle_converge_at_order_four(exponent):
+    errors = [
+        abs(measure_arcs(arc_points(count, exponent=exponent)).sum() / 1.2 - 1.0)
+        for count in (7, 15, 31)
+    ]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert errors[-1] < 1e-6
+    assert orders.min() > 3.5
+
+
+def test_arcs_of_even_nodes_by_hand():
+    """Chord 2 R sin(beta / 2), longer by beta^2 / 24."""
+    beta = 1.2 / 6
+    expected = 2.0 * math.sin(beta / 2.0) * (1.0 + beta**2 / 24.0)
+    np.testing.assert_allclose(measure_arcs(arc_points(5)), expected, rtol=1e-13)
 
 
 def test_nodes_that_hold_without_bound_part_the_net():

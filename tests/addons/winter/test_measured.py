@@ -144,12 +144,10 @@ SVG = "{http://www.w3.org/2000/svg}"
 BEGIN = datetime(2003, 1, 20, 6)
 
 
-def an_entry(count, hours, jump=None):
-    """Readings every so many hours; from the jump on twice the force."""
+def an_entry(count, hours):
+    """Readings every so many hours."""
     times = [BEGIN + timedelta(hours=hours * k) for k in range(count)]
     forces = [20.0 + 0.01 * k for k in range(count)]
-    if jump is not None:
-        forces = [2.0 * f if k >= jump else f for k, f in enumerate(forces)]
     return {
         "winter": "2002/2003",
         "member": "foot_anchor",
