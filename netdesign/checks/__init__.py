@@ -1,34 +1,20 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
-from netdesign.checks.check import Check, Open, OpenKind
-from netdesign.checks.comparison import check_member, find_resistance
-from netdesign.checks.geometry import Approval, RowGeometry, StatedValue, check_geometry
-from netdesign.checks.loader import (
-    Standard,
-    list_standards,
-    load_default,
-    load_standard,
-)
-from netdesign.checks.result import Band, Declaration, GivenResistance, Proof
-from netdesign.checks.schema import StandardValue
-
-__all__ = [
-    "Approval",
-    "Band",
-    "Check",
-    "Declaration",
-    "GivenResistance",
-    "Open",
-    "OpenKind",
-    "Proof",
-    "RowGeometry",
-    "Standard",
-    "StandardValue",
-    "StatedValue",
-    "check_geometry",
-    "check_member",
-    "find_resistance",
-    "list_standards",
-    "load_default",
-    "load_standard",
-]
+from netdesign.checks.check import Check as Check
+from netdesign.checks.check import Open as Open
+from netdesign.checks.check import OpenKind as OpenKind
+from netdesign.checks.comparison import check_member as check_member
+from netdesign.checks.comparison import find_resistance as find_resistance
+from netdesign.checks.geometry import Approval as Approval
+from netdesign.checks.geometry import RowGeometry as RowGeometry
+from netdesign.checks.geometry import StatedValue as StatedValue
+from netdesign.checks.geometry import check_geometry as check_geometry
+from netdesign.checks.loader import Standard as Standard
+from netdesign.checks.loader import list_standards as list_standards
+from netdesign.checks.loader import load_default as load_default
+from netdesign.checks.loader import load_standard as load_standard
+from netdesign.checks.result import Band as Band
+from netdesign.checks.result import Declaration as Declaration
+from netdesign.checks.result import GivenResistance as GivenResistance
+from netdesign.checks.result import Proof as Proof
+from netdesign.checks.schema import StandardValue as StandardValue

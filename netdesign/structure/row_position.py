@@ -126,11 +126,10 @@ def compute_edge_width(
     require_within("glide factor", glide_factor, 1.0, 20.0)
     if gap != math.inf:
         require_within("gap to the next work", gap, 0.0, math.inf, "m")
-    effects = []
-    if gap >= rule.isolated_gap * (1.0 - NEAR_THRESHOLD):  # also an infinite one
-        effects.append(_find_isolated_effect(rule, net_height, glide_factor))
-    if gap <= rule.isolated_gap * (1.0 + NEAR_THRESHOLD):
-        effects.append(_find_effect_beside(rule, net_height, gap, glide_factor))
+    gaps = [gap] if gap <= rule.isolated_gap * (1.0 + NEAR_THRESHOLD) else []
+    if gap >= rule.isolated_gap * (1.0 - NEAR_THRESHOLD):
+        gaps.append(math.inf)  # the end counts as free
+    effects = [_find_end_effect(rule, net_height, each, glide_factor) for each in gaps]
     widths = [0.5 * post_spacing + factor * length for factor, length in effects]
     width, (factor, length) = max(zip(widths, effects, strict=True))
     return LoadedWidth(
@@ -142,20 +141,13 @@ def compute_edge_width(
     )
 
 
-def _find_isolated_effect(
-    rule: EndEffectRule, net_height: float, glide_factor: float
-) -> tuple[float, float]:
-    """f_R and its length at an end that counts as free [-], [m]."""
-    cap = rule.cap_constant + rule.cap_per_glide * glide_factor
-    return cap, rule.length_cap * net_height
-
-
-def _find_effect_beside(
+def _find_end_effect(
     rule: EndEffectRule, net_height: float, gap: float, glide_factor: float
 ) -> tuple[float, float]:
-    """f_R and its length beside a gap to the next work [-], [m]."""
-    cap, longest = _find_isolated_effect(rule, net_height, glide_factor)
+    """f_R and its length beside a gap, which may be infinite [-], [m]."""
+    cap = rule.cap_constant + rule.cap_per_glide * glide_factor
     slope = rule.constant + rule.per_glide * glide_factor
+    longest = rule.length_cap * net_height
     return min(slope * gap / 2.0, cap), min(rule.length * gap / 2.0, longest)
 
 
