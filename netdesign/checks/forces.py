@@ -25,7 +25,6 @@ from netdesign.checks.result import (
     MemberLoad,
     Support,
     place_end_support,
-    place_second_support,
 )
 
 Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
@@ -384,11 +383,10 @@ def _find_support(leaves: Leaves) -> Support:
         return Support(end_factor=leaves["f_R"])
     effect = (leaves["b"], leaves["f_R"], leaves["Δl"])
     is_shared = any(symbol in leaves for symbol in _SHARED)
-    other, beside = leaves.get("s_e"), leaves.get("s_n")
-    if "s_2" in leaves:
-        part = leaves["s_2"]
-        return place_second_support(*effect, part, beside=beside, is_shared=is_shared)
-    return place_end_support(*effect, other=other, beside=beside, is_shared=is_shared)
+    second, other, beside = (leaves.get(symbol) for symbol in ("s_2", "s_e", "s_n"))
+    return place_end_support(
+        *effect, second=second, other=other, beside=beside, is_shared=is_shared
+    )
 
 
 def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:

@@ -171,62 +171,40 @@ def place_end_support(
     factor: Quantity,
     length: Quantity,
     *,
+    second: Quantity | None = None,
     other: Quantity | None = None,
     beside: Quantity | None = None,
     is_shared: bool = False,
 ) -> Support:
     """First or last support of a row: half a bay and the end effect.
 
-    An anchor that it shares holds a guy of the next post, which carries a whole bay.
-    ``other`` and ``beside`` are parts of a bay of the other end's effect on it, and of
-    the end effects on the next support.
+    With ``second`` the one beside it: a bay, and that part of a bay of the end effect
+    by the lever rule. ``other`` and ``beside`` are parts of a bay of the other end's
+    effect on it, and of the end effects on the next support.
+
+    An anchor that it shares holds a guy of the next post, too, which carries a bay and
+    the part ``beside``. In a row of four that post stands beside the other end.
     """
-    width = spacing / 2 + factor * length
+
+    def widen(part: Quantity) -> Quantity:
+        return spacing + factor * part * spacing
+
+    width = spacing / 2 + factor * length if second is None else widen(second)
     if other is not None:
         width = width + factor * other * spacing
     if is_shared:
-        of_next = spacing
-        if beside is not None:
-            of_next = _widen(spacing, factor, beside)
-        width = largest(width, (width + of_next) / 2)
+        both = (width + (spacing if beside is None else widen(beside))) / 2
+        width = largest(width, both) if second is None else both
+    has_both = False
+    if is_shared and second is not None and beside is not None:
+        has_both = (beside.value or 0.0) >= (second.value or 0.0)
+    clause = "(S9)" if second is None else "(S10a)"
     return Support(
         spacing=spacing,
-        width=width.named("b_e", "m", "(S20)" if is_shared else "(S9)"),
+        width=width.named("b_e", "m", "(S20)" if is_shared else clause),
         end_factor=factor,
         end_length=length,
+        is_second=second is not None,
         reaching=1 if other is None else 2,
-    )
-
-
-def place_second_support(
-    spacing: Quantity,
-    factor: Quantity,
-    length: Quantity,
-    part: Quantity,
-    *,
-    beside: Quantity | None = None,
-    is_shared: bool = False,
-) -> Support:
-    """Support beside an end: a bay, and a part of the end effect by the lever rule.
-
-    An anchor that it shares with the one after it holds a guy of that, too, of which
-    ``beside`` is the part. In a row of four that one stands beside the other end.
-    """
-    width, has_both = _widen(spacing, factor, part), False
-    if is_shared and beside is not None:
-        has_both = (beside.value or 0.0) >= (part.value or 0.0)
-        width = (width + _widen(spacing, factor, beside)) / 2
-    elif is_shared:
-        width = (width + spacing) / 2
-    return Support(
-        spacing=spacing,
-        width=width.named("b_e", "m", "(S20)" if is_shared else "(S10a)"),
-        end_factor=factor,
-        end_length=length,
-        is_second=True,
         has_both=has_both,
     )
-
-
-def _widen(spacing: Quantity, factor: Quantity, part: Quantity) -> Quantity:
-    return spacing + factor * part * spacing
