@@ -1,7 +1,10 @@
-"""Snow and net where a history of a scene begins."""
+"""Where a history of a scene begins, and what (C14) asks of a net that has slid."""
+
+import numpy as np
 
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import build_problem, build_start, find_start
+from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.snow.mesh import build_template
 
 
@@ -12,3 +15,12 @@ def begin(scene, start="sagged", size=TRANSIENT_LEVELS[0], densifies=True, **giv
     aspect = pack.upslope_length / pack.thickness
     template = build_template(aspect, size, scene.layer_tops)
     return problem, build_start(problem, template, find_start(scene, size, start))
+
+
+def find_breach(points, friction, slides, glides, tensions):
+    """Largest breach of (C14): nodes that stick within their bound, others at it."""
+    bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
+    jumps = np.diff(np.log(tensions))
+    gliding = np.abs(jumps + np.sign(slides) * bounds)
+    sticking = np.maximum(np.abs(jumps) - bounds, 0.0)
+    return float(np.where(glides, gliding, sticking).max(initial=0.0))

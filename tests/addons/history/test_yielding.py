@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 from netdesign.addons.history import yielding
 from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.yielding import NetGuess, YieldingNodes, settle_net
-from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
 from netdesign.outcome import Outcome, SolveError
+from tests.addons.history.starts import find_breach
 from tests.each import each
 
 STIFFNESS = 300.0
@@ -61,18 +61,6 @@ def settle(nodes, place, lengths, friction, signs=None):
     )
 
 
-def breach(place, response, lengths, friction):
-    """Of (C14), written out: sticking within the bound, gliding at it and along it."""
-    bounds = compute_ratio_bounds(compute_turning_angles(points_of(place)), friction)
-    jumps = np.diff(np.log(response.tensions))
-    slides = np.cumsum(response.lengths - lengths)[:-1]
-    sticks = response.slide_signs == 0
-    assert np.abs(slides[sticks]).max(initial=0.0) < 1e-13
-    held = np.maximum(np.abs(jumps) - bounds, 0.0)[sticks]
-    gliding = np.abs(jumps + bounds * np.sign(slides))[~sticks]
-    return max(held.max(initial=0.0), gliding.max(initial=0.0))
-
-
 @each("softness", [1e-5, 1e-4, 1e-3])
 @each("friction", [0.0, 0.1, 0.6, 1.0])
 def test_forces_positions_and_friction_agree(friction, softness):
@@ -86,7 +74,11 @@ def test_forces_positions_and_friction_agree(friction, softness):
         assert np.abs(off).max() < 1e-11
         assert response.tensions.min() > 0.0
         assert response.lengths.sum() == pytest.approx(lengths.sum(), rel=1e-14)
-        assert breach(end.place, response, lengths, friction) < 1e-7
+        slides = np.cumsum(response.lengths - lengths)[:-1]
+        glides = response.slide_signs != 0
+        assert np.abs(slides[~glides]).max(initial=0.0) < 1e-13
+        points, tensions = points_of(end.place), response.tensions
+        assert find_breach(points, friction, slides, glides, tensions) < 1e-7
 
 
 def test_few_iterations_whatever_glides(monkeypatch):

@@ -75,14 +75,6 @@ def study(judge):
     return judge()
 
 
-def test_everything_else_is_the_same_without_it(judge, study):
-    bare = judge(run=RUN)
-    assert [row.reliability for row in bare.rows] == [None, None]
-    without = [replace(row, reliability=None) for row in study.rows]
-    assert without == list(bare.rows)
-    assert study.verdict is bare.verdict
-
-
 def test_snow_is_denser_where_it_is_deeper(judge, searched):
     site, _ = searched
     told = tell("density", 0.01), tell("snow_height", 0.25)

@@ -95,17 +95,6 @@ def test_rows_become_lines_of_a_workbook_with_notes(
     assert len(posts) == sum(map(len, places))
 
 
-def test_the_workbook_is_checked_as_any_other(slope, tmp_path, call):
-    out = tmp_path / "site.xlsx"
-    call(
-        *("terrain", slope / "slope.asc", slope / "rows.json", "--out", out),
-        *("--types", slope / "types.xlsx", "--quiet"),
-    )
-    ended = call("check", out, "--dry-run")
-    assert ended.code in (0, 4), ended.err
-    assert "A" in ended.out
-
-
 def test_a_grid_and_rows_in_two_systems_are_refused(slope, tmp_path, call):
     rows = tmp_path / "rows.geojson"
     name = {"name": "urn:ogc:def:crs:EPSG::25832"}

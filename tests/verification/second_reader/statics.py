@@ -108,38 +108,21 @@ def solve_truss(head, bars, load):
     All sets of ropes at work are tried: the one counts whose ropes pull and whose
     others have come nearer to their anchors.
     """
-    head, load = np.array(head, float), np.array(load, float)
-    spans = [np.array(bar.end, float) - head for bar in bars]
-    lengths = [float(np.linalg.norm(span)) for span in spans]
-    units = [span / length for span, length in zip(spans, lengths, strict=True)]
-    springs = [bar.stiffness / ln for bar, ln in zip(bars, lengths, strict=True)]
-    found = None
+    spans = np.array([bar.end for bar in bars], float) - np.array(head, float)
+    lengths = np.linalg.norm(spans, axis=1)
+    units = spans / lengths[:, None]
+    springs = np.array([bar.stiffness for bar in bars]) / lengths
+    is_post = np.array([not bar.is_rope for bar in bars])
     choices = [(True, False) if bar.is_rope else (True,) for bar in bars]
-    for works in itertools.product(*choices):
-        matrix = sum(
-            (
-                k * np.outer(u, u)
-                for k, u, on in zip(springs, units, works, strict=True)
-                if on
-            ),
-            np.zeros((3, 3)),
-        )
+    for works in map(np.array, itertools.product(*choices)):
+        matrix = (units[works].T * springs[works]) @ units[works]
         if np.linalg.cond(matrix) > 1e9:
             continue
-        moved = np.linalg.solve(matrix, load)
-        stretch = [-float(u @ moved) for u in units]
-        if all(
-            (s >= -1e-12) == on or not bar.is_rope
-            for s, on, bar in zip(stretch, works, bars, strict=True)
-        ):
-            found = {
-                bar.name: k * s if on else 0.0
-                for bar, k, s, on in zip(bars, springs, stretch, works, strict=True)
-            }
-            break
-    if found is None:
-        raise ValueError("no set of ropes holds this head")
-    return found
+        stretch = -units @ np.linalg.solve(matrix, load)
+        if (((stretch >= -1e-12) == works) | is_post).all():
+            forces = np.where(works, springs * stretch, 0.0)
+            return dict(zip((bar.name for bar in bars), forces, strict=True))
+    raise ValueError("no set of ropes holds this head")
 
 
 def build_end_truss(section, splay, ropes, *, reach):
