@@ -11,13 +11,12 @@ import tomllib
 from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
-from netdesign.outcome import ModelError
+from netdesign.outcome import require_one_of
 from netdesign.words.message import Message, say
 
 
@@ -69,7 +68,7 @@ SPIRAL = "1x"  # how the name of a spiral rope's construction begins
 def find_rope_factor(construction: str) -> Datum:
     """Factor K of the breaking force of a rope [-]."""
     constructions = load_catalogue()["rope"]["construction"]
-    value = pick(say("catalogue.rope_construction"), construction, constructions)
+    value = pick("rope construction", construction, constructions)
     if construction.startswith(SPIRAL):
         source = say("resistance_source.spiral")
         return Datum(value=value, status="assumed", source=source)
@@ -80,7 +79,7 @@ def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
     table = load_catalogue()["termination"]
     losses = {name: loss for name, loss in table.items() if isinstance(loss, float)}
-    return quote("termination", pick(say("catalogue.termination"), kind, losses))
+    return quote("termination", pick("termination", kind, losses))
 
 
 def find_loop_efficiency() -> Datum:
@@ -91,7 +90,7 @@ def find_loop_efficiency() -> Datum:
 def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
     factors = load_catalogue()["buckling"]["curve"]
-    return quote("buckling", pick(say("catalogue.buckling_curve"), curve, factors))
+    return quote("buckling", pick("buckling curve", curve, factors))
 
 
 def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:
@@ -109,26 +108,16 @@ def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> 
     return float(values[end - 1] + share * (values[end] - values[end - 1]))
 
 
-def pick(what: Message, name: str, table: dict[str, Any]) -> Any:
-    """Entry of a table; an unknown name is refused with the nearest ones.
+def pick(what: str, name: str, table: Mapping[str, Any]) -> Any:
+    """Entry of a table by its name.
 
     Raises
     ------
     ModelError
-        With the nearest known names.
+        With the names that it has.
     """
-    if name in table:
-        return table[name]
-    near = tuple(get_close_matches(name, list(table), n=2))
-    raise ModelError(
-        say(
-            "catalogue.one_of",
-            what=what,
-            value=name,
-            accepted=tuple(table),
-            nearest=say("catalogue.nearest", near=near) if near else "",
-        )
-    )
+    require_one_of(what, name, tuple(table))
+    return table[name]
 
 
 def compute_tube(diameter: float, wall: float) -> dict[str, float]:

@@ -362,7 +362,7 @@ def find_loss(soil: str, years: int) -> Datum:
     tests/verification/test_corrosion.py
     """
     table = load_catalogue()["corrosion"]
-    losses = pick(say("catalogue.soil"), soil, table["loss_mm"])
+    losses = pick("ground class", soil, table["loss_mm"])
     if not 0 <= years <= table["years"][-1]:
         raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
     loss = interpolate([0, *table["years"]], [0.0, *losses], years)

@@ -27,17 +27,12 @@ def test_an_unknown_name_is_refused_by_what_it_names(find, given, told):
     assert str(refused.value).startswith(told)
 
 
-def test_a_refusal_names_the_two_nearest_or_none():
-    known = {"alpha1": 1, "alpha2": 2, "alpha3": 3}
+def test_a_refusal_names_what_is_accepted():
+    known = {"alpha1": 1, "alpha2": 2}
     with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.termination"), "alpha4", known)
-    message = refused.value.message
-    nearest = message.arguments["nearest"]
-    assert nearest.arguments["near"] == ("alpha3", "alpha2")
-    assert message.arguments["accepted"] == tuple(known)
-    with pytest.raises(ModelError) as refused:
-        pick(say("catalogue.termination"), "zzz", known)
-    assert refused.value.message.arguments["nearest"] == ""
+        pick("termination", "alpha4", known)
+    assert refused.value.message.arguments["accepted"] == tuple(known)
+    assert pick("termination", "alpha2", known) == 2
 
 
 @pytest.mark.parametrize(
