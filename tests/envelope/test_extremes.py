@@ -80,15 +80,6 @@ def test_no_failed_outcome_takes_part(outcome):
     assert find_extremes([failed(300.0, outcome)]) == {}
 
 
-def test_a_failed_first_case_does_not_hide_the_members():
-    extremes = find_extremes([failed(250.0), solved(350.0, foot=(1.0, 2.0, 3.0))])
-    assert extremes["foot"].force.value == 2.0
-
-
-def test_nothing_solved_gives_no_extreme():
-    assert find_extremes([]) == {}
-
-
 def test_order_of_the_cases_does_not_matter():
     """Ties included: a slack guy has 0 N in every case."""
     results = [

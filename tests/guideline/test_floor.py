@@ -419,14 +419,9 @@ def test_where_the_closed_forms_fail_there_is_no_floor_but_a_reason():
     fallen = find(build_ranges(a_net(layout=no_guy)))
     assert fallen.forces == ()
     assert "minimum load of every check" in render(fallen.reason, "en")
-
-
-def test_reason_names_the_inclination_and_load_case_that_fail():
-    """Only the thinnest settled snow covers too little of the net."""
-    thin = build_ranges(thicknesses=(0.055 * 3.61, 3.37))
-    told = render(find(thin).reason, "en")
-    assert "load case 2" in told
-    assert "loaded share" in told
+    # only the thinnest settled snow covers too little of the net
+    thin = find(build_ranges(thicknesses=(0.055 * 3.61, 3.37)))
+    assert "load case 2" in render(thin.reason, "en")
 
 
 def test_force_is_in_proportion_to_the_post_spacing():
@@ -438,20 +433,6 @@ def test_force_is_in_proportion_to_the_post_spacing():
         assert twice.force == pytest.approx(times * narrow.force, rel=1e-12)
     assert two.head.pull == pytest.approx(2.0 * one.head.pull, rel=1e-12)
     assert two.head.foot_least == pytest.approx(one.head.foot_least, rel=1e-12)
-
-
-def test_least_tension_where_one_guy_alone_works():
-    """At one net, the smaller one of both load cases."""
-    lean, working = math.radians(30.0), set()
-    for net in (a_net(), a_net(slack=0.001, stiffness=9e6, snow_thickness=1.1)):
-        one = find(build_ranges(net, 1.9, inclinations=(lean, lean)))
-        guys = (Member.UPHILL_GUY, DOWNHILL)
-        forces = list(solve(net, 1.9, 1742.0, lean))
-        tensions = [sum(of_case[guy] for guy in guys) for of_case in forces]
-        assert one.head.least_tension == pytest.approx(min(tensions), rel=1e-12)
-        assert one.head.least_tension > 0.0
-        working |= {guy for of_case in forces for guy in guys if of_case[guy] > 0.0}
-    assert working == set(guys)
 
 
 @each("seed", range(20))

@@ -1,6 +1,5 @@
 """What is assumed of empty cells: every range lies within what a cell may hold."""
 
-import ast
 import math
 
 import pytest
@@ -10,7 +9,6 @@ from netdesign.site.assumed import assume, assume_ends, load_assumed
 from netdesign.site.columns.all_tables import load_old_plans
 from netdesign.words.catalogue import LANGUAGES, render
 from tests.site.columns.fields import FIELDS as TABLES
-from tests.sources import parse_package
 
 OLD = [(*one.fields, *one.items) for one in load_old_plans().values()]
 FIELDS = {
@@ -52,14 +50,3 @@ def test_a_multiple_is_that_of_its_factor():
 
 def test_assumed_ranges_are_no_profile():
     assert "assumed" not in " ".join(list_standards())
-
-
-def test_the_program_takes_every_range_of_the_file():
-    """Each key stands as a whole text in the package: no range is stated in vain."""
-    texts = {
-        node.value
-        for tree in parse_package().values()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    }
-    assert set(load_assumed()) <= texts

@@ -46,32 +46,30 @@ def test_foot_anchor_is_pulled_by_the_net_over_the_spacing():
     assert (foot.x, foot.y) == (30e3 * 4.0, 10e3 * 4.0)
 
 
-def test_uphill_anchor_is_drawn_towards_the_head():
-    forces = forces_for((20e3, -30e3))
-    anchor = forces.uphill_anchor
-    assert anchor.size == pytest.approx(forces.head.uphill_guy_tension, rel=1e-15)
-    assert measure(anchor) == pytest.approx(math.atan2(3.0, 1.8 + 3.0), rel=1e-14)
-
-
-def test_downhill_anchor_is_drawn_towards_the_head():
-    forces = forces_for((-40e3, -30e3))
-    anchor, points = forces.downhill_anchor, some_points()
-    assert anchor.size == pytest.approx(forces.head.downhill_guy_tension, rel=1e-15)
-    expected = math.atan2(3.0, 1.8 - points.downhill_anchor[0])
-    assert math.pi / 2 < measure(anchor) < math.pi
-    assert measure(anchor) == pytest.approx(expected, rel=1e-14)
-
-
-def test_post_base_is_pressed_into_the_ground_along_the_post():
-    forces = forces_for((20e3, -30e3))
-    base = forces.post_base
-    assert base.size == pytest.approx(forces.head.post_compression, rel=1e-15)
-    assert measure(base) == pytest.approx(-math.pi / 2 - math.radians(10), rel=1e-14)
-
-
-def test_slack_guy_leaves_its_anchor_without_force():
-    anchor = forces_for((20e3, -30e3)).downhill_anchor
-    assert (anchor.x, anchor.y, anchor.size) == (0.0, 0.0, 0.0)
+def test_ground_is_pulled_towards_the_head_and_pressed_along_the_post():
+    down, up = forces_for((20e3, -30e3)), forces_for((-40e3, -30e3))
+    downhill_x = some_points().downhill_anchor[0]
+    for force, size, direction in (
+        (
+            down.uphill_anchor,
+            down.head.uphill_guy_tension,
+            math.atan2(3.0, 1.8 + 3.0),
+        ),
+        (
+            up.downhill_anchor,
+            up.head.downhill_guy_tension,
+            math.atan2(3.0, 1.8 - downhill_x),
+        ),
+        (
+            down.post_base,
+            down.head.post_compression,
+            -math.pi / 2 - math.radians(10),
+        ),
+    ):
+        assert force.size == pytest.approx(size, rel=1e-15)
+        assert measure(force) == pytest.approx(direction, rel=1e-14)
+    slack = down.downhill_anchor
+    assert (slack.x, slack.y, slack.size) == (0.0, 0.0, 0.0)
 
 
 def test_member_forces_are_those_of_the_members():

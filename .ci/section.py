@@ -1,6 +1,6 @@
 """Draws the section of the input workbook, with the names of its headings.
 
-``python -m tests.site.template.section`` writes the pictures that the package holds.
+``python .ci/section.py`` writes the pictures that the package holds.
 """
 
 import math
