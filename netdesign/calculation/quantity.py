@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
 from typing import NamedTuple
@@ -86,14 +86,19 @@ class Operation(NamedTuple):
         """Way of the operand at a place."""
         return self.ways[min(place, len(self.ways) - 1)]
 
+    @property
+    def turns(self) -> bool:
+        """It goes another way somewhere."""
+        return self.least > -math.inf or self.most < math.inf
+
 
 def _divide(above: Dimension, below: Dimension) -> Dimension:
     return multiply_dimension(above, below, -1)
 
 
 def _keep(*all_: Dimension) -> Dimension | None:
-    dimensions = set(all_) or {PURE}
-    return dimensions.pop() if len(dimensions) == 1 else None
+    first, *others = all_ or (PURE,)
+    return None if any(other != first for other in others) else first
 
 
 def _turn(angle: Dimension) -> Dimension | None:
@@ -163,11 +168,12 @@ class Quantity:
 
     def __post_init__(self) -> None:
         """Refuse a band in disorder, NaN and infinity."""
-        ends = (self.low, self.value, self.high)
-        if self.lacks and ends == (None, None, None):
-            return
-        low, value, high = (math.nan if end is None else end for end in ends)
-        if self.lacks or not -math.inf < low <= value <= high < math.inf:
+        ends = low, value, high = self.low, self.value, self.high
+        if low is None or value is None or high is None:
+            is_sound = bool(self.lacks) and ends == (None, None, None)
+        else:
+            is_sound = not self.lacks and -math.inf < low <= value <= high < math.inf
+        if not is_sound:
             raise ModelError(
                 say("calculation.disorder", symbol=self.symbol, ends=f"{ends}")
             )
@@ -228,12 +234,25 @@ class Quantity:
                 say("calculation.unit", symbol=symbol, unit=unit, found=dimension)
             )
         made = apply("=", self) if self.symbol else self
-        return replace(made, symbol=symbol, unit=unit, source=clause)
+        return Quantity(
+            low=made.low,
+            value=made.value,
+            high=made.high,
+            dimension=made.dimension,
+            symbol=symbol,
+            unit=unit,
+            kind=made.kind,
+            source=clause,
+            operation=made.operation,
+            of=made.of,
+            lacks=made.lacks,
+        )
 
 
 Operand = Quantity | float
 
 
+@lru_cache(maxsize=4096)  # a row is judged at many corners, most of whose leaves are alike
 def leaf(
     symbol: str,
     value: float | None,
@@ -294,13 +313,12 @@ def apply(operation: str, *operands: Operand) -> Quantity:
         If units do not fit.
     """
     rule = OPERATIONS[operation]
-    of = tuple(x if isinstance(x, Quantity) else constant(x) for x in operands)
+    of = tuple([x if isinstance(x, Quantity) else constant(x) for x in operands])
     low = value = high = None
-    lacks = tuple(dict.fromkeys(lack for x in of for lack in x.lacks))
-    lacks = lacks or _list_lacks(operation, of)
+    lacks = _list_lacks(operation, of)
     if not lacks:
-        bands = (x.order(rule.way(place)) for place, x in enumerate(of))
-        low, value, high = (rule.of(*ends) for ends in zip(*bands, strict=True))
+        bands = [x.order(rule.way(place)) for place, x in enumerate(of)]
+        low, value, high = [rule.of(*ends) for ends in zip(*bands, strict=True)]
     return Quantity(
         low=low,
         value=value,
@@ -315,8 +333,8 @@ def apply(operation: str, *operands: Operand) -> Quantity:
 def _find_dimension(operation: str, of: Sequence[Quantity]) -> Dimension:
     rule = OPERATIONS[operation].dimension
     # zero has any unit
-    counted = (x for x in of if rule is not _keep or not _is_zero(x))
-    dimension = rule(*(x.dimension for x in counted))
+    counted = [x.dimension for x in of if rule is not _keep or not _is_zero(x)]
+    dimension = rule(*counted)
     if dimension is None:
         units = ", ".join(name_dimension(x.dimension) for x in of)
         raise ModelError(say("calculation.units", operation=operation, units=units))
@@ -330,9 +348,15 @@ def _name(quantity: Quantity) -> str:
 
 
 def _list_lacks(operation: str, of: Sequence[Quantity]) -> tuple[Message, ...]:
-    """Lack of a result where the ends of known operands would not give its ends."""
+    """Lacks of the operands, or that of a result which does not follow from their ends.
+
+    That is where an end lies beyond the turn of the operation.
+    """
+    lacks = [lack for x in of for lack in x.lacks]
+    if lacks:
+        return tuple(dict.fromkeys(lacks))
     rule = OPERATIONS[operation]
-    for x in of:
+    for x in of if rule.turns else ():
         low, _, high = x.order(1)
         if low < rule.least or high > rule.most:
             lack = say("calculation.outside", operation=operation, symbol=_name(x))

@@ -7,6 +7,7 @@ forces, the guideline's, cells of the workbook, values of the profile.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.checks import Standard
@@ -104,10 +105,13 @@ def find_force(
 
 
 def _calculate(forces: RowForces, leaves: Sequence[Quantity]) -> SupportForce:
-    return calculate_force(
-        {quantity.symbol: quantity for quantity in leaves},
-        by_guideline=forces.standard.is_by_guideline,
-    )
+    return _calculate_of(tuple(leaves), forces.standard.is_by_guideline)
+
+
+@lru_cache(maxsize=4096)  # of alike leaves at many corners
+def _calculate_of(leaves: tuple[Quantity, ...], by_guideline: bool) -> SupportForce:
+    of = {quantity.symbol: quantity for quantity in leaves}
+    return calculate_force(of, by_guideline=by_guideline)
 
 
 def _work_out(
