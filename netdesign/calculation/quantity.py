@@ -252,7 +252,9 @@ class Quantity:
 Operand = Quantity | float
 
 
-@lru_cache(maxsize=4096)  # a row is judged at many corners, most of whose leaves are alike
+@lru_cache(
+    maxsize=4096
+)  # a row is judged at many corners, most of whose leaves are alike
 def leaf(
     symbol: str,
     value: float | None,

@@ -3,8 +3,11 @@
 from netdesign.checks.check import Check as Check
 from netdesign.checks.check import Open as Open
 from netdesign.checks.check import OpenKind as OpenKind
+from netdesign.checks.check import Rating as Rating
+from netdesign.checks.comparison import RatedForce as RatedForce
 from netdesign.checks.comparison import check_member as check_member
 from netdesign.checks.comparison import find_resistance as find_resistance
+from netdesign.checks.comparison import rate_member as rate_member
 from netdesign.checks.geometry import Approval as Approval
 from netdesign.checks.geometry import RowGeometry as RowGeometry
 from netdesign.checks.geometry import StatedValue as StatedValue

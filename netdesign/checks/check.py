@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from functools import cached_property
@@ -104,6 +104,74 @@ def judge(low: float, high: float, *, least: float, most: float) -> Verdict:
     if low > most or high < least:
         return Verdict.FAIL
     return Verdict.PASS if least <= low and high <= most else Verdict.NOT_PROVEN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rating:
+    """How far a check is met, by its numbers and its open points.
+
+    Attributes
+    ----------
+    low, high : float or None
+        Utilisation at the ends of the demand [-]; None where it is not known.
+    open : sequence of Open
+        All that is open.
+    demand : float or None
+        High end of the design force [kN].
+    met : Verdict or None
+        In place of a utilisation: by another comparison, or of information only.
+    eased : float or None
+        Low end of the utilisation at the best ends of what is assumed [-].
+    """
+
+    low: float | None
+    high: float | None
+    open: Sequence[Open] = ()
+    demand: float | None = None
+    met: Verdict | None = None
+    eased: float | None = None
+
+    @property
+    def eased_low(self) -> float | None:
+        """Low end at the best ends of what is assumed [-]; None if no lower."""
+        low, eased = self.low, self.eased
+        return eased if low is not None and eased is not None and eased < low else None
+
+    @property
+    def band(self) -> tuple[float | None, float | None]:
+        """Utilisation at the best ends of what is assumed, and at the worst [-]."""
+        return self.low if self.eased_low is None else self.eased_low, self.high
+
+    @property
+    def is_unbounded(self) -> bool:
+        """No resistance is left, so that the utilisation has no bound."""
+        return any(point.kind is OpenKind.FAILS for point in self.open)
+
+    @property
+    def by_numbers(self) -> Verdict:
+        """Verdict by the numbers alone; no stated one stands above a utilisation."""
+        return rate_utilisation(*self.band) if self.met is None else self.met
+
+    @property
+    def verdict(self) -> Verdict:
+        """Verdict by the whole interval and all open points."""
+        return merge_open(self.by_numbers, self.open)
+
+    def ease(self, least: float) -> Rating:
+        """Rating of a check that is used that much at the best ends [-].
+
+        What leaves nothing to resist where it is worst, but not there, fails no longer.
+        """
+        if self.is_unbounded and least < math.inf:
+            points = [
+                replace(point, kind=OpenKind.ASSUMED_DECIDES)
+                if point.kind is OpenKind.FAILS
+                else point
+                for point in self.open
+            ]
+            return replace(self, open=points, eased=least)
+        low, _ = self.band
+        return self if low is None or least >= low else replace(self, eased=least)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,6 +301,22 @@ class Check:
         """Steps by their symbols."""
         return {step.symbol: step for step in self.steps}
 
+    @cached_property
+    def rating(self) -> Rating:
+        """How far it is met."""
+        low, high = self.read_band("μ")
+        stated = self.met or Verdict.NOT_PROVEN
+        if self.steps:
+            stated = Verdict.NOT_PROVEN
+        return Rating(
+            low=low,
+            high=high,
+            open=self.open,
+            demand=self.read_band("E_d")[1],
+            met=None if self.steps and self.met is None else stated,
+            eased=self.eased,
+        )
+
     def read(self, symbol: str) -> float | None:
         """Value of a step, in its unit; None where it is missing."""
         step = self.step_of.get(symbol)
@@ -270,15 +354,12 @@ class Check:
 
         The low end is that at the best ends of what is assumed.
         """
-        low, high = self.read_band("μ")
-        return low if self.eased_low is None else self.eased_low, high
+        return self.rating.band
 
     @property
     def eased_low(self) -> float | None:
         """Low end at the best ends of what is assumed [-]; None if no lower."""
-        low, eased = self.read_band("μ")[0], self.eased
-        is_lower = low is not None and eased is not None and eased < low
-        return eased if is_lower else None
+        return self.rating.eased_low
 
     @property
     def utilisation_by_model(self) -> float | None:
@@ -311,7 +392,7 @@ class Check:
     @property
     def is_unbounded(self) -> bool:
         """No resistance is left, so that the utilisation has no bound."""
-        return self.has_open(OpenKind.FAILS)
+        return self.rating.is_unbounded
 
     @property
     def used(self) -> float | None:
@@ -326,7 +407,7 @@ class Check:
     @cached_property
     def verdict(self) -> Verdict:
         """Verdict by the whole interval and all open points."""
-        return merge_open(self._met, self.open)
+        return self.rating.verdict
 
     @property
     def rank(self) -> tuple[int, bool, float]:
@@ -356,7 +437,7 @@ class Check:
         if self.is_unbounded or self._is_found:
             return ()
         messages = dict.fromkeys(self._open_messages)
-        if not messages and self._met is Verdict.NOT_PROVEN:
+        if not messages and self.rating.by_numbers is Verdict.NOT_PROVEN:
             return (say("check.band_spans_resistance"),)
         return tuple(messages)
 
@@ -365,33 +446,17 @@ class Check:
         return [point.message for point in self.open if point.proof is None]
 
     @property
-    def _met(self) -> Verdict:
-        """Verdict by the numbers alone; no stated one stands above a utilisation."""
-        if self.steps and self.met is None:
-            return rate_utilisation(*self.utilisation_band)
-        return Verdict.NOT_PROVEN if self.steps else self.met or Verdict.NOT_PROVEN
-
-    @property
     def _is_found(self) -> bool:
         """The sentence of its own comparison is its reason."""
-        is_open = self._met is not Verdict.PASS or not self._open_messages
+        is_open = self.rating.by_numbers is not Verdict.PASS or not self._open_messages
         return self.finding is not None and is_open
 
     def ease(self, least: float) -> Check:
-        """Check that is used that much at the best ends of what is assumed [-].
-
-        What leaves nothing to resist where it is worst, but not there, fails no longer.
-        """
-        if self.is_unbounded and least < math.inf:
-            points = [
-                replace(point, kind=OpenKind.ASSUMED_DECIDES)
-                if point.kind is OpenKind.FAILS
-                else point
-                for point in self.open
-            ]
-            return replace(self, open=points, eased=least)
-        low, _ = self.utilisation_band
-        return self if low is None or least >= low else replace(self, eased=least)
+        """Check that is used that much at the best ends of what is assumed [-]."""
+        eased = self.rating.ease(least)
+        if eased is self.rating:
+            return self
+        return replace(self, open=list(eased.open), eased=eased.eased)
 
     def with_open(self, kind: OpenKind, *messages: Message) -> Check:
         """Check with further open points of a kind."""
@@ -490,7 +555,7 @@ class Check:
         if self.finding is not None and self._is_found:
             return self.finding
         reasons = self.open_reasons
-        is_failed = self._met is Verdict.FAIL
+        is_failed = self.rating.by_numbers is Verdict.FAIL
         if reasons:
             key = "check.fails_besides" if is_failed else "check.not_proven"
             return say(key, gaps=reasons)

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
-from netdesign.checks.check import Check, Open, OpenKind
+from netdesign.checks.check import Check, Open, OpenKind, Rating
 from netdesign.checks.forces import rate, resist_by_tests
 from netdesign.checks.loader import Standard
 from netdesign.checks.result import GivenResistance
@@ -97,16 +98,68 @@ def find_proof_factor(standard: Standard) -> float | None:
 _NET = "net"
 
 
-def check_member(
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RatedForce:
+    """A force on a member against its resistance, whose steps are not written yet.
+
+    Attributes
+    ----------
+    resistance : GivenResistance
+        Names member and mode.
+    used : Quantity
+        Utilisation with all that it follows from [-].
+    clause : str
+        Of the partial factor on the resistance.
+    open : tuple of Open
+        What is open of force and resistance.
+    """
+
+    resistance: GivenResistance
+    used: Quantity
+    clause: str
+    open: tuple[Open, ...]
+
+    @property
+    def rating(self) -> Rating:
+        """How far the check is met."""
+        demand = self.used.of[0]
+        return Rating(
+            low=self.used.low,
+            high=self.used.high,
+            open=self.open,
+            demand=demand.high,
+        )
+
+    def with_open(self, kind: OpenKind, *messages: Message) -> RatedForce:
+        """The same with further open points of a kind."""
+        points = (Open(kind=kind, message=message) for message in messages)
+        return replace(self, open=(*self.open, *points))
+
+    def write(self, beside: Sequence[Quantity] = ()) -> Check:
+        """Check with its steps; ``beside`` are forces beside the one that decides."""
+        resistance = self.resistance
+        return Check(
+            id=f"{resistance.member}.{resistance.mode}",
+            clause=self.clause,
+            member=resistance.member,
+            mode=resistance.mode,
+            resistance_basis=resistance.basis,
+            resistance_type=resistance.type_id,
+            resistance_cell=resistance.source,
+            steps=list_steps(*beside, self.used),
+            open=list(self.open),
+        )
+
+
+def rate_member(
     action: Quantity,
     resistance: GivenResistance,
     standard: Standard,
     points: Sequence[Open] = (),
     *,
     strength: Quantity | None = None,
-    beside: Sequence[Quantity] = (),
-) -> Check:
-    """Check one member in one mode: design force against design resistance.
+) -> RatedForce:
+    """Rate one member in one mode: design force against design resistance.
 
     Parameters
     ----------
@@ -122,32 +175,34 @@ def check_member(
         them nothing passes.
     strength : Quantity, optional
         R_k [kN]; that of ``resistance`` unless told otherwise.
-    beside : sequence of Quantity
-        Forces that stand beside the one that decides [kN].
 
     Returns
     -------
-    Check
+    RatedForce
         Never a pass where anything needed is missing: that is an open point, too.
     """
     strength = strength or find_resistance(resistance, standard)
     on_action = find_action_factor(standard, resistance.mode)
     on_resistance, clause = _find_resistance_factor(resistance, standard, strength)
     used = rate(action, on_action, strength, on_resistance)
-    check = Check(
-        id=f"{resistance.member}.{resistance.mode}",
-        clause=clause,
-        member=resistance.member,
-        mode=resistance.mode,
-        resistance_basis=resistance.basis,
-        resistance_type=resistance.type_id,
-        resistance_cell=resistance.source,
-        steps=list_steps(*beside, used),
-        open=list(points),
+    rated = RatedForce(
+        resistance=resistance, used=used, clause=clause, open=tuple(points)
     )
     messages = {point.message for point in points}
     lacks = (lack for lack in used.lacks if lack not in messages)
-    return check.with_open(OpenKind.RESISTANCE_MISSING, *lacks)
+    return rated.with_open(OpenKind.RESISTANCE_MISSING, *lacks)
+
+
+def check_member(
+    action: Quantity,
+    resistance: GivenResistance,
+    standard: Standard,
+    points: Sequence[Open] = (),
+    *,
+    strength: Quantity | None = None,
+) -> Check:
+    """Check one member in one mode, with the parameters of `rate_member`."""
+    return rate_member(action, resistance, standard, points, strength=strength).write()
 
 
 def compare(

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
-from netdesign.checks import Check, OpenKind
+from netdesign.checks import Check, OpenKind, Rating
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
@@ -38,6 +38,7 @@ from netdesign.study.row_variants import (
     take_off_truss,
 )
 from netdesign.study.scopes import is_of_structure
+from netdesign.study.worst_checks import find_least
 from netdesign.words.message import Message, say
 
 # What is searched with the cases, but is no design range.
@@ -188,7 +189,7 @@ class _BestEnds:
     def _ease(self, take_off: Callable[[RowForces], RowForces], key: str) -> Check:
         """Ease the check where it passes without the pull that an assumption brings."""
         check, low = self.judged.check, _find_low(self._judge(take_off(self.best)))
-        worst = _rate(check)
+        worst = _rate(check.rating)
         if not 0.0 < low <= 1.0 or math.isinf(worst):
             return check
         deciding = say(key, used=worst, without=low)
@@ -219,10 +220,10 @@ class _BestEnds:
             self.forces_at[key] = find_least_forces(self.task, row, solved)
         return self.forces_at[key]
 
-    def _judge(self, forces: RowForces | None) -> Check | None:
+    def _judge(self, forces: RowForces | None) -> Rating | None:
         if forces is None or self.judged.again is None:
             return None
-        return self.judged.again(forces).check
+        return self.judged.again(forces).rating
 
     def _rate(self, forces: RowForces | None) -> float:
         if id(forces) not in self.rates:
@@ -231,7 +232,7 @@ class _BestEnds:
 
     def _tell(self) -> Message | None:
         """Name the assumed value that lowers the utilisation most, if one does."""
-        worst = _rate(self.judged.check)
+        worst = _rate(self.judged.rating)
         options = [*self._vary_statics(), *self._vary_searched()]
         rated = [(each.rate(1.0), each) for each in options]
         least, option = min(rated, key=lambda each: each[0], default=(math.inf, None))
@@ -283,7 +284,7 @@ class _BestEnds:
         here, there = (
             self._rate(self._find_alone(at, force)) for at in (self.row, row)
         )
-        return _scale(self.judged.check, here, there)
+        return _scale(self.judged.rating, here, there)
 
     def _vary_searched(self) -> Iterator[_Option]:
         """Other ends of what is searched with the cases, each alone."""
@@ -306,7 +307,7 @@ class _BestEnds:
             self._rate(self._find_at(self.row, {key: value}))
             for value in (worst, worst + share * (other - worst))
         )
-        return _scale(self.judged.check, here, there)
+        return _scale(self.judged.rating, here, there)
 
     def _find_alone(self, row: NetRow, force: MemberForce) -> RowForces | None:
         """Forces on a variant of the row by the case that governs one force."""
@@ -378,25 +379,22 @@ def _wrap(solved: RowEnvelope, result: CaseResult) -> RowEnvelope:
     )
 
 
-def _scale(check: Check, here: float, there: float) -> float:
+def _scale(rating: Rating, here: float, there: float) -> float:
     """Utilisation elsewhere, in proportion to one that stands for that of a check."""
-    whole = _rate(check)
+    whole = _rate(rating)
     return there * whole / here if 0.0 < here < math.inf > whole else there
 
 
-def _find_low(check: Check | None) -> float:
+def _find_low(rating: Rating | None) -> float:
     """Low end of a utilisation [-]; endless without a bound, 0 of none."""
-    if check is not None and check.is_unbounded:
-        return math.inf
-    return (check.utilisation_band[0] if check else None) or 0.0
+    return 0.0 if rating is None else find_least(rating)
 
 
-def _rate(check: Check | None) -> float:
+def _rate(rating: Rating | None) -> float:
     """Upper end of a utilisation [-]; endless where there is none."""
-    if check is None or check.is_unbounded:
+    if rating is None or rating.is_unbounded or rating.high is None:
         return math.inf
-    high = check.utilisation_band[1]
-    return math.inf if high is None else high
+    return rating.high
 
 
 def _find_share(rate: Callable[[float], float]) -> float:

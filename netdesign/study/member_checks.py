@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Check, Open, OpenKind, Standard, check_member
-from netdesign.checks.check import SingleTest, TestSeries, rate_utilisation
+from netdesign.checks import (
+    Check,
+    Open,
+    OpenKind,
+    RatedForce,
+    Rating,
+    Standard,
+    rate_member,
+)
+from netdesign.checks.check import SingleTest, TestSeries
 from netdesign.checks.comparison import find_missing_force, find_proof_factor
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
@@ -57,7 +65,7 @@ class MemberCheck:
 
     ``force`` is None where no case gives it. ``forces`` are those of the variant on
     which the check is worst, ``best`` those of the variant on which it is least used.
-    ``again`` judges the same member on another variant.
+    ``again`` rates the same member on another variant.
     """
 
     forces: RowForces
@@ -67,7 +75,7 @@ class MemberCheck:
     force: MemberForce | None = None
     pull: PullRecord | None = None  # on an anchor, where one is known
     best: RowForces | None = None  # None where there is one variant
-    again: Callable[[RowForces], MemberCheck] | None = None
+    again: Callable[[RowForces], Rated] | None = None
 
     @property
     def name(self) -> tuple[str, str]:
@@ -85,37 +93,93 @@ class MemberCheck:
         high = self.check.utilisation_band[1]
         return -1.0 if high is None else high
 
+    @property
+    def rating(self) -> Rating:
+        """How far its check is met."""
+        return self.check.rating
 
-def judge_member(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> MemberCheck:
-    """Check of a member of one support, on one variant of the row."""
-    open_end = forces.effects.open_end
-    if resistance.member in ROPE_OF and open_end:  # whatever else is missing
-        points = [Open(kind=OpenKind.UNSOLVED, message=open_end)]
+    def write(self) -> MemberCheck:
+        """The same: its check is written."""
+        return self
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RatedMember:
+    """Member of one support on one variant of the row, whose check is not yet written.
+
+    The fields are those of a `MemberCheck`.
+    """
+
+    forces: RowForces
+    resistance: Resistance
+    width: LoadedWidth
+    rated: RatedForce
+    force: MemberForce | None = None
+    pull: PullRecord | None = None
+
+    @property
+    def rating(self) -> Rating:
+        """How far its check is met."""
+        return self.rated.rating
+
+    def write(self) -> MemberCheck:
+        """Check with all its steps."""
+        forces, force, resistance = self.forces, self.force, self.resistance
+        is_beside = force is not None and forces.standard.is_by_guideline
+        check = self.rated.write(force.on.by_model if force and is_beside else ())
+        least = forces.find_least(resistance.member) if force else None
         check = replace(
-            judge_force(forces, resistance, None, width, points), open=points
+            check,
+            id=check.id + AT_SUPPORT[self.width.position],
+            position=self.width.position,
+            case=force.largest.case if force else None,
+            load_case=least.load_case if least else "",
+            load_inclination_deg=least.inclination_deg if least else None,
+            resistance_derivation=resistance.derivation,
+            tests=_record_tests(resistance, forces.standard),
+            proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
         )
         return MemberCheck(
-            forces=forces, resistance=resistance, width=width, check=check
+            forces=forces,
+            resistance=resistance,
+            width=self.width,
+            check=check,
+            force=force,
+            pull=self.pull,
+        )
+
+
+Rated = RatedMember | MemberCheck
+
+
+def rate_at(
+    forces: RowForces, resistance: Resistance, width: LoadedWidth
+) -> RatedMember:
+    """Rate a member of one support, on one variant of the row."""
+    open_end = forces.effects.open_end
+    if resistance.member in ROPE_OF and open_end:  # whatever else is missing
+        ends = (Open(kind=OpenKind.UNSOLVED, message=open_end),)
+        rated = replace(_rate(forces, resistance, None, ends), open=ends)
+        return RatedMember(
+            forces=forces, resistance=resistance, width=width, rated=rated
         )
     force = find_force(forces, resistance, width)
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, points = _resist_and_ask(forces, resistance, width, force)
-    check = judge_force(forces, resistance, force, width, points)
+    rated = _rate(forces, resistance, force, points)
     short = find_short_post(resistance, forces)
-    if short and check.verdict is Verdict.PASS:  # a longer post fails all the more
+    if short and rated.rating.verdict is Verdict.PASS:  # a longer post fails the more
         resistance = replace(resistance, value=None, lack=short)
-        check = judge_force(forces, resistance, force, width, points)
-    met = rate_utilisation(*check.utilisation_band)
+        rated = _rate(forces, resistance, force, points)
+    met = rated.rating.by_numbers
     if resistance.open and (resistance.best is None or met is Verdict.NOT_PROVEN):
-        check = check.with_open(OpenKind.RESISTANCE_IN_DOUBT, resistance.open)
-    return MemberCheck(
+        rated = rated.with_open(OpenKind.RESISTANCE_IN_DOUBT, resistance.open)
+    return RatedMember(
         forces=forces,
         resistance=resistance,
         width=width,
+        rated=rated,
         force=force,
-        check=check,
         pull=pull,
     )
 
@@ -125,7 +189,7 @@ def _resist_and_ask(
     resistance: Resistance,
     width: LoadedWidth,
     force: MemberForce | None,
-) -> tuple[Resistance, list[Open]]:
+) -> tuple[Resistance, tuple[Open, ...]]:
     """Find the resistance of a member to a force, and the open points of both."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
     resistance, open_lasting = find_lasting(forces, resistance, pull)
@@ -136,7 +200,7 @@ def _resist_and_ask(
     points = list(_list_open(forces, resistance, width))
     if open_lasting:
         points.append(Open(kind=OpenKind.RESISTANCE_IN_DOUBT, message=open_lasting))
-    return resistance, points
+    return resistance, tuple(points)
 
 
 def _list_open(
@@ -153,45 +217,31 @@ def _list_open(
         yield Open(kind=OpenKind.UNSOLVED, message=message)
 
 
-def judge_force(
+def _rate(
     forces: RowForces,
     resistance: Resistance,
     force: MemberForce | None,
-    width: LoadedWidth,
-    points: Sequence[Open] = (),
-) -> Check:
-    """Check of a force; it fails where a moment alone is too much for a post.
+    points: Sequence[Open],
+) -> RatedForce:
+    """Rate a force; its check fails where a moment alone is too much for a post.
 
     Then no resistance is left for the post's force, and the utilisation has no bound.
     The same holds for a loose foot that its post surely lifts.
     """
     standard = forces.standard
     reason = points[0].message if points else say("check.no_case_solved")
-    check = check_member(
+    rated = rate_member(
         force.action if force else find_missing_force(reason),
         resistance,
         standard,
         points,
         strength=resist(resistance, standard, force) if force else None,
-        beside=force.on.by_model if force and standard.is_by_guideline else (),
-    )
-    least = forces.find_least(resistance.member) if force else None
-    check = replace(
-        check,
-        id=check.id + AT_SUPPORT[width.position],
-        position=width.position,
-        case=force.largest.case if force else None,
-        load_case=least.load_case if least else "",
-        load_inclination_deg=least.inclination_deg if least else None,
-        resistance_derivation=resistance.derivation,
-        tests=_record_tests(resistance, standard),
-        proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
     )
     lack = resistance.lack
     if lack == FOOT_LOOSE and force and force.action.low:
         lack = LOOSE_LIFTS
     is_unbounded = lack is not None and lack.key in UNBOUNDED
-    return check.with_open(OpenKind.FAILS, lack) if lack and is_unbounded else check
+    return rated.with_open(OpenKind.FAILS, lack) if lack and is_unbounded else rated
 
 
 def _record_tests(resistance: Resistance, standard: Standard) -> TestSeries | None:

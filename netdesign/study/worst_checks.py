@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from netdesign.checks import Check
+from netdesign.checks import Rating
 from netdesign.outcome import Verdict
-from netdesign.site.model import Resistance
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import CONNECTED, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.anchor_pulls import check_direction, find_pull
@@ -20,8 +20,9 @@ from netdesign.study.member_checks import (
     AT_SUPPORT,
     WORSE,
     MemberCheck,
+    Rated,
     find_open,
-    judge_member,
+    rate_at,
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
 from netdesign.study.row_resistances import connect, may_bend
@@ -94,12 +95,20 @@ def list_apart(
     """Variants of which a member's checks may differ, one of those that are alike."""
     if member in _ALIKE and not variants[0].row.layout.is_foot_shared:
         return variants[:1]
-    if member in _OF_END_GUY or (member in PUSHED and width.position == "edge"):
+    if member in PUSHED and width.position == "edge":
         return variants
+    of_end_guy = member in _OF_END_GUY
     apart = {
-        (forces.row.layout, forces.row.guys): forces for forces in reversed(variants)
+        _find_guy_angle(forces.row)
+        if of_end_guy
+        else (forces.row.layout, forces.row.guys): forces
+        for forces in reversed(variants)
     }
     return [*apart.values()]
+
+
+def _find_guy_angle(row: NetRow) -> float | None:
+    return row.row_end.guy_angle if row.row_end else None
 
 
 _Find = Callable[[RowForces, Resistance, LoadedWidth], Resistance]
@@ -117,41 +126,37 @@ def _judge_worst(
 ) -> MemberCheck:
     """Judge a member where it is worst; ``find`` gives its resistance."""
 
-    def judge(forces: RowForces) -> MemberCheck:
-        return judge_member(forces, find(forces, resistance, width), width)
+    def rate(forces: RowForces) -> Rated:
+        return rate_at(forces, find(forces, resistance, width), width)
 
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
-        return replace(judge(apart[0]), again=judge)
-    return replace(_compare(list(map(judge, apart))), again=judge)
+        return replace(rate(apart[0]).write(), again=rate)
+    return replace(_take_worst(list(map(rate, apart))), again=rate)
 
 
-def _compare(judged: Sequence[MemberCheck]) -> MemberCheck:
-    """Worst of a member's checks on several variants, eased to the best of them."""
-    best = min(judged, key=lambda each: _find_least(each.check))
-    least = _find_least(best.check)
-    eased = [replace(each, check=each.check.ease(least)) for each in judged]
-    worst = take_worst(eased)
-    check = replace(worst.check, assumed=describe_variant(worst.forces.row))
+def _take_worst(rated: Sequence[Rated]) -> MemberCheck:
+    """Worst of a member's checks on several variants, eased to the best of them.
+
+    That is the gravest verdict, then the most used, then the most loaded one.
+    """
+    best = min(rated, key=lambda each: find_least(each.rating))
+    least = find_least(best.rating)
+    worst = max(rated, key=lambda each: _weigh(each.rating.ease(least))).write()
+    assumed = describe_variant(worst.forces.row)
+    check = replace(worst.check.ease(least), assumed=assumed)
     return replace(worst, check=check, best=best.forces)
 
 
-def _find_least(check: Check) -> float:
+def find_least(rating: Rating) -> float:
     """Low end of a utilisation; 0 where there is none, endless where nothing bounds."""
-    if check.is_unbounded:
-        return math.inf
-    return check.utilisation_band[0] or 0.0
+    return math.inf if rating.is_unbounded else rating.band[0] or 0.0
 
 
-def take_worst(judged: Iterable[MemberCheck]) -> MemberCheck:
-    """Check of the gravest verdict, then the most used, then the most loaded one."""
-    return max(judged, key=_weigh)
-
-
-def _weigh(member_check: MemberCheck) -> tuple[int, float, float]:
-    check = member_check.check
-    used = math.inf if check.is_unbounded else member_check.ratio
-    return WORSE.index(check.verdict), used, check.read_band("E_d")[1] or 0.0
+def _weigh(rating: Rating) -> tuple[int, float, float]:
+    high = -1.0 if rating.high is None else rating.high
+    used = math.inf if rating.is_unbounded else high
+    return WORSE.index(rating.verdict), used, rating.demand or 0.0
 
 
 def _judge_directions(
@@ -165,28 +170,28 @@ def _judge_directions(
     for resistance in resistances:
         if resistance.mode != "direction":
             continue
-        judge = partial(_judge_direction, resistance, width, open_cases)
-        judged = list(map(judge, list_apart(variants, resistance.member, width)))
+        rate = partial(_rate_direction, resistance, width, open_cases)
+        rated = list(map(rate, list_apart(variants, resistance.member, width)))
         if may_bend(resistance):  # where its block does not hold, it bends
-            judged = [x for x in judged if x.check.verdict is Verdict.PASS]
-        if judged:
-            members.append(replace(_compare(judged), again=judge))
+            rated = [x for x in rated if x.rating.verdict is Verdict.PASS]
+        if rated:
+            members.append(replace(_take_worst(rated), again=rate))
     return members
 
 
-def _judge_direction(
+def _rate_direction(
     resistance: Resistance,
     width: LoadedWidth,
     open_cases: Message | None,
     forces: RowForces,
-) -> MemberCheck:
+) -> Rated:
     """Check a rope anchor's angle; beyond the limit, or of no type, check its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
     check = None
     if pull and resistance.type_id:
         check = check_direction(pull, forces.standard, open_cases)
     if check is None:
-        return judge_member(forces, resistance, width)
+        return rate_at(forces, resistance, width)
     check = replace(
         check, id=check.id + AT_SUPPORT[width.position], position=width.position
     )
