@@ -1,5 +1,6 @@
 """The core works without the folder of the add-ons, and says what is missing."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -66,20 +67,30 @@ def test_a_site_is_checked_and_a_scene_solved(core):
     assert "balance" in call(core, "solve", "scene.toml").stdout
 
 
+IN_TURN = """
+import json, sys
+from netdesign.cli import main
+for words in json.loads(sys.argv[1]):
+    sys.argv = ["netdesign", *words.split()]
+    try:
+        main()
+    except SystemExit as end:
+        print(end.code, file=sys.stderr)
+"""
+
+
 def test_a_missing_add_on_is_one_sentence(core):
-    for words, name in (
-        (["winter", "site.xlsx", "--out", "x"], "winter"),
-        (["verify"], "evidence"),
-        (["terrain", "--example"], "terrain"),
-        (["solve", "scene.toml", "--method", "transient"], "history"),
-        (
-            ["check", "--example", "--out", "r", "--reliability", "--no-cache"],
-            "reliability",
-        ),
-    ):
-        told = call(core, *words, code=2).stderr
-        assert f"needs the add-on {name}, which is not installed" in told
-        assert len(told.strip().splitlines()) == 1
+    commands = {
+        "winter site.xlsx --out x": "winter",
+        "verify": "evidence",
+        "terrain --example": "terrain",
+        "solve scene.toml --method transient": "history",
+        "check --example --out r --reliability --no-cache": "reliability",
+    }
+    told = run(core, "-c", IN_TURN, json.dumps([*commands])).stderr.splitlines()
+    assert told[1::2] == ["2"] * len(commands)
+    for sentence, name in zip(told[::2], commands.values(), strict=True):
+        assert f"needs the add-on {name}, which is not installed" in sentence
 
 
 @pytest.mark.long
