@@ -108,6 +108,8 @@ def read_tables(tables, measures=None):
     """Site of these tables, without a file in between: a third of the time."""
     said, frames = MEASURES | (measures or {}), {}
     for table, lines in tables.items():
+        if not lines:
+            continue
         columns = {one.field.key: one for one in load_columns(table)}
         headings = {key: key for key in columns}
         for key in (one for one in columns if columns[one].choice):

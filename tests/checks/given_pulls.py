@@ -2,21 +2,19 @@
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.columns.office import load_columns
-from netdesign.site.reader import read_site
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import place_support
 from netdesign.structure.members import Member, NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from tests.grid import build_cases, wrap_results
-from tests.make import write_site
+from tests.make import read_tables
 
 
 def find_second(gap):
@@ -74,27 +72,18 @@ POST = {
 ANCHOR = {"id": "A", "ground": "till", "protection": "cover", "drilled_length": 5.5}
 
 
-def judge_row(tmp_path: Path, profile, **changes):
+def judge_row(profile, **changes):
     """Checks of the row by their ids, with these pulls of the net [kN/m]."""
-    row = study_row(tmp_path, profile, **changes).rows[0]
+    row = study_row(profile, **changes).rows[0]
     return {check.id: check for check in row.checks}
 
 
-def study_row(
-    tmp_path: Path,
-    profile,
-    *,
-    anchor,
-    foot,
-    head,
-    floor="none",
-    **row,
-):
+def study_row(profile, *, anchor, foot, head, floor="none", **row):
     """Study of the row under a profile, given by its id or its folder.
 
     Without a floor by the guideline's load the given pulls are the demand.
     """
-    site = read_row(tmp_path, anchor=anchor, **row)
+    site = read_row(anchor=anchor, **row)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
     standard = replace(load_standard(profile), floor=floor)
@@ -104,15 +93,14 @@ def study_row(
     )
 
 
-def read_row(tmp_path, *, anchor, post=POST, tests=(), **row):
+def read_row(*, anchor, post=POST, tests=(), **row):
     """Site of the row; what no cell says is set, above all that it has no panel.
 
     Of ``row`` the axes of anchors [deg]; the profile has the efficiency of ``post``.
     """
     axes = {key: row.pop(key) for key in AXES if key in row}
     bare = {key: value for key, value in post.items() if key != "eta"}
-    path = write_row(tmp_path, anchor=anchor, post=bare, tests=tests, **row)
-    site = read_site(path)
+    site = read_tables(build_tables(anchor=anchor, post=bare, tests=tests, **row))
     (given,) = site.rows
     changed = {
         "axes": tuple((AXES[key], math.radians(angle)) for key, angle in axes.items())
@@ -147,8 +135,8 @@ def set_efficiency(standard, eta):
     return replace(standard, values=tuple(values))
 
 
-def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):
-    """Workbook of the row. ``tests``: force, result and planned load."""
+def build_tables(*, anchor, post=POST, tests=(), **row):
+    """Tables of the row. ``tests``: force, result and planned load."""
     kind = dict(anchor)
     if "strength" in kind:  # [MPa], of a bar
         area = math.pi / 4.0 * kind["bar_diameter"] ** 2
@@ -167,7 +155,7 @@ def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):
     keys = ("force", "result", "proof_load")
     of_test = {"type": "A", "ground": kind["ground"]}
     link = {"link": "eye", "force": 900, "meaning": "strength"}
-    tables = {
+    return {
         "project": [project],
         "rows": [ROW | {"ground": kind["ground"]} | of_row],
         "net_types": [NET | of_net | {"post": post["id"]}],
@@ -177,7 +165,6 @@ def write_row(tmp_path: Path, *, anchor, post=POST, tests=(), **row):
         "links": [{"type": one} | link for one in ("A", "G")],
         "tests": [of_test | dict(zip(keys, one, strict=False)) for one in tests],
     }
-    return write_site(tmp_path / "site.xlsx", tables)
 
 
 def give_pulls(site, foot, head) -> CaseResult:

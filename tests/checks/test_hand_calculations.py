@@ -25,9 +25,8 @@ def expect(check, *, demand, resistance, utilisation, verdict):
     assert check.verdict is verdict
 
 
-def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
+def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile():
     checks = judge_row(
-        tmp_path,
         "nf-p-95-304-style",
         anchor={
             "kind": "bar",
@@ -146,9 +145,8 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
     assert inside == pytest.approx(width * 26.907, **CLOSE)
 
 
-def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
+def test_row_2_free_end_with_bond_under_the_swiss_profile():
     checks = judge_row(
-        tmp_path,
         "swiss-guideline-2007",
         anchor={
             "kind": "bar",
@@ -221,9 +219,8 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     assert spacing.bound is None
 
 
-def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
+def test_row_3_head_drawn_upslope_under_the_onr_style_profile():
     checks = judge_row(
-        tmp_path,
         "onr-24805-style",
         anchor={
             "kind": "bar",

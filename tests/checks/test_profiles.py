@@ -25,9 +25,8 @@ ROW = {
     },
     "foot": (20.0, 18.0),
     "head": (5.0, -22.0),
-    "guy_anchors": "shared",
+    "guy_anchors": "shared",  # those of two posts would cross in the ground
     "gap": 1.0,
-    "anchors of the guys": "shared",  # those of two posts would cross in the ground
 }
 
 
@@ -64,14 +63,12 @@ def test_every_value_has_a_source_and_none_claims_to_be_read(name):
         ("onr-24805-style", 1.2, 1.5, 1.1),
     ],
 )
-def test_profiles_differ_by_their_resistance_factors_alone(
-    tmp_path, name, tested, tendon, post
-):
+def test_profiles_differ_by_their_resistance_factors_alone(name, tested, tendon, post):
     """Same demand under all four: they take the same load factor and end effect.
 
     Nobody says that the anchors are bars: the larger factor of tendon and rope counts.
     """
-    checks = judge_row(tmp_path, name, **ROW)
+    checks = judge_row(name, **ROW)
     assert checks["foot_anchor.tendon"].demand_kN == pytest.approx(
         1.5 * 94.18 * 1.00499 * SECOND, rel=1e-4
     )
@@ -82,9 +79,9 @@ def test_profiles_differ_by_their_resistance_factors_alone(
     assert factors == pytest.approx([tested, tendon, post], rel=1e-12)
 
 
-def test_geometry_is_checked_as_far_as_a_profile_has_limits(tmp_path):
+def test_geometry_is_checked_as_far_as_a_profile_has_limits():
     def geometry(name):
-        checks = judge_row(tmp_path, name, **ROW)
+        checks = judge_row(name, **ROW)
         return {key: c.verdict for key, c in checks.items() if key.startswith("geom")}
 
     few = {"geometry.inclination", "geometry.slope", "geometry.height"}
@@ -98,11 +95,11 @@ def test_geometry_is_checked_as_far_as_a_profile_has_limits(tmp_path):
     assert set(swiss.values()) == {Verdict.PASS}
 
 
-def test_swapped_limit_changes_verdict_and_hash_and_nothing_else(folder, tmp_path):
+def test_swapped_limit_changes_verdict_and_hash_and_nothing_else(folder):
     mine = folder("nf-p-95-304-style")
-    before = study_row(tmp_path, mine, **ROW)
+    before = study_row(mine, **ROW)
     edit(mine / "factors.toml", "value = 1.35\n", "value = 2.7\n")
-    after = study_row(tmp_path, mine, **ROW)
+    after = study_row(mine, **ROW)
     assert (before.verdict, after.verdict) == (Verdict.PASS, Verdict.FAIL)
     assert before.profile.sha256 != after.profile.sha256
     was, now = (json.loads(write_json(one)) for one in (before, after))
