@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
-from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
+from netdesign.site.cells.cells import Cell, Sheet, name_column
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
@@ -118,9 +118,9 @@ def find_headings(
     titles = [(cell, plan.find(str(cell.value))) for cell in sheet.row(row)]
     units_row = _find_units_row(sheet, titles, row, findings)
     merged_to = [
-        merged.last_row
+        merged.max_row
         for merged in sheet.merged
-        if merged.row <= row <= merged.last_row and not sheet.rows.get(row + 1)
+        if merged.min_row <= row <= merged.max_row and not sheet.rows.get(row + 1)
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
@@ -284,11 +284,3 @@ def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> N
         fields = [field for field in plan.fields if field.key in plan.one_of]
         rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
         findings.append(table.sheet.finding(rule))
-
-
-def find_cover(sheet: Sheet, row: int, column: int) -> MergedRange | None:
-    """Merged range that hides a cell behind its first one, if there is one."""
-    for merged in sheet.merged:
-        if merged.covers(row, column) and (merged.row, merged.column) != (row, column):
-            return merged
-    return None

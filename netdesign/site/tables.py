@@ -10,7 +10,7 @@ from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import IGNORE
 from netdesign.site.columns.fields import Field, SheetPlan, find_item, normalise
-from netdesign.site.headings import Table, find_cover, find_headings
+from netdesign.site.headings import Table, find_headings
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -129,13 +129,13 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     sheet = table.sheet
     read = [column.number for column in table.columns.values()]
     for merged in sheet.merged:
-        columns = range(merged.column, merged.last_column + 1)
-        rows = range(merged.row, merged.last_row + 1)
+        columns = range(merged.min_col, merged.max_col + 1)
+        rows = range(merged.min_row, merged.max_row + 1)
         if any(one in columns for one in read) and any(
             one in rows for one in table.rows
         ):
-            cell = sheet.cell(merged.row, merged.column)
-            rule = say("table.merged", range=merged.text)
+            cell = sheet.cell(merged.min_row, merged.min_col)
+            rule = say("table.merged", range=merged.coord)
             findings.append(cell.finding(rule, say("accepted.single_cells")))
     if sheet.is_hidden:
         findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
@@ -178,9 +178,10 @@ def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> Non
             if column in known or cell.is_blank:
                 continue
             known.add(column)
-            cover = find_cover(table.sheet, table.heading_row, column)
-            if cover:
-                rule = say("table.below_merged", range=cover.text)
+            cover = table.sheet.find_merged(table.heading_row, column)
+            first = (cover.min_row, cover.min_col) if cover else ()
+            if cover and first != (table.heading_row, column):
+                rule = say("table.below_merged", range=cover.coord)
                 findings.append(cell.finding(rule, say("table.heading_each")))
             elif table.sheet.is_delimited or (table.plan.items and table.titles):
                 # a delimiter too many: what stands here may belong to the left of it
@@ -303,12 +304,9 @@ def _is_part(
     cell, text = cells[0], cells[0].value.strip()
     if find_item(text, plan.items):
         return False
-    is_merged = any(
-        merged.covers(cell.row, cell.column)
-        and merged.row == merged.last_row
-        and merged.last_column - merged.column + 1 >= _WIDE
-        for merged in sheet.merged
-    )
+    merged = sheet.find_merged(cell.row, cell.column)
+    size = merged.size if merged else {"rows": 1, "columns": 1}
+    is_merged = size["rows"] == 1 and size["columns"] >= _WIDE
     if is_merged or plan.items:
         return is_merged
     named = _SECTION.match(text)

@@ -5,8 +5,9 @@ from decimal import Decimal
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from openpyxl.worksheet.cell_range import CellRange
 
-from netdesign.site.cells.cells import Cell, MergedRange, Sheet, Workbook, group_by_row
+from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
 from netdesign.site.columns.fields import convert_unit
 from netdesign.site.columns.office import load_plan
 from netdesign.site.tables import find_table, read_rows
@@ -107,7 +108,7 @@ def put_in_sheet(lines):
         for column, one in enumerate(line, start=1)
         if one is not None
     ]
-    title = MergedRange(text="A1:D1", row=1, column=1, last_row=1, last_column=4)
+    title = CellRange("A1:D1")
     sheet = Sheet(
         file="f.xlsx",
         name=SHEET,

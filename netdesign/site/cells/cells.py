@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from io import BytesIO
+from typing import TYPE_CHECKING
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding, Severity, refuse_file
@@ -22,6 +23,9 @@ from netdesign.site.cells.numbers import (
     split_unit,
 )
 from netdesign.words.message import Message, say
+
+if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
+    from openpyxl.worksheet.cell_range import CellRange
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,37 +119,13 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MergedRange:
-    """Merged cells: their range as text, their first and last row and column."""
-
-    text: str  # "B3:C4"
-    row: int
-    column: int
-    last_row: int
-    last_column: int
-
-    @property
-    def size(self) -> int:
-        """Number of its cells."""
-        rows = self.last_row - self.row + 1
-        return rows * (self.last_column - self.column + 1)
-
-    def covers(self, row: int, column: int) -> bool:
-        """A cell belongs to the range."""
-        return (
-            self.row <= row <= self.last_row
-            and self.column <= column <= self.last_column
-        )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
     """One sheet; ``rows`` holds the filled cells by row, then column, from 1."""
 
     file: str
     name: str
     rows: Mapping[int, Mapping[int, Cell]]
-    merged: tuple[MergedRange, ...] = ()
+    merged: tuple[CellRange, ...] = ()
     hidden_rows: frozenset[int] = frozenset()
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
@@ -162,6 +142,11 @@ class Sheet:
         """Cells of one row that hold more than spaces, from left to right."""
         cells = self.rows.get(number, {}).values()
         return tuple(cell for cell in cells if not cell.is_blank)
+
+    def find_merged(self, row: int, column: int) -> CellRange | None:
+        """Merged range that a cell belongs to, if there is one."""
+        place = f"{name_column(column)}{row}"
+        return next((one for one in self.merged if place in one), None)
 
     def finding(
         self,
@@ -185,9 +170,9 @@ class Workbook:
     """The wanted sheets of one file, the names of the others, the file's hash."""
 
     file: str
-    sha256: str
     sheets: tuple[Sheet, ...]
-    unread: tuple[str, ...]
+    unread: tuple[str, ...] = ()
+    sha256: str = ""
     hidden: frozenset[str] = frozenset()  # those of the unread that nobody sees
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
     is_by_hand: bool = False  # formulas are calculated only where somebody asks for it

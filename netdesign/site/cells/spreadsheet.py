@@ -11,6 +11,7 @@ import csv
 import hashlib
 import zipfile
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from io import BytesIO, StringIO
 from itertools import islice
 from pathlib import Path
@@ -55,7 +56,7 @@ def read_delimited(
     text_format: TextFormat,
     *,
     by_name: bool,
-) -> tuple[tuple[Sheet, ...], tuple[str, ...], tuple[Finding, ...]]:
+) -> Workbook:
     """Sheets of csv files, names of the files that hold none, and remarks.
 
     Parameters
@@ -96,7 +97,9 @@ def read_delimited(
             unread.append(name)
             continue
         sheets.append(_make_sheet(file, name, records, text_format))
-    return tuple(sheets), tuple(unread), tuple(remarks)
+    return Workbook(
+        file="", sheets=tuple(sheets), unread=tuple(unread), remarks=tuple(remarks)
+    )
 
 
 def _name_sheet(file: str, is_wanted: Callable[[str], bool]) -> str:
@@ -204,10 +207,6 @@ _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 _STRICT = b"http://purl.oclc.org/ooxml/"
 _MACRO_PART = "xl/vbaProject.bin"
 
-_Content = tuple[
-    tuple[Sheet, ...], tuple[str, ...], frozenset[str], tuple[Finding, ...], bool
-]
-
 
 def read_workbook(
     path: Path,
@@ -246,27 +245,15 @@ def read_workbook(
         if not paths:
             raise refuse_file(path.name, say("book.no_csv"), say("book.rows_csv"))
         contents = _read_texts(path.name, paths)
-        sheets, unread, remarks = read_delimited(
-            contents,
-            is_wanted,
-            is_heading,
-            text_format,
-            by_name=is_folder,
-        )
-        read: _Content = sheets, unread, frozenset(), remarks, False
         content = b"".join(contents.values())
+        workbook = read_delimited(
+            contents, is_wanted, is_heading, text_format, by_name=is_folder
+        )
     else:
         content = _read_file(path, MAX_FILE_BYTES)
-        read = _read_archive(path.name, content, is_wanted, text_format)
-    return Workbook(
-        file=make_printable(path.name),
-        sha256=hashlib.sha256(content).hexdigest(),
-        sheets=read[0],
-        unread=read[1],
-        hidden=read[2],
-        remarks=read[3],
-        is_by_hand=read[4],
-    )
+        workbook = _read_archive(path.name, content, is_wanted, text_format)
+    digest = hashlib.sha256(content).hexdigest()
+    return replace(workbook, file=make_printable(path.name), sha256=digest)
 
 
 def is_text(path: Path) -> bool:
@@ -287,7 +274,7 @@ def _read_archive(
     content: bytes,
     is_wanted: Callable[[str], bool],
     text_format: TextFormat,
-) -> _Content:
+) -> Workbook:
     _refuse_other_kinds(file, content)
     try:
         guard_archive(file, content)
@@ -302,16 +289,14 @@ def _read_archive(
             raise refuse_file(file, say("book.binary"), _ACCEPTED_FILE)
         if "content.xml" in parts:
             raise refuse_file(file, say("book.ods"), _ACCEPTED_FILE)
-        read = read_xlsx(file, content, is_wanted, text_format.decimal_mark)
+        workbook = read_xlsx(file, content, is_wanted, text_format.decimal_mark)
     except DAMAGE as error:
         rule = say("book.unreadable", detail=_describe_damage(error))
         raise refuse_file(file, rule, _ACCEPTED_FILE) from error
-    sheets, left_out, hidden, is_by_hand = read
-    if not (sheets or left_out):
+    if not (workbook.sheets or workbook.unread):
         raise refuse_file(file, say("book.no_sheet"), _ACCEPTED_FILE)
-    has_macros = _MACRO_PART in parts
-    note = note_file(file, say("book.macros"))
-    return sheets, left_out, hidden, (note,) if has_macros else (), is_by_hand
+    remarks = (note_file(file, say("book.macros")),) if _MACRO_PART in parts else ()
+    return replace(workbook, remarks=remarks)
 
 
 def _is_root(part: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -15,12 +15,14 @@ from netdesign.site.cells.cells import (
     MAX_COLUMNS,
     MAX_ROWS,
     Cell,
-    MergedRange,
     Sheet,
+    Workbook,
     group_by_row,
     guard_archive,
+    name_column,
     require_rows,
     require_width,
+    split_address,
 )
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.cells.numbers import (
@@ -33,11 +35,15 @@ from netdesign.words.message import say
 
 if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
     from openpyxl import Workbook as OpenWorkbook
+    from openpyxl.formula.translate import Translator
     from openpyxl.reader.excel import ExcelReader
+    from openpyxl.worksheet.cell_range import CellRange
+
+_MOST_MERGED = 100_000
 
 
-def _open(content: bytes, *, stored_results: bool) -> ExcelReader:
-    """Reader of a workbook, which knows the part of each sheet."""
+def _open(content: bytes) -> ExcelReader:
+    """Reader of a workbook with its stored results, which knows each sheet's part."""
     import openpyxl
     from openpyxl.reader.excel import ExcelReader
 
@@ -46,15 +52,12 @@ def _open(content: bytes, *, stored_results: bool) -> ExcelReader:
     reader = ExcelReader(
         BytesIO(content),
         read_only=True,
-        data_only=stored_results,
+        data_only=True,
         keep_links=False,
-        rich_text=stored_results,
+        rich_text=True,
     )
     reader.read()
     return reader
-
-
-_MOST_MERGED = 100_000
 
 
 def open_for_editing(path: Path) -> OpenWorkbook:
@@ -71,11 +74,12 @@ def open_for_editing(path: Path) -> OpenWorkbook:
     guard_archive(path.name, content)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        stored = _open(content, stored_results=True)
+        stored = _open(content)
         for sheet in stored.wb.worksheets:
             layout = _scan_layout(stored, sheet.title)
             require_rows(path.name, sheet.title, layout.last_row)
-            if sum(merged.size for merged in layout.merged) > _MOST_MERGED:
+            sizes = (merged.size for merged in layout.merged)
+            if sum(size["rows"] * size["columns"] for size in sizes) > _MOST_MERGED:
                 accepted = say("book.most_cells", most=_MOST_MERGED)
                 raise refuse_file(
                     path.name, say("book.many_merged"), accepted, sheet.title
@@ -88,55 +92,29 @@ def read_xlsx(
     content: bytes,
     is_wanted: Callable[[str], bool],
     decimal_mark: DecimalMark,
-) -> tuple[tuple[Sheet, ...], tuple[str, ...], frozenset[str], bool]:
-    """Wanted sheets, names of the others, those that nobody sees; never macros.
-
-    The last tells whether its formulas are calculated only by hand.
-    """
+) -> Workbook:
+    """Wanted sheets of a workbook, names of the others; never macros."""
     with warnings.catch_warnings():
         # openpyxl warns of features that it would drop on saving; nothing is saved.
         warnings.simplefilter("ignore")
-        reader = _open(content, stored_results=True)
-        stored = reader.wb
-        names = [sheet.title for sheet in stored.worksheets]
-        layouts = {
-            name: _scan_layout(reader, name) for name in names if is_wanted(name)
-        }
-        formulas: dict[str, Mapping[tuple[int, int], str]] = {}
-        if any(layout.has_formulas for layout in layouts.values()):
-            # openpyxl shows a formula or its stored result, never both: open it again.
-            typed = _open(content, stored_results=False).wb
-            formulas = {
-                name: _read_formulas(typed[name], layout)
-                for name, layout in layouts.items()
-            }
+        reader = _open(content)
+        every = reader.wb.worksheets
         sheets = tuple(
-            _read_sheet(
-                file, stored[name], layout, formulas.get(name, {}), decimal_mark
-            )
-            for name, layout in layouts.items()
+            _read_sheet(file, one, _scan_layout(reader, one.title), decimal_mark)
+            for one in every
+            if is_wanted(one.title)
         )
-    hidden = {one.title for one in stored.worksheets if one.sheet_state != "visible"}
-    unread = tuple(one for one in names if not is_wanted(one))
-    is_by_hand = stored.calculation.calcMode == "manual"
-    return sheets, unread, frozenset(hidden), is_by_hand
-
-
-def _read_formulas(typed: Any, layout: _Layout) -> dict[tuple[int, int], str]:
-    return {
-        # array formulas come as an object with the text inside
-        (cell.row, cell.column): str(getattr(cell.value, "text", cell.value))
-        for cell in _filled_cells(typed, layout.last_row)
-        if cell.data_type == "f"
-    }
+    return Workbook(
+        file=file,
+        sheets=sheets,
+        unread=tuple(one.title for one in every if not is_wanted(one.title)),
+        hidden=frozenset(x.title for x in every if x.sheet_state != "visible"),
+        is_by_hand=reader.wb.calculation.calcMode == "manual",
+    )
 
 
 def _read_sheet(
-    file: str,
-    stored: Any,
-    layout: _Layout,
-    formulas: Mapping[tuple[int, int], str],
-    decimal_mark: DecimalMark,
+    file: str, stored: Any, layout: _Layout, decimal_mark: DecimalMark
 ) -> Sheet:
     require_rows(file, stored.title, layout.last_row)
     if len(layout.merged) > MAX_ROWS:
@@ -148,11 +126,15 @@ def _read_sheet(
         (row, column): Cell(
             file=file, sheet=stored.title, row=row, column=column, formula=formula
         )
-        for (row, column), formula in formulas.items()
+        for (row, column), formula in layout.formulas.items()
     }
-    for cell in _filled_cells(stored, layout.last_row):
+    # The size that a file declares for its sheet may be wrong: do not trust it.
+    stored.reset_dimensions()
+    rows = stored.iter_rows(max_row=layout.last_row) if layout.last_row else ()
+    for cell in (cell for row in rows for cell in row if cell.value is not None):
         place = (cell.row, cell.column)
-        cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
+        formula = layout.formulas.get(place, "")
+        cells[place] = _take_cell(file, cell, formula, decimal_mark)
     require_width(file, stored.title, max((one for _, one in cells), default=0))
     return Sheet(
         file=file,
@@ -163,13 +145,6 @@ def _read_sheet(
         hidden_columns=frozenset(layout.hidden_columns),
         is_hidden=stored.sheet_state != "visible",
     )
-
-
-def _filled_cells(sheet: Any, last_row: int) -> list[Any]:
-    # The size that a file declares for its sheet may be wrong: do not trust it.
-    sheet.reset_dimensions()
-    rows = sheet.iter_rows(max_row=last_row) if last_row else ()
-    return [cell for row in rows for cell in row if cell.value is not None]
 
 
 def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) -> Cell:
@@ -197,13 +172,13 @@ _STRUCK = say("cell.struck")
 
 @dataclass(slots=True)
 class _Layout:
-    """Layout of a sheet while its parts arrive."""
+    """What openpyxl does not tell of a sheet beside the stored results of its cells."""
 
     last_row: int = 0
-    merged: list[MergedRange] = field(default_factory=list)
+    merged: list[CellRange] = field(default_factory=list)
     hidden_rows: set[int] = field(default_factory=set)
     hidden_columns: set[int] = field(default_factory=set)
-    has_formulas: bool = False
+    formulas: dict[tuple[int, int], str] = field(default_factory=dict)
 
 
 def _is_struck(cell: Any) -> bool:
@@ -215,33 +190,55 @@ def _is_struck(cell: Any) -> bool:
 
 
 def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
-    """Last filled row, merged ranges, what is hidden, and whether formulas are there.
+    """Last filled row, merged ranges, what is hidden, and the formulas of a sheet.
 
     openpyxl gives merged ranges only in its other mode, which makes one object
     of every merged cell: a few bytes of XML would exhaust the memory.
     """
     from defusedxml.ElementTree import iterparse
+    from openpyxl.worksheet.cell_range import CellRange
 
     row, layout = 0, _Layout()
+    shared: dict[str, Translator] = {}
     parts = {sheet.name: rel.target for sheet, rel in reader.parser.find_sheets()}
     with reader.archive.open(parts[name]) as source:
         for _, element in iterparse(source):
             tag = element.tag.rpartition("}")[2]
-            if tag == "f":
-                layout.has_formulas = True
-            elif tag == "mergeCell":
-                layout.merged.append(_read_merged_range(element.get("ref", "")))
+            if tag == "mergeCell":
+                layout.merged.append(CellRange(element.get("ref", "")))
             elif tag == "col" and _is_true(element.get("hidden")):
                 first, last = int(element.get("min", 1)), int(element.get("max", 1))
                 layout.hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
             elif tag == "row":
                 row = _follow_row(element, row)
+                layout.formulas |= _list_formulas(element, row, shared)
                 if any(len(cell) for cell in element):
                     layout.last_row = max(layout.last_row, row)
                     if _is_true(element.get("hidden")):
                         layout.hidden_rows.add(row)
                 element.clear()
     return layout
+
+
+def _list_formulas(
+    row: Any, number: int, shared: dict[str, Translator]
+) -> Iterator[tuple[tuple[int, int], str]]:
+    """Places and formulas of a row; a shared formula stands in its first cell alone."""
+    from openpyxl.formula.translate import Translator
+
+    column = 0
+    for cell in row:
+        place = cell.get("r") or f"{name_column(column + 1)}{number}"
+        column, _ = split_address(place)
+        part = cell.find("{*}f")
+        if part is None:
+            continue
+        text, key = f"={part.text or ''}", part.get("si")
+        if key in shared:
+            text = shared[key].translate_formula(place)
+        elif key is not None:
+            shared[key] = Translator(text, place)
+        yield (number, column), text
 
 
 def _follow_row(element: Any, row_before: int) -> int:
@@ -259,16 +256,3 @@ def _follow_row(element: Any, row_before: int) -> int:
 
 def _is_true(attribute: str | None) -> bool:
     return attribute in ("1", "true")
-
-
-def _read_merged_range(text: str) -> MergedRange:
-    from openpyxl.utils import range_boundaries
-
-    column, row, last_column, last_row = range_boundaries(text)
-    return MergedRange(
-        text=text,
-        row=row or 1,
-        column=column or 1,
-        last_row=last_row or MAX_ROWS,
-        last_column=last_column or MAX_COLUMNS,
-    )

@@ -171,7 +171,7 @@ def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
     if table == "net_types" and mapped.table.becomes == "rows" and not columns:
         return None
     widths = [max(row, default=0) for row in mapped.sheet.rows.values()]
-    last = max((*widths, *(one.last_column for one in mapped.sheet.merged)), default=0)
+    last = max((*widths, *(one.max_col for one in mapped.sheet.merged)), default=0)
     for number, (name, text) in enumerate(mapped.table.always.items(), last + 1):
         target = read_answer(name, mapped.table.becomes).target
         if target is not None and target.table == table:
@@ -211,7 +211,7 @@ def _build(
         mapped.sheet,
         name=load_plan(table).name_in("en"),
         rows={head: headings, **below},
-        merged=tuple(one for one in mapped.sheet.merged if one.row > head),
+        merged=tuple(one for one in mapped.sheet.merged if one.min_row > head),
         words=mapped.table.words,
         answered_in=mapped.file,
     )

@@ -178,5 +178,5 @@ def _cut(sheet: Sheet, start: int, end: int) -> Sheet:
     if end and len(sheet.row(end - 1)) == 1:
         last = end - 1
     rows = {row: cells for row, cells in sheet.rows.items() if start <= row < last}
-    merged = tuple(one for one in sheet.merged if start <= one.row < last)
+    merged = tuple(one for one in sheet.merged if start <= one.min_row < last)
     return replace(sheet, rows=rows, merged=merged)
