@@ -8,10 +8,10 @@ import pytest
 
 from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
+from tests.coupling.drawn_scenes import GROUNDS, draw_scene
 from tests.each import each
 
 COARSE = SolverSettings(
@@ -204,33 +204,11 @@ def test_where_all_sticks_more_friction_changes_nothing(solved, scene, lowest):
 # --- sweep -------------------------------------------------------------------
 
 
-def random_scenes(count: int) -> list[dict[str, object]]:
-    rng = np.random.default_rng(20)
-    scenes = []
-    for _ in range(count):
-        ground = str(rng.choice(["free", "no-slip", "sliding"]))
-        thickness = float(rng.uniform(1.0, 5.0))
-        scenes.append(
-            {
-                "slope_deg": float(rng.uniform(28.0, 50.0)),
-                "thickness_m": thickness,
-                "length_m": thickness * float(rng.uniform(2.0, 10.0)),
-                "relative_density": float(rng.uniform(0.25, 0.55)),
-                "inclination_deg": float(rng.uniform(0.0, 35.0)),
-                "height_m": thickness * float(rng.choice([1.0, 1.2])),
-                "stiffness_kN_per_m": float(10 ** rng.uniform(3.5, 5.0)),
-                "slack": float(rng.choice([0.0, 0.02, 0.08])),
-                "friction_deg": float(rng.uniform(0.0, 45.0)),
-                "ground": ground,
-                "slip_length_m": thickness if ground == "sliding" else 0.0,
-            }
-        )
-    return scenes
-
-
-@each("scene", random_scenes(12))
-def test_tension_shear_and_balance_of_random_scenes(solved, scene):
-    solution: Solution = solved(**scene)
+@each("seed", range(18))
+def test_tension_shear_and_balance_of_drawn_scenes(seed):
+    """Uniform snow and layers, on every ground."""
+    scene = draw_scene(seed, ground=GROUNDS[seed % 3])
+    solution = solve_steady(scene, COARSE, on_failure="raise")
     net = solution.scene.net
     assert solution.tension_min > 0.0
     n_net = solution.net_forces.shape[1]

@@ -1,15 +1,16 @@
 """``netdesign terrain``: from a grid and lines to a workbook that is checked."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import openpyxl
 import pytest
 
-from netdesign.addons.terrain.grid import read_grid
+from netdesign.addons.terrain.grid import Grid, read_grid
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import write_site_workbook
-from tests.addons.terrain.map_files import collect, feature, write_tif
+from tests.addons.terrain.map_files import collect, feature, write_asc, write_tif
 from tests.addons.terrain.map_files import write_rows as write_layer
 
 EAST, NORTH = 2_700_300.0, 1_180_200.0
@@ -23,12 +24,10 @@ def slope(tmp_path_factory):
     x, y = np.meshgrid(np.arange(160.0), np.arange(160.0))
     noise = np.random.default_rng(11).normal(0.0, 0.04, x.shape)
     z = 1800.0 + 0.78 * y + 1.5 * np.sin(x / 31.0) + noise
-    head = f"ncols 160\nnrows 160\nxllcorner {EAST}\nyllcorner {NORTH}\ncellsize 1\n"
-    lines = "\n".join(" ".join(f"{one:.3f}" for one in row) for row in z[::-1])
-    (folder / "slope.asc").write_text(head + lines + "\n")
+    grid = Grid(west=EAST + 0.5, south=NORTH + 0.5, cell=1.0, heights=np.round(z, 3))
+    (folder / "slope.asc").write_bytes(write_asc(grid))
     (folder / "rows.json").write_text(json.dumps(write_rows()))
     write_site_workbook(folder / "types.xlsx", example=True)
-    grid = read_grid(folder / "slope.asc")
     (folder / "slope.tif").write_bytes(write_tif(grid, count=3, compress="deflate"))
     *rows, zone = (
         (one["geometry"]["coordinates"], one["properties"])
@@ -123,9 +122,9 @@ def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, cal
 
 
 def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
-    text = (slope / "slope.asc").read_text().split("\n")
-    flat = [" ".join(["1800"] * 160)] * 160
-    (tmp_path / "flat.asc").write_text("\n".join([*text[:5], *flat]) + "\n")
+    grid = read_grid(slope / "slope.asc")
+    flat = replace(grid, heights=np.full_like(grid.heights, 1800.0))
+    (tmp_path / "flat.asc").write_bytes(write_asc(flat))
     out = tmp_path / "site.xlsx"
     ended = call("terrain", tmp_path / "flat.asc", slope / "rows.json", "--out", out)
     assert ended.code == 0, ended.err
