@@ -62,9 +62,6 @@ class Standard:
     version: str
     title: str
     edition: str
-    language: str
-    transcribed_by: str
-    checked_by: str
     what_it_is: str
     what_it_is_not: str
     choice: str = ""
@@ -94,11 +91,6 @@ class Standard:
         return replace(
             self, floor=floor, is_by_guideline=decides, is_floor_overruled=True
         )
-
-    @property
-    def assumed(self) -> tuple[StandardValue, ...]:
-        """The values that the user must confirm in a copy of the standard."""
-        return tuple(value for value in self.listed if value.status == "assumed")
 
     def find(self, value_id: str) -> StandardValue | None:
         """Value of that id, or None if the profile has none."""
@@ -189,8 +181,9 @@ def _load_folder(folder: Path) -> Standard:
             say("standard.lacks_choices", folder=str(folder), choice=document.choice)
         )
     scope = document.scope.model_dump().items()
+    left_out = {"load", "scope", "anchors", "language", "transcribed_by", "checked_by"}
     return Standard(
-        **document.model_dump(exclude={"load", "scope", "anchors"}),
+        **document.model_dump(exclude=left_out),
         choice_text=choice_text,
         floor=document.load.floor,
         has_maker_floor=document.load.maker == "floor",

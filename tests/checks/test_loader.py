@@ -88,13 +88,6 @@ def test_values_are_kept_as_printed_and_in_si():
     assert standard.find("action.snow").value_si == 1.5
 
 
-def test_assumed_values_are_listed():
-    standard = load_standard(NF_STYLE)
-    assert {v.status for v in standard.assumed} == {"assumed"}
-    assert "action.snow" in {v.id for v in standard.assumed}
-    assert standard.find("geometry.inclination.min") not in standard.assumed
-
-
 def test_factor_of_the_basis_is_used_and_else_that_of_the_mode():
     standard = load_standard(NF_STYLE)
 
