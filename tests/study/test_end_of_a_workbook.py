@@ -8,11 +8,10 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
-from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
-from tests.make import VERTICAL, draw_untidy, write_site
+from tests.make import VERTICAL, draw_untidy, read_tables
 
 RUN = CheckRun(
     settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
@@ -27,8 +26,8 @@ PANEL = {
 MEMBERS = {"lateral_anchor", "end_guy", "end_guy_anchor"}
 
 
-def judge(folder, panel):
-    """Study of one drawn row with this panel, from its workbook."""
+def judge(panel):
+    """Study of one drawn row with this panel, from its tables."""
     tables = draw_untidy(random.Random(31))
     tables["rows"] = [one for one in tables["rows"] if one["id"] == "U2"]
     (row,), tables["declared"] = tables["rows"], []
@@ -45,8 +44,7 @@ def judge(folder, panel):
     (strong,) = (one for one in tables["anchor_types"] if one["id"] == "strong")
     strong |= {"bar_diameter": 89.7, "tendon": 3000.0, "tube_diameter": 139.7}
     strong["tube_wall"] = 20.0
-    path = write_site(folder / "site.xlsx", tables, measures=VERTICAL)
-    site, standard = read_site(path), load_standard("eurocode")
+    site, standard = read_tables(tables, VERTICAL), load_standard("eurocode")
     study = judge_site(site, search_site(site, RUN), standard, RUN)
     return study.rows[0]
 
@@ -55,9 +53,9 @@ def at_end(row):
     return {one.id: one for one in row.checks if one.member in MEMBERS}
 
 
-def test_an_end_whose_panel_nobody_gives_is_pulled_no_less(tmp_path):
+def test_an_end_whose_panel_nobody_gives_is_pulled_no_less():
     """Its border ropes bear nothing that is known, so that the row is not proven."""
-    row, typed = (judge(tmp_path, one) for one in ({}, PANEL | {"mid_anchors": "no"}))
+    row, typed = (judge(one) for one in ({}, PANEL | {"mid_anchors": "no"}))
     assert row.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
     checks, known = at_end(row), at_end(typed)
     assert {one.member for one in checks.values()} == MEMBERS
@@ -67,9 +65,9 @@ def test_an_end_whose_panel_nobody_gives_is_pulled_no_less(tmp_path):
 
 
 @pytest.mark.parametrize("mid", ["no", "yes"])
-def test_with_its_panel_each_of_them_has_a_demand(tmp_path, mid):
+def test_with_its_panel_each_of_them_has_a_demand(mid):
     """Net and uphill guy end at one anchor here."""
-    row = judge(tmp_path, {**PANEL, "mid_anchors": mid})
+    row = judge({**PANEL, "mid_anchors": mid})
     checks = at_end(row)
     assert {one.member for one in checks.values()} == MEMBERS
     for check in checks.values():

@@ -2,9 +2,8 @@
 
 import pytest
 
-from netdesign.site.reader import read_site
 from netdesign.study.parts import list_parts
-from tests.make import write_site
+from tests.make import read_tables
 
 BARE = {
     **{"id": "N1", "net_height": 2.5, "net_stiffness": 9000.0, "post_tilt": 0.0},
@@ -24,10 +23,10 @@ TYPES = {
 }
 
 
-def read_row(tmp_path, posts=None, **net):
+def read_row(posts=None, **net):
     count = {} if posts is None else {"post_count": posts}
     tables = {"rows": [ROW | count], "net_types": [BARE | net], **TYPES}
-    (row,) = read_site(write_site(tmp_path / "site.xlsx", tables)).rows
+    (row,) = read_tables(tables).rows
     return row
 
 
@@ -39,27 +38,27 @@ def count_parts(row):
 
 
 @pytest.mark.parametrize("posts", [2, 5, 8])
-def test_anchors_at_each_post(tmp_path, posts):
-    found = count_parts(read_row(tmp_path, posts))
+def test_anchors_at_each_post(posts):
+    found = count_parts(read_row(posts))
     assert found["foot_anchor", "A"] == (posts, pytest.approx(4.2))
     for member in ("uphill_anchor", "downhill_anchor"):
         assert found[member, "A"] == (2 * posts, pytest.approx(4.2))
 
 
 @pytest.mark.parametrize("posts", [2, 3, 7])
-def test_an_anchor_of_two_guys_stands_once_between_two_posts(tmp_path, posts):
-    found = count_parts(read_row(tmp_path, posts, guy_anchors="shared"))
+def test_an_anchor_of_two_guys_stands_once_between_two_posts(posts):
+    found = count_parts(read_row(posts, guy_anchors="shared"))
     assert found["uphill_anchor", "A"][0] == posts + 1
-    unsaid = count_parts(read_row(tmp_path, posts, guy_anchors=None))
+    unsaid = count_parts(read_row(posts, guy_anchors=None))
     assert unsaid["uphill_anchor", "A"][0] is None
 
 
-def test_anchors_between_the_posts_count_with_the_foot_anchors(tmp_path):
+def test_anchors_between_the_posts_count_with_the_foot_anchors():
     ropes = {"ridge_rope": "G", "lower_rope": "G", "mid_anchors": "yes"}
-    found = count_parts(read_row(tmp_path, 6, **ropes))
+    found = count_parts(read_row(6, **ropes))
     assert found["foot_anchor", "A"] == (6 + 5, pytest.approx(4.2))
 
 
-def test_without_a_number_nothing_is_counted(tmp_path):
-    found = count_parts(read_row(tmp_path))
+def test_without_a_number_nothing_is_counted():
+    found = count_parts(read_row())
     assert {count for count, _ in found.values()} == {None}

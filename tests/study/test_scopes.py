@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from netdesign.checks import OpenKind
 from netdesign.outcome import SEVERITY, Verdict, merge_verdicts
 from netdesign.site.declared_sheet import DECLARABLE
-from netdesign.site.reader import read_site
 from netdesign.study.scopes import (
     SCOPES,
     Scope,
@@ -20,7 +19,7 @@ from netdesign.study.scopes import (
     sum_up_row,
     sum_up_study,
 )
-from tests.make import write_site
+from tests.make import read_tables
 from tests.report.build_study import build_study
 from tests.study.knowing_less.drawn_tables import draw_tables
 from tests.turn import turn
@@ -61,15 +60,13 @@ def test_every_check_that_there_is_belongs_to_a_scope():
         ("rows", "post_spacing", 9.0, set(SCOPES)),
     ],
 )
-def test_a_doubted_cell_bears_on_what_its_number_decides(
-    tmp_path, block, column, typed, asked
-):
+def test_a_doubted_cell_bears_on_what_its_number_decides(block, column, typed, asked):
     tables = draw_tables(11)
     tests = ("test_count", "test_mean")  # a number of them would have to fit
     for k, line in enumerate(tables[block]):
         kept = {key: value for key, value in line.items() if key not in tests}
         tables[block][k] = kept | {column: typed}
-    site = read_site(write_site(tmp_path / "site.xlsx", tables))
+    site = read_tables(tables)
     (doubt, *_) = site.rows[0].questions
     check = replace(name_one("inputs", "plausible"), id="inputs.plausible")
     check = check.with_open(OpenKind.VALUE_ASKED, doubt)

@@ -9,14 +9,13 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Outcome, Verdict
 from netdesign.report.page.html import render_html
-from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import OwnProcess, solve_job
 from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
-from tests.make import write_rows
+from tests.make import load_rows, read_tables
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.001))
 LOST = Outcome.NO_EQUILIBRIUM
@@ -57,9 +56,8 @@ SOLVED = {
 
 
 @pytest.fixture(scope="module")
-def example(tmp_path_factory):
-    path = tmp_path_factory.mktemp("example") / "site.xlsx"
-    return read_site(write_rows(path, leans=True))
+def example():
+    return read_tables(load_rows())
 
 
 @pytest.mark.parametrize("solved", SOLVED)

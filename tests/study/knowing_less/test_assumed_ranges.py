@@ -8,10 +8,9 @@ import random
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.row_to_check import CheckRun
-from tests.make import write_site
+from tests.make import read_tables
 from tests.study.knowing_less.drawn_tables import draw_tables, empty
 
 RUN = CheckRun(settings=SolverSettings())
@@ -36,7 +35,7 @@ def draw_empty(draw, tables):
     return found or [("net_types", 0, "slack")]
 
 
-def assert_no_harder(path, seed):
+def assert_no_harder(seed):
     """No force of what is typed exceeds the demand over what is assumed."""
     tables = draw_tables(seed)
     tables["rows"] = tables["rows"][:1]
@@ -45,8 +44,7 @@ def assert_no_harder(path, seed):
     cells = draw_empty(random.Random(f"assumed {seed}"), tables)
     solved = []
     for one in (tables, empty(tables, cells)):
-        write_site(path, one)
-        solved += search_site(read_site(path), RUN)
+        solved += search_site(read_tables(one), RUN)
     typed, assumed = solved
     for member, extreme in typed.extremes.items():
         most = assumed.extremes[member].widened.high
@@ -61,5 +59,5 @@ def assert_no_harder(path, seed):
         for seed in range(SITES)
     ],
 )
-def test_no_value_inside_an_assumed_range_pulls_harder(tmp_path, seed):
-    assert_no_harder(tmp_path / "site.xlsx", 7000 + seed)
+def test_no_value_inside_an_assumed_range_pulls_harder(seed):
+    assert_no_harder(7000 + seed)

@@ -8,12 +8,11 @@ import pytest
 from netdesign.checks import OpenKind, load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import SiteDataError, Verdict
-from netdesign.site.reader import read_site
 from netdesign.structure.members import NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from tests.grid import solve_site
-from tests.make import write_site
+from tests.make import read_tables
 from tests.study.knowing_less.drawn_tables import (
     DEFAULT,
     draw_tables,
@@ -54,14 +53,13 @@ FOUND_CELLS = (
 )
 
 
-def judge_tables(path, tables):
+def judge_tables(tables):
     """Study, its site and profile; None where the reader refuses the site.
 
     Of the two equal rows beside one that goes on the first is judged.
     """
-    write_site(path, tables)
     try:
-        site = read_site(path)
+        site = read_tables(tables)
     except SiteDataError:
         return None
     site = replace(site, rows=site.rows[:2])
@@ -71,9 +69,9 @@ def judge_tables(path, tables):
     return study, site, standard
 
 
-def judge(path, tables):
+def judge(tables):
     """Checks and verdicts by net row; None where the reader refuses the site."""
-    judged = judge_tables(path, tables)
+    judged = judge_tables(tables)
     return judged and {row.id: row for row in judged[0].rows}
 
 
@@ -170,36 +168,36 @@ def build_tables(seed):
     return tables
 
 
-def assert_never_better(path, seed, count):
+def assert_never_better(seed, count):
     tables = build_tables(seed)
-    before = judge(path, tables)
+    before = judge(tables)
     assert before is not None, f"the drawn site {seed} is sound"
     draw = random.Random(f"sets {seed}")
     for cells in draw_sets(draw, tables, count):
-        after = judge(path, empty(tables, cells))
+        after = judge(empty(tables, cells))
         if after is not None:
             better = list_improvements(before, after)
             assert not better, f"{seed} {cells} {better[:4]}"
 
 
-def test_a_report_that_nobody_names_any_more_proves_no_more(tmp_path):
+def test_a_report_that_nobody_names_any_more_proves_no_more():
     """A value of a report without its document counts as a calculation, too."""
-    tables, path = build_tables(11), tmp_path / "site.xlsx"
+    tables = build_tables(11)
     for one in tables["anchor_types"]:
         if one.get("proven") == "calculated":
             one["proven"] = "report"
     places = enumerate(tables["anchor_types"])
     cells = [("anchor_types", k, "proven") for k, x in places if "proven" in x]
-    before, after = judge(path, tables), judge(path, empty(tables, cells))
+    before, after = judge(tables), judge(empty(tables, cells))
     assert list_improvements(before, after) == []
 
 
 @pytest.mark.parametrize("seed", [3, 11])
-def test_a_chain_that_is_not_said_to_be_complete_passes_no_better(tmp_path, seed):
-    tables, path = build_tables(seed), tmp_path / "site.xlsx"
+def test_a_chain_that_is_not_said_to_be_complete_passes_no_better(seed):
+    tables = build_tables(seed)
     tables["links"] = [line | {"chain": "complete"} for line in tables["links"]]
     cells = [("links", place, "chain") for place in range(len(tables["links"]))]
-    before, after = judge(path, tables), judge(path, empty(tables, cells))
+    before, after = judge(tables), judge(empty(tables, cells))
     assert list_improvements(before, after) == []
     verdicts = [
         {
@@ -213,23 +211,23 @@ def test_a_chain_that_is_not_said_to_be_complete_passes_no_better(tmp_path, seed
 
 
 @pytest.mark.parametrize("seed", [4, 11])
-def test_a_pull_out_resistance_that_nobody_proves_is_a_condition(tmp_path, seed):
-    tables, path = build_tables(seed), tmp_path / "site.xlsx"
+def test_a_pull_out_resistance_that_nobody_proves_is_a_condition(seed):
+    tables = build_tables(seed)
     places = enumerate(tables["anchor_types"])
     cells = [("anchor_types", k, "proven") for k, x in places if "proven" in x]
-    rows = [judge(path, one)["R1"] for one in (tables, empty(tables, cells))]
+    rows = [judge(one)["R1"] for one in (tables, empty(tables, cells))]
     told = [[one.key for one in row.conditions] for row in rows]
     assert ["basis" in keys for keys in told] == [False, True]
 
 
 @pytest.mark.parametrize("seed", [2, 3, 4, 43])
-def test_a_guy_without_a_type_leaves_open_what_passes_with_one(tmp_path, seed):
-    tables, path = build_tables(seed), tmp_path / "site.xlsx"
-    before = judge(path, tables)
+def test_a_guy_without_a_type_leaves_open_what_passes_with_one(seed):
+    tables = build_tables(seed)
+    before = judge(tables)
     opened = []
     for key in ("uphill_guy", "downhill_guy"):
         emptied = empty(tables, [("net_types", 0, key)])
-        for name, row in judge(path, emptied).items():
+        for name, row in judge(emptied).items():
             opened += list_opened(before[name], row)
     assert opened
 
@@ -248,25 +246,25 @@ def list_opened(before, after):
 
 
 @pytest.mark.parametrize("seed", range(SITES_IN_SUITE))
-def test_no_set_of_empty_cells_makes_anything_better(tmp_path, seed):
-    assert_never_better(tmp_path / "site.xlsx", seed, SETS_A_SITE)
+def test_no_set_of_empty_cells_makes_anything_better(seed):
+    assert_never_better(seed, SETS_A_SITE)
 
 
 @pytest.mark.parametrize("found", FOUND_CELLS, ids=str)
-def test_a_cell_that_was_found_once_makes_nothing_better(tmp_path, found):
+def test_a_cell_that_was_found_once_makes_nothing_better(found):
     seed, *cell = found
-    tables, path = build_tables(seed), tmp_path / "site.xlsx"
-    before, after = judge(path, tables), judge(path, empty(tables, [tuple(cell)]))
+    tables = build_tables(seed)
+    before, after = judge(tables), judge(empty(tables, [tuple(cell)]))
     assert list_improvements(before, after) == []
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", FOUND)
-def test_what_was_found_once_stays_mended(tmp_path, seed):
-    assert_never_better(tmp_path / "site.xlsx", seed, 20)
+def test_what_was_found_once_stays_mended(seed):
+    assert_never_better(seed, 20)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(1000, 1150))
-def test_no_set_of_empty_cells_of_many_sites_makes_anything_better(tmp_path, seed):
-    assert_never_better(tmp_path / "site.xlsx", seed, 20)
+def test_no_set_of_empty_cells_of_many_sites_makes_anything_better(seed):
+    assert_never_better(seed, 20)
