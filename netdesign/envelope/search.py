@@ -1,6 +1,6 @@
 """Searches of net rows: which cases each solves next, until its envelope is known.
 
-A search solves no case: it is a generator of the batches to solve, which is sent their
+A search solves no case: it is a generator of the jobs to solve, which is sent their
 ends. First: which of these cases need no solve. More friction leaves a solution
 (nearly) as it is where the snow slips nowhere on the net, or at its foot only. Such a
 case takes the result of the case with less friction. The first of them are solved as a
@@ -32,11 +32,11 @@ from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.search.surrogate import Point
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import CaseEnd, Settings
-from netdesign.solving.workers import Batch, Ends
+from netdesign.solving.workers import Job
 
 _End = TypeVar("_End")
-# Batches to be solved, their ends, and what follows once all are known.
-Steps: TypeAlias = Generator[list[Batch], list[Ends], _End]
+# Jobs to be solved, their ends, and what follows once all are known.
+Steps: TypeAlias = Generator[list[Job], list[CaseEnd], _End]
 _AXIS = "friction_angle"
 _TESTS = 2  # cases that are solved as tests before any is skipped
 _AGREEMENT = 0.2  # of the stated error of both end pulls: more than iterations leave
@@ -59,26 +59,23 @@ class FrictionSkip:
         """Cases that are known without a solve."""
         return len(self._recalled)
 
-    def list_lines(self, points: Sequence[Point]) -> list[list[Point]]:
-        """Lines of ascending friction to be solved next, out of some points.
+    def choose(self, points: Sequence[Point]) -> list[Point]:
+        """Points to be solved next: of each line the one with the least friction.
 
-        A line is solved up to the first point whose snow sticks; ask again with the
-        points that are left. None are returned once the rest need no solve.
+        Ask again with the points that are left. None are chosen once the rest need no
+        solve.
         """
         if not self._agrees:
-            return [[point] for point in points]
-        unknown = [point for point in points if not self._is_chance(point)]
-        if unknown:
-            return self._group(unknown)
+            return [*points]
+        least: dict[Point, Point] = {}
+        for point in sorted(points, key=lambda p: (self._line(p), self._friction(p))):
+            if not self._is_chance(point):
+                least.setdefault(self._line(point), point)
+        if least:
+            return [*least.values()]
         missing = _TESTS - self.tested
         step = max(1, len(points) // max(1, missing))  # tests lie apart
-        return [[point] for point in sorted(points)[::step][:missing]]
-
-    def _group(self, points: Sequence[Point]) -> list[list[Point]]:
-        lines: dict[Point, list[Point]] = {}
-        for point in sorted(points, key=lambda p: (self._line(p), self._friction(p))):
-            lines.setdefault(self._line(point), []).append(point)
-        return list(lines.values())
+        return sorted(points)[::step][:missing]
 
     def learn(self, point: Point, end: CaseEnd) -> None:
         """Take the end of a case that was solved."""
@@ -138,12 +135,11 @@ def solve_points(
     asked = zip(points, tasks, strict=True)
     jobs = {point: case.job for point, case in asked if case.job is not None}
     ends: dict[Point, CaseEnd] = {}
-    while lines := skip.list_lines([point for point in jobs if point not in ends]):
-        answers = yield [tuple(jobs[point] for point in line) for line in lines]
-        for line, answer in zip(lines, answers, strict=True):
-            for point, end in zip(line, answer, strict=False):  # until it sticks
-                ends[point] = end
-                skip.learn(point, end)
+    while chosen := skip.choose([point for point in jobs if point not in ends]):
+        answers = yield [jobs[point] for point in chosen]
+        for point, end in zip(chosen, answers, strict=True):
+            ends[point] = end
+            skip.learn(point, end)
     ends |= {point: skip.recall(point) for point in jobs if point not in ends}
     resolved: dict[int, CaseResult] = {}
     results = []
@@ -289,10 +285,10 @@ def search_rows(
     """
     searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
 
-    def describe(asked: Mapping[RowTask, Sequence[Batch]]) -> None:
+    def describe(asked: Mapping[RowTask, Sequence[Job]]) -> None:
         wave = Wave(
             rows_open=len(asked),
-            cases_waiting=sum(len(batch) for its in asked.values() for batch in its),
+            cases_waiting=sum(map(len, asked.values())),
             gap=max((searches[task].gap for task in asked), default=0.0),
         )
         on_wave(wave)
@@ -316,12 +312,12 @@ def run_grid(
 def _run_together(
     steps: Mapping[RowTask, Steps[_End]],
     runner: Runner,
-    on_wave: Callable[[Mapping[RowTask, Sequence[Batch]]], None] = lambda _: None,
+    on_wave: Callable[[Mapping[RowTask, Sequence[Job]]], None] = lambda _: None,
 ) -> dict[RowTask, _End]:
-    """End of each task; a wave has the batches that all of them wait for."""
+    """End of each task; a wave has the jobs that all of them wait for."""
     ended: dict[RowTask, _End] = {}
 
-    def go_on(answers: Mapping[RowTask, Any]) -> dict[RowTask, list[Batch]]:
+    def go_on(answers: Mapping[RowTask, Any]) -> dict[RowTask, list[Job]]:
         asked = {}
         for task, ends in answers.items():
             try:
@@ -332,8 +328,7 @@ def _run_together(
 
     asked = go_on(dict.fromkeys(steps))
     while asked:
-        batches = [batch for its in asked.values() for batch in its]
-        ends = iter(runner.solve_batches(batches))
+        ends = iter(runner.solve([job for its in asked.values() for job in its]))
         asked = go_on({x: list(islice(ends, len(its))) for x, its in asked.items()})
         on_wave(asked)
     return ended

@@ -11,17 +11,14 @@ from typing import TypeVar
 
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Fault
-from netdesign.solving.solve import CaseEnd, is_stuck
+from netdesign.solving.solve import CaseEnd
 from netdesign.solving.store import FORGOTTEN, CaseStore, StoreError, name_case
 from netdesign.solving.workers import (
-    Batch,
-    Ends,
     Job,
     OwnProcess,
     ProcessPool,
     Workers,
     build_workers,
-    find_in_turn,
 )
 from netdesign.words.message import Message, say
 
@@ -70,43 +67,28 @@ class Runner:
     faults: dict[Fault, set[str]] = field(default_factory=dict)
 
     def solve(self, jobs: Sequence[Job]) -> list[CaseEnd]:
-        """End of every job, in their order; equal jobs are solved once."""
-        return [ends[0] for ends in self.solve_batches([(job,) for job in jobs])]
-
-    def solve_batches(self, batches: Sequence[Batch]) -> list[Ends]:
-        """Ends of every batch, in their order; equal cases are solved once.
+        """End of every job, in their order; equal jobs are solved once.
 
         Raises
         ------
         KeyError
             If workers lose a case.
         """
-        named = [
-            [(name_case(job.scene, job.settings), job) for job in batch]
-            for batch in batches
-        ]
-        names = [name for batch in named for name, _ in batch]
+        names = [name_case(job.scene, job.settings) for job in jobs]
         nothing: dict[str, CaseEnd] = {}
-        solved_cases = self.ask_store(lambda store: store.find(names), nothing)
-        for end in solved_cases.values():
+        ends = self.ask_store(lambda store: store.find(names), nothing)
+        for end in ends.values():
             self.on_done(end)
-        solved = self.counts.solved
-        while missing := _list_missing(named, solved_cases):
-            todo = [tuple(batch.values()) for batch in missing]
-            self.on_ask([job for batch in todo for job in batch])
-            for place, ends in self.workers.solve(todo):
-                for name, end in zip(missing[place], ends, strict=False):
-                    solved_cases[name] = end
-                    self._note(name, end)
-            if any(batch.keys().isdisjoint(solved_cases) for batch in missing):
-                # without this the loop would not end
-                raise KeyError("workers lost a batch")
-        answers = [
-            find_in_turn([name for name, _ in batch], solved_cases.__getitem__)
-            for batch in named
-        ]
-        self.counts.reused += sum(map(len, answers)) - (self.counts.solved - solved)
-        return answers
+        pairs = zip(names, jobs, strict=True)
+        missing = {name: job for name, job in pairs if name not in ends}
+        if missing:
+            self.on_ask([*missing.values()])
+        unknown = [*missing]
+        for place, end in self.workers.solve([*missing.values()]):
+            ends[unknown[place]] = end
+            self._note(unknown[place], end)
+        self.counts.reused += len(jobs) - len(missing)
+        return [ends[name] for name in names]
 
     def _note(self, name: str, end: CaseEnd) -> None:
         self.ask_store(lambda store: store.keep(name, end), None)
@@ -156,31 +138,6 @@ class Runner:
             self.tell(say("store.failed", cause=str(error)))
             self.store = None
             return without
-
-
-_Named = list[tuple[str, Job]]
-
-
-def _list_missing(
-    batches: Sequence[_Named], ends: dict[str, CaseEnd]
-) -> list[dict[str, Job]]:
-    """Unknown cases of each batch that has any; a shared one goes with the first.
-
-    The second batch waits for that case, and may then need no more.
-    """
-    missing_batches: list[dict[str, Job]] = []
-    claimed: set[str] = set()
-    for batch in batches:
-        missing: dict[str, Job] = {}
-        for name, job in batch:
-            if name in claimed or (name in ends and is_stuck(ends[name])):
-                break
-            if name not in ends:
-                missing[name] = job
-                claimed.add(name)
-        if missing:
-            missing_batches.append(missing)
-    return missing_batches
 
 
 @contextmanager

@@ -69,11 +69,6 @@ def describe_case(scene: Scene, settings: Settings) -> str:
 CaseEnd = SolvedState | FailedSolution  # end of one solve
 
 
-def is_stuck(end: CaseEnd) -> bool:
-    """Whether more friction would change nothing."""
-    return isinstance(end, SolvedState) and end.sticks
-
-
 def keep_state(solution: Solution) -> SolvedState:
     """Part of a solution that an envelope keeps."""
     kept = {field.name: getattr(solution, field.name) for field in fields(SolvedState)}

@@ -1,6 +1,6 @@
 """Workers that solve cases: this process, a pool, or a Dask cluster.
 
-All give the same ends for the same batches, in an order of their own. A worker that
+All give the same ends for the same jobs, in an order of their own. A worker that
 dies costs only the case that killed it, which is named.
 """
 
@@ -40,15 +40,15 @@ from netdesign.solving.solve import (
     CaseEnd,
     Settings,
     describe_case,
-    is_stuck,
     keep_state,
     solve_scene,
 )
 from netdesign.words.message import say
 
-DIED, NO_MEMORY = say("worker.died"), say("worker.no_memory")
-_AHEAD = 2  # batches in the hands of a pool, for each of its processes
-_WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
+NO_MEMORY = say("worker.no_memory")
+LOST = FailedSolution(outcome=Outcome.WORKER_FAILED, reason=say("worker.died"))
+_AHEAD = 2  # jobs in the hands of a pool, for each of its processes
+_WORTH_A_POOL = 60  # jobs; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
 _PORTS = 65_536
 _DESERTED_S = 60.0  # how long it may be without a worker; they are being started again
@@ -73,22 +73,18 @@ class Job:
     settings: Settings
 
 
-# Cases alike but for their friction, which ascends: solved in turn up to the first
-# whose snow sticks, since more friction changes nothing then.
-Batch = tuple[Job, ...]
-Ends = list[CaseEnd]  # of the cases of a batch that were solved
-Arrival = tuple[int, Ends]  # place among the batches, and its ends
+Arrival = tuple[int, CaseEnd]  # place among the jobs, and its end
 
 
 class Workers(Protocol):
-    """Solver of batches; ends arrive in any order, each with its batch's place."""
+    """Solver of jobs; ends arrive in any order, each with its job's place."""
 
     @property
     def pool(self) -> ProcessPool | None:
         """Processes of this machine that can do more than solve; None without any."""
 
-    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
-        """Solve all batches."""
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs."""
 
     def close(self) -> None:
         """Release the workers, and stop what still runs."""
@@ -131,45 +127,21 @@ def _solve(job: Job) -> CaseEnd:
     return state
 
 
-def solve_batch(batch: Batch) -> Ends:
-    """Solve the cases of a batch in turn."""
-    return find_in_turn(batch, solve_job)
-
-
-def find_in_turn(items: Sequence[Item], find: Callable[[Item], CaseEnd]) -> Ends:
-    """Ends of the cases of a batch up to the first whose snow sticks.
-
-    Parameters
-    ----------
-    items : sequence
-        What stands for each case.
-    find : callable
-        Gives its end.
-    """
-    ends: Ends = []
-    for item in items:
-        ends.append(find(item))
-        if is_stuck(ends[-1]):
-            break
-    return ends
-
-
 class OwnProcess:
-    """Solves one batch after the other, here."""
+    """Solves one job after the other, here."""
 
     pool = None
 
-    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
-        """Solve all batches in their order."""
-        for place, batch in enumerate(batches):
-            yield place, solve_batch(batch)
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs in their order."""
+        yield from enumerate(map(solve_job, jobs))
 
     def close(self) -> None:
         """Nothing is held."""
 
 
 class ProcessPool:
-    """Solves batches in several processes; small first waves in this one.
+    """Solves jobs in several processes; small first waves in this one.
 
     Processes are started by the first wave that is worth it. They ignore Ctrl-C,
     which is the parent's to handle, and are stopped by ``close`` at once.
@@ -183,20 +155,24 @@ class ProcessPool:
     def prepare(self, jobs: int) -> None:
         """Start the processes now, if so many jobs are worth it and it is quick.
 
-        Before other threads begin: afterwards no copy of this process is sound.
+        Before other threads begin: afterwards no copy of this process is sound. Else
+        they are started by the first job.
         """
-        if jobs >= self._worth and can_fork():
+        if jobs < self._worth:
+            return
+        self._worth = 1
+        if can_fork():
             self._start().submit(int)  # a pool starts its processes with its first task
 
-    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
-        """Solve all batches; suspects of a crash are tried again job by job."""
-        if self._pool is None and sum(map(len, batches)) < self._worth:
-            yield from OwnProcess().solve(batches)
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs; suspects of a crash are tried again, each alone."""
+        if self._pool is None and len(jobs) < self._worth:
+            yield from OwnProcess().solve(jobs)
             return
-        waiting = list(enumerate(batches))[::-1]
+        waiting = list(enumerate(jobs))[::-1]
         while waiting:
-            suspects = yield from self.spread(solve_batch, waiting)
-            yield from _try_job_by_job(suspects)
+            suspects = yield from self.spread(solve_job, waiting)
+            yield from _try_each_alone(suspects)
 
     def begin(self, work: Callable[..., Found], *arguments: Any) -> Callable[[], Found]:
         """Call that a worker makes meanwhile; its result is that of what is returned.
@@ -305,10 +281,10 @@ class DaskCluster:
             self.close()
             raise _refuse_versions(address, own, tuple(sorted(others)))
 
-    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
-        """Solve all batches; those lost with a worker are tried again job by job.
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs; those lost with a worker are tried again, each alone.
 
-        The scheduler gives up every batch that waited with one that kills workers.
+        The scheduler gives up every job that waited with one that kills workers.
 
         Raises
         ------
@@ -319,18 +295,18 @@ class DaskCluster:
         from distributed.comm import CommClosedError
 
         try:
-            yield from self._solve(batches)
+            yield from self._solve(jobs)
         except (CancelledError, CommClosedError) as error:  # Dask cancels its tasks
             kind = type(error).__name__
             lost = say("cluster.lost", address=self._address, kind=kind)
             raise ClusterError(lost) from None
 
-    def _solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
+    def _solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
         from distributed import KilledWorker, as_completed
 
         places = {
-            self._client.submit(solve_batch, batch, pure=False): place
-            for place, batch in enumerate(batches)
+            self._client.submit(solve_job, job, pure=False): place
+            for place, job in enumerate(jobs)
         }
         suspects: list[int] = []
         arriving = as_completed(list(places), loop=self._client.loop)
@@ -340,7 +316,7 @@ class DaskCluster:
             except KilledWorker:
                 suspects.append(places[future])
         for place in sorted(suspects):
-            yield place, find_in_turn(batches[place], self._try_alone)
+            yield place, self._try_alone(jobs[place])
 
     def _try_alone(self, job: Job) -> CaseEnd:
         from distributed import KilledWorker, as_completed
@@ -350,7 +326,7 @@ class DaskCluster:
         try:
             end: CaseEnd = next(follow_futures(self._client, arriving)).result()
         except KilledWorker:
-            return FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED)
+            return LOST
         return end
 
     def close(self) -> None:
@@ -423,23 +399,18 @@ def _refuse_versions(
     )
 
 
-def _try_job_by_job(suspects: Sequence[tuple[int, Batch]]) -> Iterator[Arrival]:
-    """Solve batches of which one or more killed their worker, one job at a time."""
+def _try_each_alone(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
+    """Solve jobs of which one or more killed their worker, one at a time."""
     pool: ProcessPoolExecutor | None = None
-
-    def try_alone(job: Job) -> CaseEnd:
-        nonlocal pool
-        pool = pool or _start_pool(1)
-        try:
-            return pool.submit(solve_job, job).result()
-        except BrokenProcessPool:
-            _stop(pool)
-            pool = None
-            return FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED)
-
     try:
-        for place, batch in suspects:
-            yield place, find_in_turn(batch, try_alone)
+        for place, job in suspects:
+            pool = pool or _start_pool(1)
+            try:
+                end: CaseEnd = pool.submit(solve_job, job).result()
+            except BrokenProcessPool:
+                _stop(pool)
+                pool, end = None, LOST
+            yield place, end
     finally:
         if pool is not None:
             _stop(pool)

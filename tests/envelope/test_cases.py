@@ -136,7 +136,7 @@ def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
     points = [(side, share) for side in (0.0, 0.37, 1.0) for share in (0.0, 0.41, 1.0)]
     skip = FrictionSkip(task.ranges.axes)
     workers, steps = Recording(), solve_first(task, points, skip)
-    results, rough = finish(steps, Runner(workers=workers).solve_batches)
+    results, rough = finish(steps, Runner(workers=workers).solve)
     assert skip.skipped > 0
     assert not rough
     coarsest = solve_case(

@@ -136,15 +136,15 @@ def test_a_governing_case_that_cannot_be_calculated_again_leaves_a_gap(found):
 
 
 def test_a_search_can_be_stepped(found):
-    """By hand, with any solver of batches: the same as all rows together."""
+    """By hand, with any solver: the same as all rows together."""
     finer = found.task.confirmed_by
     search = RowSearch(replace(TASK, confirmed_by=finer))
     assert search.gap == math.inf
     gaps = []
 
-    def solve(batches):
+    def solve(jobs):
         gaps.append(search.gap)
-        return Runner().solve_batches(batches)
+        return Runner().solve(jobs)
 
     result = finish(search.run(), solve)
     assert result.maxima.points == found.maxima.points

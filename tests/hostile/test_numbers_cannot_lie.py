@@ -289,8 +289,8 @@ class Shuffled(OwnProcess):
     def __init__(self, seed):
         self._draw = random.Random(seed)
 
-    def solve(self, batches):
-        ends = list(super().solve(batches))
+    def solve(self, jobs):
+        ends = list(super().solve(jobs))
         return iter(self._draw.sample(ends, len(ends)))
 
 
@@ -303,18 +303,18 @@ def test_the_order_in_which_cases_end_changes_nothing(ranges, seed, strength):
 
 
 class Forgetful(OwnProcess):
-    """Loses the end of one batch."""
+    """Loses the end of one job."""
 
-    def solve(self, batches):
-        return iter(list(super().solve(batches))[:-1])
+    def solve(self, jobs):
+        return iter(list(super().solve(jobs))[:-1])
 
 
 class Lazy(OwnProcess):
-    """Loses all ends of one batch but arrives with it."""
+    """Loses the end of one job but arrives with another in its place."""
 
-    def solve(self, batches):
-        for place, ends in super().solve(batches):
-            yield place, ends if place else []
+    def solve(self, jobs):
+        for place, end in super().solve(jobs):
+            yield place or 1, end
 
 
 @pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])

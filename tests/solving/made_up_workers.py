@@ -6,19 +6,19 @@ from netdesign.solving.workers import OwnProcess
 
 
 class Recording(OwnProcess):
-    """Keeps the batches of each call."""
+    """Keeps the jobs of each call."""
 
     def __init__(self):
         self.waves = []
 
     @property
     def jobs(self):
-        """All jobs, whatever batch they came in."""
-        return list(chain.from_iterable(chain.from_iterable(self.waves)))
+        """All jobs, whatever wave they came in."""
+        return list(chain.from_iterable(self.waves))
 
-    def solve(self, batches):
-        self.waves.append(batches)
-        return super().solve(batches)
+    def solve(self, jobs):
+        self.waves.append(jobs)
+        return super().solve(jobs)
 
 
 class Spoiling(OwnProcess):
@@ -27,18 +27,17 @@ class Spoiling(OwnProcess):
     def __init__(self, spoil):
         self._spoil = spoil
 
-    def solve(self, batches):
-        for place, ends in super().solve(batches):
-            solved = zip(batches[place], ends, strict=False)
-            yield place, [self._spoil(job, end) for job, end in solved]
+    def solve(self, jobs):
+        for place, end in super().solve(jobs):
+            yield place, self._spoil(jobs[place], end)
 
 
 def finish(steps, solve):
-    """End of a search, whose batches are solved one wave after the other."""
+    """End of a search, whose jobs are solved one wave after the other."""
     ends = None
     while True:
         try:
-            batches = steps.send(ends)
+            jobs = steps.send(ends)
         except StopIteration as end:
             return end.value
-        ends = solve(batches)
+        ends = solve(jobs)

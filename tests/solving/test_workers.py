@@ -12,12 +12,11 @@ from pathlib import Path
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import SENTENCE, Outcome
 from netdesign.solving.solve import encode_end
 from netdesign.solving.workers import (
-    DIED,
+    LOST,
     ClusterError,
     DaskCluster,
     Job,
@@ -63,65 +62,47 @@ def job(density, kind=Scene, *, friction_deg=30.0):
     return Job(scene=build_scene(case, kind), settings=COARSE)
 
 
-def build_line(density, *frictions_deg):
-    return tuple(job(density, friction_deg=friction) for friction in frictions_deg)
-
-
-# the snow of the last two sticks from 30 degrees on, that of the first from 40
-BATCHES = [
-    build_line(250.0, 10.0, 20.0, 30.0),
-    build_line(300.0, 10.0, 30.0, 40.0),
-    build_line(350.0, 30.0, 40.0),
+JOBS = [
+    job(density, friction_deg=friction)
+    for density in (250.0, 300.0, 350.0)
+    for friction in (10.0, 30.0)
 ]
-SOLVED = [3, 2, 1]
 
 
-def collect(workers, batches):
-    """Bytes of the ends of each batch."""
-    arrived = sorted(workers.solve(batches), key=lambda one: one[0])
-    assert [place for place, _ in arrived] == list(range(len(batches)))
-    return [[encode_end(end) for end in ends] for _, ends in arrived]
-
-
-LOST = encode_end(FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED))
+def collect(workers, jobs):
+    """Bytes of the ends of each job."""
+    arrived = sorted(workers.solve(jobs), key=lambda one: one[0])
+    assert [place for place, _ in arrived] == list(range(len(jobs)))
+    return [encode_end(end) for _, end in arrived]
 
 
 @pytest.fixture(scope="module")
 def alone():
-    return collect(OwnProcess(), BATCHES)
-
-
-def test_a_batch_ends_with_the_first_case_whose_snow_sticks(alone):
-    assert [len(ends) for ends in alone] == SOLVED
-    for batch, ends in zip(BATCHES, alone, strict=True):
-        each = [solve_job(one) for one in batch[: len(ends)]]
-        assert [encode_end(end) for end in each] == ends
-        assert not any(end.sticks for end in each[:-1])
+    return collect(OwnProcess(), JOBS)
 
 
 @pytest.mark.parametrize("processes", [1, 2, 3])
 def test_a_pool_gives_the_same_bytes_as_one_process(alone, processes):
     pool = ProcessPool(processes, worth=1)
     try:
-        assert collect(pool, BATCHES) == alone
+        assert collect(pool, JOBS) == alone
     finally:
         pool.close()
     assert multiprocessing.active_children() == []
 
 
-def kill_within(batches):
-    """The batches with one more case in the midst of the second, which dies."""
-    first, (low, *others), *rest = batches
-    return [first, (low, job(300.0, DyingScene, friction_deg=20.0), *others), *rest]
+def kill_within(jobs):
+    """The jobs with one more in their midst, which dies."""
+    return [*jobs[:3], job(300.0, DyingScene, friction_deg=20.0), *jobs[3:]]
 
 
 def test_a_worker_that_dies_costs_one_case_by_name(alone):
     pool = ProcessPool(2, worth=1)
     try:
-        found = collect(pool, kill_within(BATCHES))
+        found = collect(pool, kill_within(JOBS))
     finally:
         pool.close()
-    assert found[1].pop(1) == LOST
+    assert found.pop(3) == encode_end(LOST)
     assert found == alone
     assert multiprocessing.active_children() == []
 
@@ -155,7 +136,7 @@ def test_a_call_that_a_worker_does_not_end_is_made_here(work):
 def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
     pool = ProcessPool(2, worth=1)
     try:
-        assert collect(pool, BATCHES) == alone
+        assert collect(pool, JOBS) == alone
         executor = pool._pool
         os.kill(next(iter(executor._processes)), signal.SIGKILL)
         for _ in range(500):  # until the executor knows of it
@@ -164,7 +145,7 @@ def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
             time.sleep(0.01)
         assert executor._broken
         assert pool.begin(math.hypot, 3.0, 4.0)() == 5.0
-        assert collect(pool, BATCHES) == alone
+        assert collect(pool, JOBS) == alone
     finally:
         pool.close()
 
@@ -176,17 +157,12 @@ def test_a_bug_in_one_case_is_its_outcome():
     assert "density 300 kg/m3, friction 30 deg" in end.fault.case
 
 
-def spoil_within(batches):
-    """The batches with one more case in the midst of the last, which has a bug."""
-    *rest, (low, *others) = batches
-    return [*rest, (job(350.0, FaultyScene, friction_deg=20.0), low, *others)]
-
-
 def assert_fault(workers, alone):
     """The fault comes whole from wherever it was; the other ends are as ever."""
-    arrived = dict(workers.solve(spoil_within(BATCHES)))
-    fault = arrived[2].pop(0).fault
-    assert [[encode_end(e) for e in arrived[k]] for k in range(3)] == alone
+    spoilt = job(350.0, FaultyScene, friction_deg=20.0)
+    arrived = dict(workers.solve([*JOBS, spoilt]))
+    fault = arrived.pop(len(JOBS)).fault
+    assert [encode_end(arrived[k]) for k in range(len(JOBS))] == alone
     assert (fault.kind, fault.message) == ("ZeroDivisionError", "spoilt")
     assert fault.place.startswith("coupling/")
     assert "test_workers.py" in fault.trace
@@ -202,7 +178,7 @@ def test_a_fault_comes_whole_from_any_process(workers, alone):
 
 def test_an_interrupt_leaves_no_process_behind():
     pool = ProcessPool(2, worth=1)
-    arriving = pool.solve(BATCHES)
+    arriving = pool.solve(JOBS)
     next(arriving)
     arriving.close()
     pool.close()
@@ -214,11 +190,11 @@ import subprocess
 import sys
 import time
 sys.path[:0] = {path!r}
-from tests.solving.test_workers import BATCHES, ProcessPool
+from tests.solving.test_workers import JOBS, ProcessPool
 
 if __name__ == "__main__":
     pool = ProcessPool(2, worth=1)
-    next(pool.solve(BATCHES))
+    next(pool.solve(JOBS))
     print(*pool._pool._processes, flush=True)
     sys.stdin.read()
 """
@@ -274,7 +250,7 @@ def cluster():
 def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
     workers = build_workers(f"dask://{cluster}", 1)
     try:
-        assert collect(workers, BATCHES) == alone
+        assert collect(workers, JOBS) == alone
     finally:
         workers.close()
 
@@ -284,10 +260,10 @@ def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
 def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
     workers = DaskCluster(cluster)
     try:
-        found = collect(workers, kill_within(BATCHES))
+        found = collect(workers, kill_within(JOBS))
     finally:
         workers.close()
-    assert found[1].pop(1) == LOST
+    assert found.pop(3) == encode_end(LOST)
     assert found == alone
 
 
@@ -322,9 +298,9 @@ def test_a_scheduler_that_is_killed_is_named_with_its_address(alone, capfd):
     ) as process:
         address = process.stdout.readline().strip()
         workers = DaskCluster(address)
-        arriving = workers.solve([BATCHES[0], (job(300.0, LongScene),)])
-        place, ends = next(arriving)
-        assert (place, [encode_end(end) for end in ends]) == (0, alone[0])
+        arriving = workers.solve([JOBS[0], job(300.0, LongScene)])
+        place, end = next(arriving)
+        assert (place, encode_end(end)) == (0, alone[0])
         process.kill()
         with pytest.raises(ClusterError) as caught:
             next(arriving)

@@ -28,12 +28,9 @@ class Failing(OwnProcess):
     def __init__(self, is_solved):
         self.is_solved = is_solved
 
-    def solve(self, batches):
-        for place, batch in enumerate(batches):
-            yield (
-                place,
-                [solve_job(job) if self.is_solved(job) else FAILED for job in batch],
-            )
+    def solve(self, jobs):
+        for place, job in enumerate(jobs):
+            yield place, solve_job(job) if self.is_solved(job) else FAILED
 
 
 def leans_least(job):
