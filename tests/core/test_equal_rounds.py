@@ -224,19 +224,14 @@ def test_a_net_that_moves_is_not_settled():
     assert core.take(curve, None, net, TOLERANCE).from_stresses is None
 
 
-def test_a_curve_in_the_ground_has_no_mesh():
+@pytest.mark.parametrize(
+    ("axis", "moved", "told"), [(1, -1e-3, "touch the ground"), (0, -20.0, "bulges")]
+)
+def test_a_curve_in_the_ground_or_folded_over_has_no_mesh(axis, moved, told):
     core, net = begin(PROBLEMS[0])
     curve = find_contact_curve(PROBLEMS[0], net).copy()
-    curve[1, 3] = -1e-3
-    with pytest.raises(OffMeshError, match="touch the ground"):
-        core.take(curve, None, net, TOLERANCE)
-
-
-def test_a_curve_that_folds_the_mesh_over_has_none():
-    core, net = begin(PROBLEMS[0])
-    curve = find_contact_curve(PROBLEMS[0], net).copy()
-    curve[0, 3] -= 20.0
-    with pytest.raises(OffMeshError, match="bulges"):
+    curve[axis, 3] = moved + (0.0 if axis else curve[0, 3])
+    with pytest.raises(OffMeshError, match=told):
         core.take(curve, None, net, TOLERANCE)
 
 

@@ -42,18 +42,6 @@ def sound(scene, settings=SETTINGS):
 # --- layers ------------------------------------------------------------------
 
 
-def test_equal_layers_are_uniform_snow(a_scene):
-    scene = a_scene(inclination_deg=30.0, ground="no-slip")
-    density = scene.snowpack.density
-    parts = [Layer(thickness=t, density=density) for t in (1.0, 0.5, 2.5)]
-    one, three = sound(scene), sound(layered(scene, *parts))
-    # another mesh: as close as both errors together
-    for end in ("foot", "head"):
-        first, second = getattr(one, end), getattr(three, end)
-        apart = math.hypot(first.x - second.x, first.y - second.y)
-        assert apart <= first.error + second.error
-
-
 def test_layered_snow_hangs_its_weight_on_the_net(a_scene):
     scene = layered(
         a_scene(),
@@ -187,24 +175,3 @@ def test_one_sided_where_nothing_pulls_is_two_sided(a_scene):
 
 
 # --- elements ----------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "given",
-    [
-        {"inclination_deg": 30.0, "ground": "no-slip"},
-        {"inclination_deg": 30.0, "friction_deg": 5.0},
-    ],
-    ids=str,
-)
-def test_both_elements_agree_within_their_errors(a_scene, monkeypatch, given):
-    scene = a_scene(**given)
-    plain = sound(scene)
-    monkeypatch.setattr("netdesign.coupling.scene.MIXED_BULK_RATIO", 0.0)
-    assert scene.flow_problem.element == "mixed"
-    mixed = sound(scene)
-    assert mixed.cost.degrees_of_freedom > plain.cost.degrees_of_freedom
-    for end in ("foot", "head"):
-        first, second = getattr(plain, end), getattr(mixed, end)
-        apart = math.hypot(first.x - second.x, first.y - second.y)
-        assert apart <= min(first.error, second.error)

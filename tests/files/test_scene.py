@@ -73,13 +73,6 @@ def test_vertical_height_is_turned_to_the_normal(tables):
     assert scene.net.height_normal == scene.snowpack.thickness
 
 
-def test_glide_factor_becomes_a_slip_length(tables):
-    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
-    assert build(tables).ground == build_ground_from_glide_factor(1.5, 4.0)
-    tables["ground"] = {"law": "sliding", "glide_factor": 1.0}
-    assert build(tables).ground.kind == "no-slip"
-
-
 @pytest.mark.parametrize(
     ("table", "key", "value"),
     [
@@ -362,16 +355,9 @@ def test_set_of_ones_own_that_is_no_law(tables, changes, message):
 def test_glide_factor_is_that_of_the_creep_law(tables, name):
     tables["snow"]["creep_law"] = name
     tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
-    scene = build(tables)
-    assert scene.ground == build_ground_from_glide_factor(1.5, 4.0, name)
-
-
-# --- what is known for creep exponent 3 only -----------------------------------------
-
-
-def test_glide_factor_needs_the_exponent_of_its_table(tables):
-    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
-    assert build(tables).ground.kind == "sliding"
-    tables["snow"]["creep_exponent"] = 1.0
+    assert build(tables).ground == build_ground_from_glide_factor(1.5, 4.0, name)
+    tables["ground"]["glide_factor"] = 1.0
+    assert build(tables).ground.kind == "no-slip"
+    tables["ground"]["glide_factor"], tables["snow"]["creep_exponent"] = 1.5, 1.0
     with pytest.raises(ModelError, match=r"ground\.glide_factor: .*exponent 3"):
         build(tables)

@@ -19,6 +19,12 @@ PANEL = Panel(
 )
 
 
+def assert_fails(failed, outcome, told):
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is outcome
+    assert told in str(failed.reason)
+
+
 @pytest.fixture
 def section(solved):
     return solved(inclination_deg=30.0, slack=0.03, ground="no-slip")
@@ -89,18 +95,7 @@ def test_net_on_the_ground_in_mid_panel_is_named(solved):
         upper=replace(panel.upper, sag=0.15),
     )
     failed = solve_panel(low, panel)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.OUT_OF_VALIDITY
-    assert "the net would lie on the ground" in str(failed.reason)
-
-
-def test_cut_without_net_is_a_result(section):
-    slack = Rope(stiffness=2e7, sag=0.3)
-    panel = Panel(post_spacing=9.3, lower=slack, upper=slack, cut="fitted")
-    failed = solve_panel(section, panel)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.OUT_OF_VALIDITY
-    assert "leaves next to no net" in str(failed.reason)
+    assert_fails(failed, Outcome.OUT_OF_VALIDITY, "the net would lie on the ground")
 
 
 def test_soft_ropes_that_pass_each_other_on_the_way(solved):
@@ -117,29 +112,35 @@ def test_soft_ropes_that_pass_each_other_on_the_way(solved):
     assert soft.balance < 1e-8
 
 
-def test_steps_that_do_not_end_are_a_reason(section, monkeypatch):
-    monkeypatch.setattr(solving, "_MOST_STEPS", 2)
-    failed = solve_panel(section, PANEL)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.MAX_ITERATIONS
+def test_cut_without_net_is_a_result(section):
+    slack = Rope(stiffness=2e7, sag=0.3)
+    panel = Panel(post_spacing=9.3, lower=slack, upper=slack, cut="fitted")
+    assert_fails(solve_panel(section, panel), Outcome.OUT_OF_VALIDITY, "next to no net")
 
 
-@pytest.mark.parametrize("spoiled", [0.0, math.nan])
-def test_panel_that_finds_no_forces_is_a_reason(section, monkeypatch, spoiled):
+def derive_spoilt(share):
     """Derivatives that tell nothing."""
-    monkeypatch.setenv("NETDESIGN_CORE", "numpy")  # the core has its own
     derive = solving.derive_missing
-    monkeypatch.setattr(solving, "derive_missing", lambda *a: spoiled * derive(*a))
-    failed = solve_panel(section, PANEL)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert "are not found" in str(failed.reason)
+    return lambda *given: share * derive(*given)
 
 
-def test_panel_out_of_balance_is_refused(section, monkeypatch):
-    """A loose end of the steps shows in the moments."""
-    monkeypatch.setattr(solving, "_STILL", 1e-3)
-    failed = solve_panel(section, PANEL)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.BALANCE_VIOLATED
-    assert "balance misses" in str(failed.reason)
+LOST = (Outcome.NO_EQUILIBRIUM, "are not found")
+
+
+@pytest.mark.parametrize(
+    ("name", "spoilt", "outcome", "told"),
+    [
+        ("_MOST_STEPS", 2, Outcome.MAX_ITERATIONS, ""),
+        ("derive_missing", derive_spoilt(0.0), *LOST),
+        ("derive_missing", derive_spoilt(math.nan), *LOST),
+        # a loose end of the steps shows in the moments
+        ("_STILL", 1e-3, Outcome.BALANCE_VIOLATED, "balance misses"),
+    ],
+)
+def test_what_the_steps_do_not_find_is_a_reason(
+    section, monkeypatch, name, spoilt, outcome, told
+):
+    if callable(spoilt):
+        monkeypatch.setenv("NETDESIGN_CORE", "numpy")  # the core has its own
+    monkeypatch.setattr(solving, name, spoilt)
+    assert_fails(solve_panel(section, PANEL), outcome, told)

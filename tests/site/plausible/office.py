@@ -79,21 +79,6 @@ def _draw_anchor(name, tendon, least):
     }
 
 
-FACTORS = {"times ten": 10.0, "a tenth": 0.1}
-
-
-def list_office_slips(tables):
-    """Kind of each slip, with its cell (table, line, key) and what is typed there."""
-    for table, lines in tables.items():
-        for number, line in enumerate(lines):
-            for key, value in line.items():
-                if isinstance(value, str):
-                    continue
-                for kind, factor in FACTORS.items():
-                    slip = float(f"{value * factor:.10g}")
-                    yield kind, (table, number, key), slip
-
-
 def alter(tables, place, value):
     """Tables with another number in one cell."""
     table, number, key = place

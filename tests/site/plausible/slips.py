@@ -70,3 +70,10 @@ def is_noticed(path, slip, known):
 
 def list_known(path):
     return {str(one) for one in read_site(path).findings}
+
+
+def is_asked(path, slip):
+    try:
+        return bool(read_site(path, instead=slip.instead).questions)
+    except SiteDataError:
+        return True
