@@ -1,5 +1,6 @@
 """The input workbook as it is written: read again, alike in every language."""
 
+from functools import cache
 from io import BytesIO
 
 import openpyxl
@@ -15,6 +16,12 @@ from tests.site.office.drawn import draw_tables
 
 LANGUAGES = ("en", "fr", "de")
 ALL = tuple(WITH)
+
+
+@cache
+def render_form(language, sheets=()):
+    """An empty workbook."""
+    return render_input({}, language, sheets)
 
 
 def write(path, content):
@@ -55,7 +62,7 @@ def bare(row):
 
 @each("language", LANGUAGES)
 def test_an_empty_form_asks_for_rows_alone(tmp_path, language):
-    path = write(tmp_path / f"{language}.xlsx", render_input({}, language, ALL))
+    path = write(tmp_path / f"{language}.xlsx", render_form(language, ALL))
     with pytest.raises(SiteDataError) as refused:
         read_site(path)
     errors = [one for one in refused.value.findings if one.severity == "error"]
@@ -80,7 +87,7 @@ def test_what_is_written_is_read_again(tmp_path, seed, language):
 
 @each("language", LANGUAGES)
 def test_every_column_has_its_heading_and_what_an_empty_cell_means(language):
-    book = openpyxl.load_workbook(BytesIO(render_input({}, language, ALL)))
+    book = openpyxl.load_workbook(BytesIO(render_form(language, ALL)))
     for table in TABLES:
         if table in PARTS or table == "project":
             continue
@@ -96,7 +103,7 @@ def test_every_column_has_its_heading_and_what_an_empty_cell_means(language):
 
 @each("language", LANGUAGES)
 def test_yellow_is_what_is_needed_in_a_line_that_is_begun(language):
-    book = openpyxl.load_workbook(BytesIO(render_input({}, language)))
+    book = openpyxl.load_workbook(BytesIO(render_form(language)))
     for table in ("rows", "net_types", "anchor_types"):
         sheet = book[load_plan(table).name_in(language)]
         ruled = {
