@@ -71,31 +71,27 @@ def replace_cells(
         already: a what-if that changes nothing would be the site as built.
     """
     findings: list[Finding] = []
-    told: list[ReplacedCell] = []
-    if not instead:
-        return workbook, ()
-    sheets = list(workbook.sheets)
+    values: list[tuple[str, Cell, object]] = []
     # two of one name are refused where they are read; here the first counts
-    numbers = {one.name: n for n, one in reversed(list(enumerate(sheets)))}
-    by_name = {name.casefold(): number for name, number in numbers.items()}
+    sheets = {one.name.casefold(): one for one in reversed(workbook.sheets)}
     for place, text in instead.items():
         typed, _, address = place.rpartition("!")
-        number = by_name.get(typed.casefold())
-        if number is None:
-            accepted = say("accepted.words", words=tuple(numbers))
+        sheet = sheets.get(typed.casefold())
+        if sheet is None:
+            accepted = say(
+                "accepted.words", words=tuple(x.name for x in sheets.values())
+            )
             rule = say("what_if.no_sheet", sheet=typed)
             findings.append(workbook.finding(rule, accepted))
             continue
-        cell = find_cell(sheets[number], address)
+        cell = find_cell(sheet, address)
         if cell.text == text:
             accepted = say("what_if.another_text")
             findings.append(cell.finding(say("what_if.same"), accepted))
-            continue
-        sheets[number] = put_cell(sheets[number], cell, text)
-        told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
+        values.append((sheet.name, cell, text))
     if findings:
         raise SiteDataError(findings)
-    return replace(workbook, sheets=tuple(sheets)), tuple(told)
+    return put_values(workbook, values)
 
 
 def find_cell(sheet: Sheet, address: str) -> Cell:
@@ -104,20 +100,35 @@ def find_cell(sheet: Sheet, address: str) -> Cell:
     return sheet.cell(row, column)
 
 
-def put_cell(sheet: Sheet, cell: Cell, value: object) -> Sheet:
-    """Sheet with another value in a cell, its display format, that of the old, gone.
+def put_values(
+    workbook: Workbook, values: Iterable[tuple[str, Cell, object]]
+) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
+    """Workbook with other values in some cells, and what was there.
 
-    A cell of an office's list may stand elsewhere in the sheet that the list makes.
+    Parameters
+    ----------
+    workbook : Workbook
+        As read.
+    values : iterable of str, Cell and object
+        Name of the sheet, the cell, which may stand elsewhere in the sheet that an
+        office's list makes, and its new value. The display format of the old is gone.
     """
-    plain = replace(
-        cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
-    )
-    now = replace(plain, value=value, formula="")
-    rows = {number: dict(line) for number, line in sheet.rows.items()}
-    places = [(y, x) for y, line in rows.items() for x in line if line[x] == cell]
-    for y, x in places or [(cell.row, cell.column)]:
-        rows.setdefault(y, {})[x] = now
-    return replace(sheet, rows=rows)
+    sheets, replaced = list(workbook.sheets), []
+    numbers = {one.name: n for n, one in reversed(list(enumerate(sheets)))}
+    for name, cell, value in values:
+        plain = replace(
+            cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
+        )
+        now = replace(plain, value=value, formula="")
+        if now.text == cell.text:  # the row as built, beside others
+            continue
+        rows = {y: dict(line) for y, line in sheets[numbers[name]].rows.items()}
+        places = [(y, x) for y, line in rows.items() for x in line if line[x] == cell]
+        for y, x in places or [(cell.row, cell.column)]:
+            rows.setdefault(y, {})[x] = now
+        sheets[numbers[name]] = replace(sheets[numbers[name]], rows=rows)
+        replaced.append(ReplacedCell(cell=cell.place, was=cell.text, now=now.text))
+    return replace(workbook, sheets=tuple(sheets)), tuple(replaced)
 
 
 def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:

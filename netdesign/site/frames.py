@@ -21,7 +21,7 @@ from netdesign.site.columns.office import (
     load_plan,
     name_measure,
 )
-from netdesign.site.declared_sheet import put_cell
+from netdesign.site.declared_sheet import put_values
 from netdesign.site.model import ReplacedCell
 from netdesign.site.office.sheets import find_office_tables
 from netdesign.site.readings import Row
@@ -206,7 +206,13 @@ def change_values(
                 fault = workbook.finding(say("frames.no_column"))
                 findings.append(replace(fault, text=f"{name}: {key}"))
                 continue
-            others = _list_others(cell, key, change, lines, nets)
+            others = tuple(
+                other
+                for other, line in lines.items()
+                if key not in change.get(other, {})
+                and (its := _find_cell(line, nets, key)[1])
+                and its.place == cell.place
+            )
             sheet = load_plan(table).name_in("en") if is_list else cell.sheet
             if others or found.get(cell.place, (cell, value))[1] != value:
                 rule = say("frames.shared", key=key, rows=others or (name,))
@@ -214,7 +220,8 @@ def change_values(
             found[cell.place] = (cell, value, sheet)
     if findings:
         raise SiteDataError(findings)
-    return _put(workbook, found)
+    changed = ((sheet, cell, _take(value)) for cell, value, sheet in found.values())
+    return put_values(workbook, changed)
 
 
 def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
@@ -236,20 +243,6 @@ def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
 _CHANGED = ("rows", "net_types")
 
 
-def _put(
-    workbook: Workbook, found: Mapping[str, tuple[Cell, object, str]]
-) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
-    sheets = {one.name: one for one in workbook.sheets}
-    told = []
-    for cell, value, sheet in found.values():
-        now = replace(cell, value=_take(value), formula="")
-        if now.text == cell.text:  # the row as built, beside others
-            continue
-        sheets[sheet] = put_cell(sheets[sheet], cell, now.value)
-        told.append(ReplacedCell(cell=cell.place, was=cell.text, now=now.text))
-    return replace(workbook, sheets=tuple(sheets.values())), tuple(told)
-
-
 def _read_lines(workbook: Workbook) -> tuple[dict[str, Row], dict[str, Row]]:
     """Lines of the net rows and of the net types, by their ids."""
     unused: list[Finding] = []
@@ -266,20 +259,3 @@ def _find_cell(line: Row, nets: Mapping[str, Row], key: str) -> tuple[str, Cell 
     if reading is None and "net_type" in line:
         table, reading = "net_types", nets.get(line["net_type"].word, {}).get(key)
     return table, reading.cell if reading and key != "id" else None
-
-
-def _list_others(
-    cell: Cell,
-    key: str,
-    change: Change,
-    lines: Mapping[str, Row],
-    nets: Mapping[str, Row],
-) -> tuple[str, ...]:
-    """Net rows that have the cell, too, and that nobody changes."""
-    return tuple(
-        name
-        for name, line in lines.items()
-        if key not in change.get(name, {})
-        and (other := _find_cell(line, nets, key)[1])
-        and other.place == cell.place
-    )

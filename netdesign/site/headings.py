@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
 
 from netdesign.site.cells.cells import Cell, Sheet, name_column
 from netdesign.site.cells.findings import Finding, quote
@@ -31,7 +30,6 @@ from netdesign.words.message import say
 _HEADING_ROWS = 20  # from the first filled one: a title block may stand above them
 _LEAST_KNOWN = 2  # headings, to be a row of them
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
-_EXAMPLES = 3  # cells that show how a column is written
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
@@ -83,11 +81,11 @@ class Table:
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
 
-    def examples(self, column: int) -> list[Cell]:
-        """The first filled cells of a column below its heading."""
+    def list_filled(self, column: int) -> list[Cell]:
+        """Filled cells of a column below its heading."""
         rows = (row for row in self.sheet.rows if row >= self.first_data_row)
         cells = (self.sheet.cell(row, column) for row in rows)
-        return list(islice((one for one in cells if not one.is_blank), _EXAMPLES))
+        return [one for one in cells if not one.is_blank]
 
 
 def find_headings(
@@ -268,7 +266,7 @@ def _find_unit(
         return "-"
     if unit in field.units:
         return unit
-    if not unit and (own := find_own_unit(table.examples(column), field)):
+    if not unit and (own := find_own_unit(table.list_filled(column), field)):
         return own
     findings.append(cell.finding(*explain_unit(unit, field), field.name))
     return None

@@ -35,7 +35,6 @@ from netdesign.words.message import Message, say
 State = Literal["given", "blank", "default", "faulty"]
 
 _LONGEST_TEXT = 200
-IN_CELLS = "in cells"  # unit of a column whose numbers have one each
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,7 +134,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     field : Field
         What it should hold.
     unit : str
-        Unit of the column; one of ``field.units``, `IN_CELLS`, or empty for words.
+        Unit of the column; one of ``field.units``, or empty for words.
     findings : list of Finding
         Appended to.
 
@@ -144,8 +143,6 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     Reading
         Its value in the field's first unit.
     """
-    if unit == IN_CELLS:
-        return _read_with_own_unit(cell, field, findings)
     if field.may_range and isinstance(cell.value, str):
         ends = split_range(cell.value)
         if ends:
@@ -191,17 +188,6 @@ def _read_range(
     severe = low if field.key in _SEVERE_IS_LOW else high
     span = None if low.number == high.number else (low.number, high.number)
     return replace(severe, field=field, text=cell.text, cell=cell, span=span)
-
-
-def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
-    """Read a cell below a heading without unit, whose neighbours have one each."""
-    unit = normalise_unit(cell.own_unit)
-    if cell.is_blank or refuse_stored(cell):
-        return read_cell(cell, field, field.unit, findings)
-    if unit in field.units:
-        return read_cell(cell, field, unit, findings)
-    findings.append(cell.finding(*explain_unit(unit, field), field.name))
-    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
 
 
 def explain_unit(unit: str, field: Field) -> Refusal:

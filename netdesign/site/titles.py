@@ -19,7 +19,6 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
-from netdesign.site.readings import IN_CELLS
 from netdesign.words.message import Message, say
 
 # How alike a heading or the name of a sheet must be to a missing one, misspelt.
@@ -62,11 +61,11 @@ def read_unit(cell: Cell) -> tuple[str, bool]:
 
 
 def find_own_unit(cells: list[Cell], field: Field) -> str:
-    """Unit of a column whose heading has none: in its cells, or that of a grade."""
-    if any(normalise_unit(cell.own_unit) in field.units for cell in cells):
-        return IN_CELLS
-    has_grades = cells and all(read_grade(cell.value) is not None for cell in cells)
-    return field.unit if field.is_grade and has_grades else ""
+    """Unit of a column whose heading has none: of all its cells, or of their grades."""
+    units = {normalise_unit(cell.own_unit) for cell in cells}
+    if units and all(read_grade(cell.value) is not None for cell in cells):
+        return field.unit if field.is_grade else ""
+    return next(iter(units.intersection(field.units)), "") if len(units) == 1 else ""
 
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:

@@ -144,50 +144,49 @@ def count_in_tests(
     """
     places = {line["id"].word: line["id"].place for line in lines}
     refuse_unknown_ids((test["type"] for test in tests), places, findings)
+    left = _group_tests(lines, tests)
+    counted: list[Row] = []
+    for line in lines:
+        name, own = line["id"].word, line["ground"]
+        has_own = bool(own.word) or (name, "") in left
+        keys = (
+            [(name, own.word)] if has_own else [key for key in left if key[0] == name]
+        )
+        of_line = [left.pop(key) for key in keys if key in left]
+        for of_ground in of_line:
+            _refuse_others(line, of_ground, findings)
+            ground = own if has_own else of_ground[0]["ground"]
+            counted.append(_fill_in(line, of_ground, ground))
+        if not of_line:
+            counted.append(line)
+    for (name, word), of_ground in left.items():
+        if name not in places:
+            continue
+        ground = of_ground[0]["ground"]
+        if word:
+            rule = say("tests.no_line", type=name)
+            refuse(ground, rule, say("tests.line_wanted"), findings)
+        else:
+            at = of_ground[0]["type" if ground.cell is None else "ground"]
+            refuse(at, say("tests.no_ground"), say("tests.ground_wanted"), findings)
+    return counted
+
+
+def _group_tests(
+    lines: Sequence[Row], tests: Sequence[Row]
+) -> dict[tuple[str, str], list[Row]]:
+    """Tests by their type and ground, that of a type with one ground if it has none."""
     grounds: dict[str, list[str]] = {}
     for line in lines:
         grounds.setdefault(line["id"].word, []).append(line["ground"].word)
-    by_place: dict[tuple[str, str], list[Row]] = {}
+    groups: dict[tuple[str, str], list[Row]] = {}
     for test in tests:
         if test["force"].state == "given":
             name, word = test["type"].word, test["ground"].word
             of_type = grounds.get(name, ())
-            if not word and len(of_type) == 1:
-                (word,) = of_type
-            by_place.setdefault((name, word), []).append(test)
-    found: list[Row] = []
-    for line in lines:
-        found += _count(line, by_place, findings)
-    for (name, _), left in by_place.items():
-        if name in places:
-            ground = left[0]["ground"]
-            if ground.word:
-                rule = say("tests.no_line", type=name)
-                refuse(ground, rule, say("tests.line_wanted"), findings)
-            else:
-                wanted = say("tests.ground_wanted")
-                at = left[0]["type" if ground.cell is None else "ground"]
-                refuse(at, say("tests.no_ground"), wanted, findings)
-    return found
-
-
-def _count(
-    line: Row, by_place: dict[tuple[str, str], list[Row]], findings: list[Finding]
-) -> list[Row]:
-    """Lines that a line becomes; the tests that it takes leave the table."""
-    name, own = line["id"].word, line["ground"].word
-    if own or (name, "") in by_place:
-        tests = by_place.pop((name, own), None)
-        if tests:
-            _refuse_others(line, tests, findings)
-        return [_fill_in(line, tests, line["ground"]) if tests else line]
-    keys = [key for key in by_place if key[0] == name]
-    if not keys:
-        return [line]
-    tested = [by_place.pop(key) for key in keys]
-    for tests in tested:
-        _refuse_others(line, tests, findings)
-    return [_fill_in(line, tests, tests[0]["ground"]) for tests in tested]
+            (word,) = of_type if not word and len(of_type) == 1 else (word,)
+            groups.setdefault((name, word), []).append(test)
+    return groups
 
 
 _OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that say what tests say
@@ -200,19 +199,14 @@ def _refuse_others(line: Row, tests: Sequence[Row], findings: list[Finding]) -> 
         refuse_beside(tests[0]["force"], reading, findings)
 
 
-def _sum_up(tests: Sequence[Row]) -> tuple[float, float, float]:
-    """Number, least and mean of single tests, as `TEST_COLUMNS` has them."""
-    forces = [test["force"].number for test in tests]
-    return float(len(forces)), min(forces), fmean(forces)
-
-
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     """Line with number, least and mean of its tests, and their ground."""
-    first = tests[0]["force"]
+    first, forces = tests[0]["force"], [test["force"].number for test in tests]
     how = say("tests.counted", count=len(tests), place=first.place)
+    values = (float(len(forces)), min(forces), fmean(forces))
     counted = {
         key: replace(work_out(first, line[key].field, value, how), text="")
-        for key, value in zip(TEST_COLUMNS, _sum_up(tests), strict=True)
+        for key, value in zip(TEST_COLUMNS, values, strict=True)
     }
     singles = tuple(map(_read_single, tests))
     counted["test_count"] = replace(counted["test_count"], singles=singles)
