@@ -12,12 +12,12 @@ from netdesign.checks.geometry import Approval as Approval
 from netdesign.checks.geometry import RowGeometry as RowGeometry
 from netdesign.checks.geometry import StatedValue as StatedValue
 from netdesign.checks.geometry import check_geometry as check_geometry
+from netdesign.checks.inputs import Band as Band
+from netdesign.checks.inputs import Declaration as Declaration
+from netdesign.checks.inputs import GivenResistance as GivenResistance
+from netdesign.checks.inputs import Proof as Proof
 from netdesign.checks.loader import Standard as Standard
 from netdesign.checks.loader import list_standards as list_standards
 from netdesign.checks.loader import load_default as load_default
 from netdesign.checks.loader import load_standard as load_standard
-from netdesign.checks.result import Band as Band
-from netdesign.checks.result import Declaration as Declaration
-from netdesign.checks.result import GivenResistance as GivenResistance
-from netdesign.checks.result import Proof as Proof
 from netdesign.checks.schema import StandardValue as StandardValue

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import ClassVar, Literal
 
 from netdesign.calculation.steps import Step, list_operands
-from netdesign.checks.result import Proof
+from netdesign.checks.inputs import Proof
 from netdesign.edge.json_text import Items
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.words.message import Message, Text, say

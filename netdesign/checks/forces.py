@@ -21,7 +21,7 @@ from netdesign.calculation.quantity import (
     sqrt,
     tan,
 )
-from netdesign.checks.result import (
+from netdesign.checks.inputs import (
     MemberLoad,
     Support,
     place_end_support,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from netdesign.checks.check import Check, OpenKind, judge
 from netdesign.checks.comparison import compare, leave_open
+from netdesign.checks.inputs import Proof
 from netdesign.checks.loader import Standard
-from netdesign.checks.result import Proof
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.envelope.run import CaseResult
 from netdesign.panel.solve import FailedPanel
 from netdesign.words.message import Message, group_reasons, say

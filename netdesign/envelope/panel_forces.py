@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from netdesign.cable.net import Net
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.solution import SolvedState
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, POST_PULLS, PanelForces
 from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import CaseResult

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.rows import LARGE
 from netdesign.envelope.run import CaseResult

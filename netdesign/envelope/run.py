@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, SolvedState
 from netdesign.envelope.panel_forces import (

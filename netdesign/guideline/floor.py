@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 
-from netdesign.guideline.comparison import (
+from netdesign.guideline.load_cases import (
     GuidelineResult,
     LoadCase,
     NetGeometry,

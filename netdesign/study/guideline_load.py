@@ -19,17 +19,17 @@ from netdesign.coupling.interface import NetState, find_net_face
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.comparison import (
-    GuidelineResult,
-    NetGeometry,
-    compare_with_guideline,
-    find_glide_factor,
-)
 from netdesign.guideline.floor import (
     Floor,
     FloorForce,
     NetRanges,
     find_floors,
+)
+from netdesign.guideline.load_cases import (
+    GuidelineResult,
+    NetGeometry,
+    compare_with_guideline,
+    find_glide_factor,
 )
 from netdesign.guideline.load_model import (
     LoadModel,

@@ -17,7 +17,7 @@ from netdesign.checks.schema import (
     POST_EFFICIENCY_GROWTH,
 )
 from netdesign.envelope.ranges import Ranges
-from netdesign.guideline.comparison import LoadCase, list_cases
+from netdesign.guideline.load_cases import LoadCase, list_cases
 from netdesign.guideline.load_model import (
     SnowLoad,
     compute_snow_load,

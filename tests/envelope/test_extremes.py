@@ -5,7 +5,7 @@ from itertools import permutations
 
 import numpy as np
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult

@@ -6,7 +6,7 @@ import random
 import numpy as np
 import pytest
 
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.panel_forces import Pulls, hold_pulls
 from netdesign.structure.anchors import compute_anchor_forces

@@ -9,19 +9,19 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.guideline.comparison import (
+from netdesign.guideline.floor import (
+    SCAN_STEP,
+    NetRanges,
+    find_floors,
+    find_ways,
+)
+from netdesign.guideline.load_cases import (
     NetGeometry,
     find_glide_factor,
     find_pulls,
     list_load_cases,
     place_head,
     solve_load_case,
-)
-from netdesign.guideline.floor import (
-    SCAN_STEP,
-    NetRanges,
-    find_floors,
-    find_ways,
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw

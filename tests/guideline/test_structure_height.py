@@ -11,8 +11,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.guideline.comparison import NetGeometry, compare_with_guideline
 from netdesign.guideline.floor import NetRanges
+from netdesign.guideline.load_cases import NetGeometry, compare_with_guideline
 from netdesign.guideline.load_model import read_load_model
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member

@@ -9,8 +9,8 @@ import pytest
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import Check, load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
+from netdesign.guideline.load_cases import find_glide_factor
 from netdesign.outcome import Verdict
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart

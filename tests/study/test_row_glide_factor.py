@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.guideline.comparison import find_glide_factor
+from netdesign.guideline.load_cases import find_glide_factor
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,

@@ -15,7 +15,7 @@ import numpy as np
 
 from netdesign.addons.winter.settling import DayPack
 from netdesign.addons.winter.winter_sheet import StationWinter
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
 from netdesign.envelope.panel_forces import spread_out
 from netdesign.envelope.ranges import Case

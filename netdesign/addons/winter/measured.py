@@ -17,7 +17,7 @@ from netdesign.addons.winter.monitoring_sheet import (
     list_monitoring,
 )
 from netdesign.addons.winter.season import RowWinters, Season
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import Scene
 from netdesign.site.model import Site
 from netdesign.words.message import Message, say

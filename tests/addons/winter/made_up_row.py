@@ -9,7 +9,7 @@ import numpy as np
 
 from netdesign.addons.winter.day import DaySolver, WinterRow
 from netdesign.addons.winter.settling import DayPack
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import SolverSettings
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.scenes import ICE, build_scene

@@ -22,7 +22,7 @@ from netdesign.addons.winter.measured import (
 )
 from netdesign.addons.winter.monitoring_sheet import MonitoringSeries
 from netdesign.addons.winter.season import Season
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.report.words import Words
 from tests import small_site
 from tests.addons.winter.made_up_row import a_solver

@@ -9,7 +9,7 @@ import pytest
 from netdesign.addons.winter.day import COARSEST_CURVE, CURVE_SHARE, DaySolver
 from netdesign.addons.winter.season import follow_season
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import SolverSettings
 from netdesign.snow.ground import GroundLaw
 from netdesign.words.message import say

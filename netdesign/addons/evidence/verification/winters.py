@@ -28,7 +28,7 @@ from netdesign.addons.winter.settling import (
     DayPack,
     follow_heights,
 )
-from netdesign.checks.result import Band
+from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.numerics.arrays import Floats

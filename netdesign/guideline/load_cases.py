@@ -1,4 +1,4 @@
-"""Guideline's member forces for a net row: load, end pulls, support."""
+"""Load cases of the guideline on a net row: load, end pulls and forces of a support."""
 
 from __future__ import annotations
 
