@@ -27,14 +27,6 @@ def test_changes_are_shown_by_area(call, files):
     assert ended.out.splitlines() == [NOT_VERIFIED, "project", "  revision: B -> C"]
 
 
-@pytest.mark.parametrize("content", ["{}", None])
-def test_what_is_no_study_ends_with_3(call, files, content):
-    path = files / "broken.json"
-    if content is not None:
-        path.write_text(content)
-    assert call("diff", files / "old.json", path).code == 3
-
-
 def weaken(tables):
     tables["posts"][0]["bearing"] = 5.0
 

@@ -40,13 +40,8 @@ def change_part(base: Path, path: Path, part: str, change: object) -> None:
 def fill_sheet(body: bytes) -> Callable[[bytes], bytes]:
     def change(xml: bytes) -> bytes:
         start, rest = xml.split(b"<sheetData>", 1)
-        return (
-            start
-            + b"<sheetData>"
-            + body
-            + b"</sheetData>"
-            + rest.split(b"</s", 1)[1].partition(b">")[2]
-        )
+        rest = rest.split(b"</s", 1)[1].partition(b">")[2]
+        return start + b"<sheetData>" + body + b"</sheetData>" + rest
 
     return change
 
@@ -55,86 +50,40 @@ def list_workbooks() -> dict[str, tuple[str, object]]:
     """Changed part and its change, by name."""
     cell = b'<c r="%b"><v>1</v></c>'
     deep = [b"<r%d>" % (k % 7) for k in range(40_000)]
-    return {
-        "cells-in-one-row": (
-            SHEET,
-            fill_sheet(
-                b"<row>"
-                + repeat(900_000, lambda _: b"<c><v>" + digits() + b"</v></c>")
-                + b"</row>"
-            ),
-        ),
-        "empty-rows": (
-            SHEET,
-            fill_sheet(repeat(1_200_000, lambda _: b'<row s="' + digits() + b'"/>')),
-        ),
-        "attributes": (
-            SHEET,
-            fill_sheet(b"<row " + repeat(1_500_000, lambda k: b'a%x="" ' % k) + b"/>"),
-        ),
-        "deep": (
-            SHEET,
-            fill_sheet(b"".join(deep) + b"".join(deep[::-1]).replace(b"<", b"</")),
-        ),
-        "one-cell": (
-            SHEET,
-            fill_sheet(
-                b'<row r="1"><c t="inlineStr"><is><t>'
-                + repeat(4_000_000, lambda _: digits() + b" ")
-                + b"</t></is></c></row>"
-            ),
-        ),
-        "last-column": (
-            SHEET,
-            fill_sheet(
-                repeat(
-                    1999,
-                    lambda k: (
-                        b'<row r="%d"><c r="XFD%d"><v>' % (k + 1, k + 1)
-                        + digits(10**6)
-                        + b"</v></c></row>"
-                    ),
-                )
-            ),
-        ),
-        "last-row": (SHEET, fill_sheet(b'<row r="1048576">%b</row>' % (cell % b"A1"))),
-        "styles": (
-            "xl/styles.xml",
-            lambda xml: xml.replace(
-                b"</cellXfs>",
-                repeat(900_000, lambda _: b'<xf fontId="' + digits(2) + b'"/>')
-                + b"</cellXfs>",
-            ),
-        ),
-        "strings": (
-            "xl/sharedStrings.xml",
-            lambda xml: xml.replace(
-                b"</sst>",
-                repeat(900_000, lambda _: b"<si><t>" + digits() + b"</t></si>")
-                + b"</sst>",
-            ),
-        ),
+    last = b'<row r="%d"><c r="XFD%d"><v>%b</v></c></row>'
+    cells = repeat(900_000, lambda _: b"<c><v>" + digits() + b"</v></c>")
+    text = repeat(4_000_000, lambda _: digits() + b" ")
+    rows = {
+        "cells-in-one-row": b"<row>" + cells + b"</row>",
+        "empty-rows": repeat(1_200_000, lambda _: b'<row s="' + digits() + b'"/>'),
+        "attributes": b"<row " + repeat(1_500_000, lambda k: b'a%x="" ' % k) + b"/>",
+        "deep": b"".join(deep) + b"".join(deep[::-1]).replace(b"<", b"</"),
+        "one-cell": b'<row r="1"><c t="inlineStr"><is><t>' + text
+        + b"</t></is></c></row>",
+        "last-column": repeat(1999, lambda k: last % (k + 1, k + 1, digits(10**6))),
+        "last-row": b'<row r="1048576">%b</row>' % (cell % b"A1"),
+    }  # fmt: skip
+    fonts = repeat(900_000, lambda _: b'<xf fontId="' + digits(2) + b'"/>')
+    strings = repeat(900_000, lambda _: b"<si><t>" + digits() + b"</t></si>")
+    merged = repeat(40_000, lambda _: b'<mergeCell ref="A1:B' + digits() + b'"/>')
+    merged = b"<mergeCells>" + merged + b"</mergeCells>"
+    twice = rb'(<c r="B6"[^>]*>)(<v>[0-9.]+</v></c>)'
+    return {name: (SHEET, fill_sheet(body)) for name, body in rows.items()} | {
+        "styles": ("xl/styles.xml", put(b"</cellXfs>", fonts)),
+        "strings": ("xl/sharedStrings.xml", put(b"</sst>", strings)),
         "merged": (
             SHEET,
-            lambda xml: xml.replace(
-                b"</sheetData>",
-                b"</sheetData><mergeCells>"
-                + repeat(40_000, lambda _: b'<mergeCell ref="A1:B' + digits() + b'"/>')
-                + b"</mergeCells>",
-            ),
+            lambda xml: xml.replace(b"</sheetData>", b"</sheetData>" + merged),
         ),
-        "cell-twice": (
-            SHEET,
-            lambda xml: re.sub(
-                rb'(<c r="B6"[^>]*>)(<v>[0-9.]+</v></c>)',
-                rb"\1\2\1\2",
-                xml,
-                count=1,
-            ),
-        ),
+        "cell-twice": (SHEET, lambda xml: re.sub(twice, rb"\1\2\1\2", xml, count=1)),
         "entity": (SHEET, lambda xml: b'<!DOCTYPE x [<!ENTITY a "b">]>' + xml),
         "nested-zip": ("xl/worksheets/sheet99.xml", bytes(40 * 2**20)),
     }
+
+
+def put(end: bytes, content: bytes) -> Callable[[bytes], bytes]:
+    """Put content before an end of a part."""
+    return lambda xml: xml.replace(end, content + end)
 
 
 def write_all(folder: Path, base: Path) -> dict[str, tuple[str, ...]]:

@@ -333,13 +333,6 @@ def test_a_row_that_another_run_cannot_rely_on_is_not_kept(store, judged, kind):
     assert judged == ["R1", "R1"]
 
 
-def test_a_case_lost_in_a_worker_of_rows_counts_too():
-    runner, theirs = Runner(), Runner()
-    theirs.counts.lost = 3
-    runner.take(theirs.counts, theirs.faults)
-    assert runner.counts.lost == 3
-
-
 @pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
 def test_the_runner_counts_what_was_lost(lost):
     from netdesign.coupling.solution import FailedSolution

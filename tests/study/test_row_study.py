@@ -125,11 +125,3 @@ def test_guideline_stands_beside_the_solve(found):
     pairs = zip(record.along_net, record.along_net[1:], strict=False)
     area = sum((y2 - y1) * (p1 + p2) / 2.0 for (y1, p1), (y2, p2) in pairs)
     assert 0.65 < area / record.solved_load_kN_per_m < 0.95
-
-
-def test_every_other_creep_law_is_beside(found):
-    laws = {one.creep_law: one for one in found.model_form.variants}
-    assert set(laws) == {"zwinger-2007", "gagliardini-1997"}
-    refused = laws["gagliardini-1997"]
-    assert refused.ratio is None
-    assert "use another set or denser snow" in str(refused.reason)

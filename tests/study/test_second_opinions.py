@@ -85,8 +85,3 @@ def test_model_form_of_a_row_whose_slip_length_was_typed():
     with record_slips(solver) as slips:
         record_model_form(solver, row, result, "post", CHECK)
     assert set(slips.values()) == {2.2}
-
-
-def test_model_form_needs_a_force(sliding):
-    row, solver, result = sliding
-    assert record_model_form(solver, row, result, "post_of_no_kind", CHECK) is None

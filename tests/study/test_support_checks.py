@@ -202,15 +202,6 @@ def test_a_bar_without_a_free_length_has_the_longest_usual_one(kind, turn):
     assert bend(None) < bend(61) < bend(0)
 
 
-def test_an_anchor_of_no_kind_is_judged_as_a_bar_and_as_a_rope():
-    anchor = BAR | {"kind": None}
-    checks = judge(anchor=anchor, **{FOOT_AXIS: FOOT - 31.0})
-    assert checks["foot_anchor.bending"].verdict is Verdict.NOT_PROVEN
-    found = checks["foot_anchor.direction"]  # of a rope
-    assert found.verdict is Verdict.NOT_PROVEN
-    assert "a block or tube at its head" in str(found.reason)
-
-
 @pytest.mark.parametrize("splay", [17.3, 30.0, 55.1])
 def test_an_anchor_without_axis_and_kind_is_a_rope_and_a_bar_along_the_pull(splay):
     anchor = BAR | {"kind": None, "tendon": 402}
@@ -325,17 +316,6 @@ def test_a_row_says_how_long_its_tubes_are_at_least():
         "Net anchor (foot): the tube at the head of type A is at least 3.0 m"
         in notes[0]
     )
-
-
-def test_a_bar_in_ground_that_nobody_names_stands_in_soil():
-    anchor = BAR | {"kind": "bar", "lever_arm": 5}
-
-    def bear(ground):
-        checks = judge(anchor=anchor | {"ground": ground})
-        return checks["foot_anchor.bending"].read("R_k")
-
-    assert bear(None) == bear("till")
-    assert bear("gneiss") > 1.5 * bear("till")
 
 
 @pytest.mark.parametrize("lever", [None, 5, 40])

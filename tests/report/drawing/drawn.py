@@ -14,17 +14,6 @@ from netdesign.report.drawing.section_figure import draw_section
 from netdesign.study.case_records import Drawing, GuidelineRecord, PullRecord
 from tests.report.build_study import build_study
 
-AXES = {
-    "density_kg_m3": (203.7, 487.3),
-    "friction_deg": (11.9, 44.7),
-    "inclination_deg": (17.3, 37.9),
-    "thickness_m": (1.27, 4.83),
-    "upslope_length_m": (8.3, 27.1),
-    "slack": (0.0103, 0.1297),
-    "stiffness_kN_per_m": (2130.0, 24700.0),
-    "slip_length_m": (0.013, 13.7),
-}
-
 
 def draw_all(rng: random.Random, words) -> list[str]:
     """Every kind of drawing once, of values drawn with ``rng``."""
