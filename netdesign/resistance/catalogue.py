@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -90,6 +91,21 @@ def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
     factors = load_catalogue()["buckling"]["curve"]
     return quote("buckling", pick("buckling curve", curve, factors))
+
+
+def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:
+    """Value of a table between its places, linear.
+
+    Parameters
+    ----------
+    places, values : sequence of float, shape (n,)
+        Of the table, rising places, in units of its own.
+    at : float
+        Among the places, in their unit.
+    """
+    end = max(bisect_left(places, at), 1)
+    share = (at - places[end - 1]) / (places[end] - places[end - 1])
+    return float(values[end - 1] + share * (values[end] - values[end - 1]))
 
 
 def pick(what: str, name: str, table: Mapping[str, Any]) -> Any:

@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from netdesign.outcome import ModelError, require_within
 from netdesign.resistance.catalogue import (
     Datum,
+    interpolate,
     load_catalogue,
     pick,
     quote,
@@ -260,9 +259,9 @@ def find_direction_factor(angle: float) -> Datum:
     tests/verification/test_connection.py
     """
     table = load_catalogue()["shackle"]
-    beside = math.degrees(abs(angle))
-    factor = np.interp(beside, table["angle_deg"], table["factor"])
-    return quote("shackle", float(factor))
+    angles, factors = table["angle_deg"], table["factor"]
+    factor = interpolate(angles, factors, min(math.degrees(abs(angle)), angles[-1]))
+    return quote("shackle", factor)
 
 
 def find_angle(link: Link, pulled: float | None) -> float:
@@ -366,8 +365,8 @@ def find_loss(soil: str, years: int) -> Datum:
     losses = pick("ground class", soil, table["loss_mm"])
     if not 0 <= years <= table["years"][-1]:
         raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
-    loss = np.interp(years, [0, *table["years"]], [0.0, *losses])
-    return quote("corrosion", float(loss))
+    loss = interpolate([0, *table["years"]], [0.0, *losses], years)
+    return quote("corrosion", loss)
 
 
 def leave_area(outer: float, inner: float, loss: float) -> float:
