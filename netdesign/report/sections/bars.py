@@ -35,7 +35,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         return (Piece(MISSING, "dash"),)
     first = sign(rated.verdict, words)
     if rated.used is not None:
-        shown = Piece(words.show_number("utilisation", rated.used), "ratio")
+        shown = Piece(_show_used(rated.used, rated.check.eased_low, words), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
         if rated.by_guideline is not None and rated.used < _HAS_ROOM:
@@ -49,6 +49,13 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         return (first, Piece(force, "ratio"))
     lack = Piece(words("rated.no_resistance"), SMALL, has_symbols=True)
     return (first, Piece(force, "ratio"), lack)
+
+
+def _show_used(used: float, at_best: float | None, words: Words) -> str:
+    """Utilisation; one far beyond 1 by what is assumed with that at the best ends."""
+    if at_best is None or not _HAS_ROOM <= used < math.inf:
+        return words.show_number("utilisation", used)
+    return f"{words.show_number('utilisation', at_best)}–{words.show_fixed(used, 0)}"
 
 
 def show_answer(rated: Rated, words: Words) -> Content:
