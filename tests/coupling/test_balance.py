@@ -9,11 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.cable.funicular import Funicular
-from netdesign.coupling.balance import (
-    check_balance,
-    measure_balance,
-    negative_share,
-)
+from netdesign.coupling.balance import check_balance, measure_balance, negative_share
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance
 from netdesign.outcome import Outcome, SolveError

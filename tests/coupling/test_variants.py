@@ -6,10 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import (
-    MESH_LEVELS,
-    SolverSettings,
-)
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.creep_law import compute_fluidity, compute_shear_factor
 from netdesign.snow.law import linearise_sliding

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from netdesign.edge.input_files import decode_utf8, parse_toml
+from netdesign.edge.input_files import decode_utf8, find_resource, parse_toml
 from netdesign.outcome import ContentError
 from tests.each import each
 
@@ -40,3 +40,31 @@ def test_bytes_that_are_no_text_are_told_by_their_line():
     assert decode_utf8(b"\xef\xbb\xbfa = 1") == "a = 1"
     with pytest.raises(ContentError, match="line 2 is"):
         decode_utf8(b"\xef\xbb\xbfa = 1\n\xff\n")
+
+
+@pytest.mark.parametrize(
+    ("folder", "file"),
+    [
+        ("standards", "nf-p-95-304-style/document.toml"),
+        ("templates", "page.html"),
+        ("templates", "example_input.toml"),
+    ],
+)
+def test_folders_of_this_installation_are_found(folder, file):
+    assert (find_resource(folder) / file).is_file()
+
+
+@pytest.fixture
+def package(tmp_path):
+    """An empty package in a folder of its own."""
+    place = tmp_path / "lib" / "netdesign"
+    place.mkdir(parents=True)
+    return place
+
+
+def test_a_wheel_has_them_inside_and_inside_wins(package):
+    """Beside an installed package lies site-packages, where anything may lie."""
+    (package.parent / "standards").mkdir()
+    (package / "_data" / "standards").mkdir(parents=True)
+    inside = package / "_data" / "standards"
+    assert find_resource("standards", package) == inside

@@ -5,11 +5,7 @@ from dataclasses import asdict, dataclass, field
 
 import pytest
 
-from netdesign.edge.json_text import (
-    join_items,
-    join_members,
-    write_json,
-)
+from netdesign.edge.json_text import join_items, join_members, write_json
 from netdesign.outcome import Verdict
 from tests.each import each
 

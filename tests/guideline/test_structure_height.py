@@ -18,10 +18,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from tests.each import each
 from tests.guideline.one_floor import find_floor
-from tests.guideline.own_loads import (
-    ROWS,
-    find_largest,
-)
+from tests.guideline.own_loads import ROWS, find_largest
 
 SWISS = load_standard("swiss-guideline-2007")
 MODEL = read_load_model(SWISS)

@@ -13,11 +13,7 @@ from netdesign.outcome import ModelError, Outcome
 from netdesign.panel.equations import build_problem
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solve import solve_strips
-from netdesign.panel.strips import (
-    build_stations,
-    draw_strips,
-    take_strip,
-)
+from netdesign.panel.strips import build_stations, draw_strips, take_strip
 from netdesign.snow.snowpack import Layer, Snowpack
 from tests.each import each
 

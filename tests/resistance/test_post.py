@@ -3,9 +3,7 @@
 import pytest
 
 from netdesign.resistance.catalogue import find_imperfection
-from netdesign.resistance.post import (
-    compute_buckling_resistance,
-)
+from netdesign.resistance.post import compute_buckling_resistance
 
 # A section of 34.0 cm2 and 318 cm4 about the weak axis, steel of 235 MPa.
 POST = {

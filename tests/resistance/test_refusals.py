@@ -5,9 +5,7 @@ import math
 import pytest
 
 from netdesign.outcome import ModelError
-from netdesign.resistance.ground import (
-    PullOutTests,
-)
+from netdesign.resistance.ground import PullOutTests
 from netdesign.resistance.post import (
     PostSection,
     compute_bent_post_resistance,

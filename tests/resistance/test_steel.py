@@ -5,10 +5,7 @@ import math
 import pytest
 
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
-from netdesign.resistance.steel import (
-    RoundSection,
-    compute_rope_resistance,
-)
+from netdesign.resistance.steel import RoundSection, compute_rope_resistance
 from tests.each import each
 
 

@@ -8,10 +8,7 @@ import pytest
 
 from netdesign.envelope.panel_forces import stack_ways
 from netdesign.guideline.floor import find_ways
-from netdesign.structure.anchors import (
-    compute_anchor_forces,
-    compute_member_forces,
-)
+from netdesign.structure.anchors import compute_anchor_forces, compute_member_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.structure.members import CARRYING_MEMBERS

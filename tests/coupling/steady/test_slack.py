@@ -9,10 +9,7 @@ from netdesign.addons.evidence.benchmark.scenes import build_tables, draw_scene
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve as steady_solve
-from netdesign.coupling.steady.solve import (
-    MOST_MIXED_TRIANGLES,
-    solve_steady,
-)
+from netdesign.coupling.steady.solve import MOST_MIXED_TRIANGLES, solve_steady
 from netdesign.outcome import ModelError
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.coupling.drawn_scenes import draw_scene as draw_untidy
