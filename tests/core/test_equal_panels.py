@@ -52,10 +52,3 @@ def test_a_panel_is_that_of_numpy(seed, in_numpy):
             one, other = getattr(found, rope), getattr(known, rope)
             assert one.tension == pytest.approx(other.tension, rel=1e-9)
             assert one.along == pytest.approx(other.along, rel=1e-9)
-
-
-def test_the_drawn_panels_are_of_both_kinds():
-    panels = [panel for _, panel, _ in PAIRS.values()]
-    assert {panel.has_mid_anchors for panel in panels} == {True, False}
-    assert len({panel.cut for panel in panels}) > 1
-    assert len({count for *_, count in PAIRS.values()}) > 5

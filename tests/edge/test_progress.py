@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from netdesign.edge.progress import Phase, RunProgress, Wave
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
-from tests.make import write_rows
+from tests.make import write_tiny
 
 solve_once = lru_cache(maxsize=None)(solve_scene)
 
@@ -75,7 +75,7 @@ QUICK = ("--accuracy", "0.1", "--jobs", "1", "--no-cache")
 
 
 def test_a_quiet_run_says_nothing(call, tmp_path, solves):
-    write_rows(tmp_path / "site.xlsx", ["R7"])
+    write_tiny(tmp_path / "site.xlsx")
     ended = call("check", "site.xlsx", *QUICK, "--json", "--quiet")
-    assert (ended.code, ended.err) == (1, "")
+    assert (ended.code, ended.err) == (0, "")
     assert solves

@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from netdesign.checks import list_standards
 from netdesign.site.assumed import assume, assume_ends, load_assumed
 from netdesign.site.columns.all_tables import load_old_plans
 from netdesign.words.catalogue import LANGUAGES, render
@@ -46,7 +45,3 @@ def test_a_multiple_is_that_of_its_factor():
     assert math.isclose(found.low, 0.75 * 3.7)
     assert math.isclose(found.high, 1.25 * 3.7)
     assert assume_ends("density", 281.0, 433.0).shown == (281.0, 433.0)
-
-
-def test_assumed_ranges_are_no_profile():
-    assert "assumed" not in " ".join(list_standards())
