@@ -23,3 +23,13 @@ def walk_package():
     for name, tree in parse_package().items():
         for node in ast.walk(tree):
             yield name, node
+
+
+@cache
+def list_calls():
+    """Every call of the package, with the path of its module and its name."""
+    return [
+        (module, node, getattr(node.func, "id", getattr(node.func, "attr", "")))
+        for module, node in walk_package()
+        if isinstance(node, ast.Call)
+    ]

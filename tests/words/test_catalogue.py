@@ -10,7 +10,7 @@ import pytest
 from netdesign.edge.input_files import find_resource
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import say
-from tests.sources import PACKAGE, walk_package
+from tests.sources import PACKAGE, list_calls
 from tests.words.gaps import list_gaps
 
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
@@ -122,16 +122,13 @@ def test_every_text_has_the_same_gaps(language):
     assert differing == {}
 
 
-def list_calls():
+def list_messages():
     """Every ``say("key", name=...)`` of the program: place, key, names.
 
     The reports ask ``words("key", name=...)``, or ``book.words(...)``.
     """
-    for module, node in walk_package():
-        if not isinstance(node, ast.Call) or len(node.args) != 1:
-            continue
-        called = getattr(node.func, "id", getattr(node.func, "attr", ""))
-        if called in ("say", "words"):
+    for module, node, called in list_calls():
+        if called in ("say", "words") and len(node.args) == 1:
             (key,) = node.args
             if isinstance(key, ast.Constant):
                 names = {one.arg for one in node.keywords}
@@ -141,7 +138,7 @@ def list_calls():
 def test_every_message_has_a_text_and_all_its_arguments():
     wrong = [
         (place, key, names)
-        for place, key, names in list_calls()
+        for place, key, names in list_messages()
         if None not in names  # **arguments are for the other tests
         and names != list_gaps(TEXTS["en"].get(key, "{no such text}"))
     ]

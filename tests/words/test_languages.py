@@ -10,7 +10,7 @@ from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import dump, restore, say
 from tests.site.columns.fields import FIELDS as BY_TABLE
 from tests.site.columns.fields import QUANTITIES
-from tests.sources import walk_package
+from tests.sources import list_calls
 
 GUARDS = ("require_positive", "require_count", "require_within", "require_one_of")
 
@@ -22,12 +22,9 @@ OWN += ("AttributeError", "SystemExit")  # of Python itself
 
 def list_guarded():
     """Every name that a guard is called with."""
-    for _, node in walk_package():
-        is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-        if is_call and node.func.id in GUARDS and node.args:
-            name = node.args[0]
-            if isinstance(name, ast.Constant):
-                yield name.value
+    for _, node, called in list_calls():
+        if called in GUARDS and node.args and isinstance(node.args[0], ast.Constant):
+            yield node.args[0].value
 
 
 def test_every_guarded_quantity_has_a_name():
