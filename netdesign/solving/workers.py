@@ -171,8 +171,8 @@ class ProcessPool:
             return
         waiting = list(enumerate(jobs))[::-1]
         while waiting:
-            suspects = yield from self.spread(solve_job, waiting)
-            yield from _try_each_alone(suspects)
+            for place, job in (yield from self.spread(solve_job, waiting)):
+                yield place, _solve_alone(job)
 
     def begin(self, work: Callable[..., Found], *arguments: Any) -> Callable[[], Found]:
         """Call that a worker makes meanwhile; its result is that of what is returned.
@@ -316,18 +316,9 @@ class DaskCluster:
             except KilledWorker:
                 suspects.append(places[future])
         for place in sorted(suspects):
-            yield place, self._try_alone(jobs[place])
-
-    def _try_alone(self, job: Job) -> CaseEnd:
-        from distributed import KilledWorker, as_completed
-
-        future = self._client.submit(solve_job, job, pure=False)
-        arriving = as_completed([future], loop=self._client.loop)
-        try:
-            end: CaseEnd = next(follow_futures(self._client, arriving)).result()
-        except KilledWorker:
-            return LOST
-        return end
+            alone = [jobs[place]]
+            ends = [LOST] if len(jobs) == 1 else [end for _, end in self._solve(alone)]
+            yield place, ends[0]
 
     def close(self) -> None:
         """Disconnect; what still runs for this client is cancelled."""
@@ -399,21 +390,15 @@ def _refuse_versions(
     )
 
 
-def _try_each_alone(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
-    """Solve jobs of which one or more killed their worker, one at a time."""
-    pool: ProcessPoolExecutor | None = None
+def _solve_alone(job: Job) -> CaseEnd:
+    """End of a job that may have killed its worker, in a process of its own."""
+    pool = _start_pool(1)
     try:
-        for place, job in suspects:
-            pool = pool or _start_pool(1)
-            try:
-                end: CaseEnd = pool.submit(solve_job, job).result()
-            except BrokenProcessPool:
-                _stop(pool)
-                pool, end = None, LOST
-            yield place, end
+        return pool.submit(solve_job, job).result()
+    except BrokenProcessPool:
+        return LOST
     finally:
-        if pool is not None:
-            _stop(pool)
+        _stop(pool)
 
 
 def _start_pool(processes: int) -> ProcessPoolExecutor:

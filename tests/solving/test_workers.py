@@ -261,6 +261,7 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
     workers = DaskCluster(cluster)
     try:
         found = collect(workers, kill_within(JOBS))
+        workers._client.wait_for_workers(2, timeout=60)  # for those who come next
     finally:
         workers.close()
     assert found.pop(3) == encode_end(LOST)
