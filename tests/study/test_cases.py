@@ -10,8 +10,6 @@ from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.solving.runner import Runner
-from netdesign.solving.store import CaseStore
-from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import list_phases, search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
@@ -97,20 +95,6 @@ def test_an_open_gap_never_passes(standard, envelopes):
         for check in row.checks
         if check.mode != "inclination" and check.read("E_k")
     )
-
-
-def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_path):
-    expected = write_document(judge(standard, envelopes))
-    with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
-        for _ in range(2):
-            found = search_site(SITE, RUN, Runner(store=store))
-            assert write_document(judge(standard, found)) == expected
-    pool = ProcessPool(2, worth=1)
-    try:
-        found = search_site(SITE, RUN, Runner(workers=pool))
-    finally:
-        pool.close()
-    assert write_document(judge(standard, found)) == expected
 
 
 # --- what is promised beforehand -----------------------------------------------------

@@ -15,7 +15,6 @@ from netdesign.study.judge import judge_site
 from netdesign.words.message import say
 from netdesign.words.names import as_given, name_check
 from tests.grid import build_cases, solve_site, wrap_results
-from tests.read_check import compare_support
 from tests.small_site import (
     RANGES,
     ROWS,
@@ -120,33 +119,6 @@ def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):
         assert extreme.low_kN <= extreme.value_kN <= extreme.high_kN
         governing = results[0][forces.index(max(forces))]
         assert extreme.case.density_kg_m3 == governing.case.density
-
-
-def test_numbers_of_a_check_follow_from_each_other(judge):
-    study = judge(resistances=resist(foot_anchor__pull_out=1e5))
-    check = check_of(study, "foot_anchor.pull_out.end")
-    factors = {value.id: value.value for value in study.profile.values}
-    action = study.rows[0].member_forces[0]
-    assert action.quantity == "foot_anchor"
-    assert check.read("E_s") == action.value_kN
-    on_row = compare_support(check)
-    assert check.read("E_k") == pytest.approx(on_row * action.value_kN, rel=1e-12)
-    assert check.read("γ_E") == factors["action.snow"]
-    assert check.demand_kN == pytest.approx(
-        factors["action.snow"] * check.read("E_k"), rel=1e-12
-    )
-    widest = factors["action.snow"] * on_row * action.high_kN / check.resistance_kN
-    assert check.utilisation_band[1] == pytest.approx(widest, rel=1e-12)
-    assert check.read("R_k") == 100.0
-    assert check.resistance_kN == pytest.approx(
-        100.0 / factors["resistance.pull_out.tested"], rel=1e-12
-    )
-    assert check.utilisation == pytest.approx(
-        check.demand_kN / check.resistance_kN, rel=1e-12
-    )
-    assert (check.resistance_basis, check.resistance_type) == ("tested", "T1")
-    assert check.resistance_cell == "Anchors!B2"
-    assert check.case == action.case
 
 
 def test_a_missing_resistance_is_named(judge):

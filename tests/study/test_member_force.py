@@ -9,7 +9,6 @@ import pytest
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import Check, load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.guideline.floor import Floor
 from netdesign.guideline.load_cases import find_glide_factor
 from netdesign.outcome import Verdict
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -25,7 +24,7 @@ from netdesign.study.record_envelope import record_point
 from netdesign.study.record_provenance import record_profile
 from tests.grid import solve_site
 from tests.guideline.one_floor import find_row_floor
-from tests.read_check import bring, compare_support
+from tests.read_check import compare_support
 from tests.small_site import RUN, build_row, build_site, resist
 
 SWISS = load_standard("swiss-guideline-2007")
@@ -85,32 +84,6 @@ def test_short_light_snow_fails_by_the_guideline_where_the_coupled_force_passed(
     assert alone.utilisation < 0.9
     assert without.profile.floor == "none"
     assert without.rows[0].floor is None
-
-
-def test_every_demand_is_the_larger_of_both_and_says_which(solved):
-    _, study = judge(solved)
-    floor = {one.member: one for one in study.rows[0].floor.forces}
-    seen = set()
-    for check in study.rows[0].checks:
-        if not check.is_of_force:
-            continue
-        letter = check.name_force("g")[0]
-        tilt = check.read("t") or 1.0
-        least = bring(check, floor[check.member].force_kN, "_g")
-        assert check.read(f"{letter}_g") == pytest.approx(least, rel=1e-12)
-        solved_kN = bring(check, check.read(f"{letter}_s"))
-        value = max(solved_kN, least)
-        assert check.read("E_k") == pytest.approx(tilt * value, rel=1e-12)
-        coupled = check.read_band(f"{letter}_c")[1]
-        on_demand = tilt * check.read("γ_E")
-        low, high = check.read_band("E_d")
-        assert high == pytest.approx(max(coupled, least) * on_demand, rel=1e-12)
-        assert low >= least * on_demand * (1.0 - 1e-12)
-        is_floor = least > 0.0 and least >= coupled * (1.0 - 1e-12)
-        assert check.governs == ("guideline" if is_floor else "coupled")
-        seen.add((check.position, check.governs))
-    assert {position for position, _ in seen} == {"intermediate", "edge"}
-    assert ("intermediate", "guideline") in seen
 
 
 def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
@@ -313,40 +286,6 @@ def test_floor_has_every_carrying_member_and_the_mesh(solved):
 
 def study_floor(study):
     return {one.member: one.force_kN for one in study.rows[0].floor.forces}
-
-
-def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
-    """By (G1) to (G9), from its load and the row's own geometry alone."""
-    _, study = judge(solved)
-    stated, foot = study.rows[0].floor.forces[0], a_floor().forces[0]
-    assert stated.load_case == foot.case.name
-    share = {"load_case_1": 1.0, "load_case_2": 0.77}[stated.load_case]
-    lean, slope = math.radians(stated.inclination_deg), ROW.slope_angle
-    height, snow = foot.case.height_vertical, foot.load
-    assert foot.net.snow_thickness / math.cos(slope) == pytest.approx(height)
-    unit = foot.case.density * 10.0 / 1e3
-    along = 0.4 * unit * height**2 * snow.creep_factor * snow.glide_factor
-    prism = 0.5 * unit * (height * math.cos(slope)) ** 2 * math.tan(lean)
-    down = along * foot.case.normal_share / (snow.glide_factor * math.tan(slope))
-    down += prism * math.cos(slope)
-    along += prism * math.sin(slope)
-    load_along, load_across = (part / 1e3 for part in snow.resultant)
-    assert load_along == pytest.approx(along, rel=1e-9)
-    assert load_across == pytest.approx(-down, rel=1e-9)
-    across = along * math.cos(lean) + down * math.sin(lean)
-    k = share * foot.net.snow_thickness / ROW.net_height
-    v1, v2 = 1.0 - 0.5 * k, 0.5 * k
-    square = k * (v1**2 - v1 * v2 + v2**2) / 3.0 + (1.0 - k) * v2**2
-    tension = foot.pull.chord_tension / 1e3
-    stretch = (1.0 + foot.net.slack) * tension / (foot.net.stiffness / 1e3)
-    needed = 0.5 * square * (across / tension) ** 2
-    assert needed == pytest.approx(foot.net.slack + stretch, rel=1e-9)
-    x = (1.0 - share / 2.0) * load_along + tension * math.sin(lean)
-    y = (1.0 - share / 2.0) * load_across + tension * math.cos(lean)
-    again = math.hypot(x, y) * ROW.layout.post_spacing
-    assert stated.member == foot.member == Member.FOOT_ANCHOR
-    assert stated.force_kN == pytest.approx(again, rel=1e-9)
-    assert isinstance(a_floor(), Floor)
 
 
 def test_altitude_of_the_row_counts_in_its_floor():

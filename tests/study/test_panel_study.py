@@ -15,7 +15,7 @@ from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Runner
-from netdesign.structure.members import END_ANCHORS, END_MODES, ROPE_OF
+from netdesign.structure.members import END_ANCHORS, END_MODES
 from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
@@ -23,7 +23,6 @@ from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
 from tests.grid import solve_site
-from tests.read_check import bring, compare_support
 from tests.small_site import (
     LASTS,
     RANGES,
@@ -111,49 +110,6 @@ def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
     foot = panel["foot_anchor.tendon"]
     assert foot.governs in ("coupled", "guideline")
     assert foot.demand_kN == plain["foot_anchor.tendon"].demand_kN
-
-
-def add_push(check, force):
-    """Force on a support with what the end guy adds, on one of two guys or alone."""
-    push, across = (check.read(symbol) or 0.0 for symbol in ("Z", "B"))
-    if not (push and across):
-        return force + push
-    splay, wide = math.radians(check.read("β")), compare_support(check)
-    in_section = math.sqrt(force**2 - (across * wide) ** 2) + push * math.cos(splay)
-    return math.hypot(in_section, across * wide + push * math.sin(splay))
-
-
-def test_numbers_of_the_record_give_the_demand(pair):
-    seen = set()
-    for check in checks_of(pair[1]).values():
-        is_beside = check.position == "second"  # test_second_support.py
-        if not check.is_of_force or check.member in ROPE_OF or is_beside:
-            continue
-        letter = check.name_force("k")[0]
-        section, panel = (
-            add_push(check, bring(check, check.read(f"{letter}_{one}") or 0.0))
-            for one in ("s", "p0")
-        )
-        least = check.read(f"{letter}_g") or 0.0
-        across = max(section, panel, least, check.read("E_t") or 0.0)
-        tilt = check.read("t")
-        value = across if tilt is None else tilt * across
-        assert check.read("E_k") == pytest.approx(value, rel=1e-12)
-        assert check.read(f"{letter}_k") == pytest.approx(across, rel=1e-12)
-        highs = {
-            load: check.read_band(check.name_force(letter))[1] or 0.0
-            for load, letter in (
-                *(("guideline", "g"), ("coupled", "c")),
-                *(("panel", "p"), ("truss", "t")),
-            )
-        }
-        high = max(highs.values()) * (1.0 if tilt is None else tilt)
-        assert check.read_band("E_d")[1] == pytest.approx(
-            high * check.read("γ_E"), rel=1e-12
-        )
-        assert highs[check.governs] == max(highs.values())
-        seen.add(check.governs)
-    assert {"panel", "coupled"} <= seen
 
 
 def test_the_study_is_sound_and_can_be_read_again(pair):
