@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Workbook
@@ -101,11 +101,6 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
             line = {**line, key: replace(reading, value=known[0])}
         settled.append(line)
     return settled
-
-
-def list_ids(lines: Iterable[Row]) -> Iterator[str]:
-    """Ids of a sheet."""
-    return (line["id"].word for line in lines if line["id"].word)
 
 
 def index_lines(

@@ -18,11 +18,7 @@ from netdesign.words.message import say
 
 DecimalMark = Literal["", ",", "."]
 
-# A float holds so many digits; programs that write csv add up to five decimals more,
-# which change nothing. Longer rows of digits are no quantities.
-_MOST_DIGITS = 15
-_MOST_DECIMALS = 20
-_LARGEST = 1e15
+_LARGEST = 1e15  # longer rows of digits are no quantities
 # What separates groups of thousands and nothing else: spaces, also the narrow and
 # the unbreakable ones of French, and the apostrophes of Switzerland.
 _GROUP_SIGNS = " \u00a0\u202f\u2009'\u2019"
@@ -49,11 +45,6 @@ class _Reading:
     def text(self) -> str:
         digits = f"{self.whole}.{self.decimals}" if self.decimals else self.whole
         return self.sign + digits
-
-    @property
-    def is_short(self) -> bool:
-        is_whole = len(self.whole) <= _MOST_DIGITS
-        return is_whole and len(self.decimals) <= _MOST_DECIMALS
 
     def goes_with(self, declared: str) -> bool:
         return self.decimal_mark in ("", declared) and self.separator != declared
@@ -83,7 +74,9 @@ def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refus
     if isinstance(value, bool):
         return Refusal(say("number.truth_value"), _ACCEPTED)
     if isinstance(value, str):
-        return _parse_text(value.strip(), decimal_mark)
+        value = _parse_text(value.strip(), decimal_mark)
+    if isinstance(value, Refusal):
+        return value
     if not isinstance(value, int | float):
         return Refusal(say("number.date"), say("accepted.number_format"))
     # Written in the positive, so that NaN fails; integers may exceed any float.
@@ -103,11 +96,8 @@ def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
     if possible and not readings:
         accepted = say("accepted.number_with_mark", mark=declared)
         return Refusal(say("number.not_with_mark", mark=declared), accepted)
-    if readings and readings[0].is_short:
-        return float(readings[0].text)
     if readings:
-        rule = say("number.many_digits", most=_MOST_DIGITS)
-        return Refusal(rule, say("accepted.fewer_digits"))
+        return float(readings[0].text)
     if split_range(text):
         return Refusal(say("number.two_numbers"), say("accepted.one_number"))
     return Refusal(say("number.not_a_number"), _ACCEPTED)

@@ -9,8 +9,9 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import islice
 from pathlib import Path
 
@@ -65,7 +66,6 @@ _FIRST_LINES = 20  # in which headings stand
 _LEAST_TEXTS = 3  # in a line of headings
 _LEAST_KNOWN = 2  # of them, in a sheet that is read
 _EXAMPLES = 3
-_IGNORED = f'becomes = "{IGNORE}"'
 _OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
     ("rows", "net_types"), "Nets"
 )
@@ -124,27 +124,24 @@ def write_list_map(
         text_format = declare_mark(text_format, given)
     workbook = read_list(path, text_format)
     lines = [*_begin(path, given, language)]
-    count = 0
-    is_known = False
+    count, is_known = 0, False
     for sheet in workbook.sheets:
-        more, missing = _write_sheet(sheet, given, language)
-        is_known = is_known or _IGNORED not in more
+        known = given.tables.get(sheet.name) if given else None
+        line = known.headings_in_line if known else find_heading_line(sheet)
+        becomes = known.becomes if known else _find_kind(sheet, line)
+        lines.append(f"[tables.{_quote(sheet.name)}]")
+        if not becomes or not line:
+            lines += [f'becomes = "{IGNORE}"', ""]
+            continue
+        table = known or ListTable(becomes=becomes, headings_in_line=line)
+        more, missing = _write_table(sheet, table, language)
         lines += more
-        count += missing
+        count, is_known = count + missing, True
     if not is_known:
         names = (one.field.name for one in load_columns("rows")[:3])
         accepted = say("list_map.headings", names=tuple(names))
         raise refuse_file(path.name, say("list_map.no_list"), accepted)
     return "\n".join(lines) + "\n", count
-
-
-# A line of the file whose answer has a question mark, one that was left before too.
-_OPEN = re.compile(r'^(?:"(?:[^"\\]|\\.)*"|\w+) = "(?:[^"\\]|\\.)*\?', re.MULTILINE)
-
-
-def is_open(line: str) -> bool:
-    """A line of a file of answers waits for an answer."""
-    return _OPEN.match(line) is not None
 
 
 def is_own_list(path: Path, text_format: TextFormat) -> bool:
@@ -185,6 +182,7 @@ def _is_name(text: str) -> bool:
     return has_no_part(text) or split_heading(text)[0] in _list_names()
 
 
+@cache
 def _list_names() -> frozenset[str]:
     targets = (one for table in GROUPS for one in list_targets(table))
     return frozenset[str]().union(*(one.field.names for one in targets))
@@ -200,36 +198,42 @@ def _begin(path: Path, given: ListMap | None, language: Language) -> Iterator[st
     yield ""
 
 
-def _write_sheet(
-    sheet: Sheet, given: ListMap | None, language: Language
+def _write_table(
+    sheet: Sheet, table: ListTable, language: Language
 ) -> tuple[list[str], int]:
-    """Table of a sheet, and how many answers are missing."""
-    known = given.tables.get(sheet.name) if given else None
-    line = known.headings_in_line if known else find_heading_line(sheet)
-    becomes = known.becomes if known else _find_kind(sheet, line)
-    place = f"tables.{_quote(sheet.name)}"
-    lines = [f"[{place}]"]
-    if not becomes or not line:
-        return [*lines, _IGNORED, ""], 0
-    table = ListTable(becomes=becomes, headings_in_line=line)
-    guesses = list(guess_headings(sheet, table, language))
-    old = known.headings if known else {}
-    guesses = [_keep(one, old) for one in guesses]
-    lines.append(f"becomes = {_quote(load_plan(becomes).name_in(language))}")
-    lines.append(f"headings_in_line = {line}")
-    lines += ["", f"[{place}.headings]", *(_show(one, language) for one in guesses)]
-    if words := list(_ask_words(sheet, table, guesses, known, language)):
-        lines += ["", f"[{place}.words]", *words]
-    always = _ask_always(guesses, known, becomes, language)
-    if always:
-        about = render(say("list_map.always"), language)
-        lines += ["", f"[{place}.always]  # {about}", *always]
-    answered = [read_answer(one.answer, becomes).target for one in guesses]
+    """Answers to a sheet that is read, and how many of them are missing."""
+    guesses = [
+        replace(one, answer=given, how=None, ranked="")
+        if not is_unanswered(given := table.headings.get(one.name, ""))
+        else one
+        for one in guess_headings(sheet, table, language)
+    ]
+    becomes = load_plan(table.becomes).name_in(language)
+    lines = [
+        f"becomes = {_quote(becomes)}",
+        f"headings_in_line = {table.headings_in_line}",
+    ]
+    missing = 0
+    for part, asked in (
+        ("headings", {x.name: (x.answer, _explain(x, language)) for x in guesses}),
+        ("words", _ask_words(sheet, table, guesses, language)),
+        ("always", _ask_always(table, guesses, language)),
+    ):
+        if not asked and part != "headings":
+            continue
+        about = f"  # {render(say('list_map.always'), language)}"
+        title = f"[tables.{_quote(sheet.name)}.{part}]"
+        lines += ["", title + about if part == "always" else title]
+        for key, (answer, comment) in asked.items():
+            shown = f"  # {comment}" if comment else ""
+            lines.append(f"{_quote(key)} = {_quote(answer)}{shown}")
+            missing += is_unanswered(answer)
+    answered = [read_answer(one.answer, table.becomes).target for one in guesses]
     own = {one.place for one in answered if one is not None}
-    for one in list_lacking(becomes, own):
+    for one in list_lacking(table.becomes, own):
         about = render(say("list_map.lacks", column=one.label(language)), language)
         lines.append(f"# {about}")
-    return [*lines, ""], sum(map(is_open, lines))
+    return [*lines, ""], missing
 
 
 def _find_kind(sheet: Sheet, line: int) -> str:
@@ -336,70 +340,47 @@ def _complete(
     return label if has_none else f"{label} [{UNANSWERED}]"
 
 
-def _keep(one: HeadingGuess, given: Mapping[str, str]) -> HeadingGuess:
-    """Guess whose answer was given before."""
-    answer = given.get(one.name, "")
-    if is_unanswered(answer):
-        return one
-    return replace(one, answer=answer, how=None, ranked="")
+_Asked = dict[str, tuple[str, str]]  # answers with a comment, by what they answer
 
 
 def _ask_words(
-    sheet: Sheet,
-    table: ListTable,
-    guesses: Sequence[HeadingGuess],
-    known: ListTable | None,
-    language: Language,
-) -> Iterator[str]:
+    sheet: Sheet, table: ListTable, guesses: Sequence[HeadingGuess], language: Language
+) -> _Asked:
     """Texts of cells that a column of words does not know, or that are answered."""
-    given = known.words if known else {}
-    yield from (f"{_quote(one)} = {_quote(text)}" for one, text in given.items())
+    asked = {text: (word, "") for text, word in table.words.items()}
     line = table.headings_in_line
     cells = dict(name_headings(sheet, line))
-    asked = set(given)
     for one in guesses:
         target = read_answer(one.answer, table.becomes).target
         if target is None or target.field.kind != "word":
             continue
         field, column = target.field, cells[one.name].column
         accepted = render(field.accepted, language)
-        below = (
-            sheet.cell(row, column)
-            for row in sheet.rows
-            if row > table.headings_in_line
-        )
-        for text in dict.fromkeys(x.text.strip() for x in below if not x.is_blank):
+        below = (sheet.cell(row, column) for row in sheet.rows if row > line)
+        for text in (x.text.strip() for x in below if not x.is_blank):
             if text not in asked and not knows_word(field, text):
-                asked.add(text)
-                about = f"{field.label_in(language)}: {accepted}"
-                yield f"{_quote(text)} = {_quote(UNANSWERED)}  # {about}"
+                asked[text] = UNANSWERED, f"{field.label_in(language)}: {accepted}"
+    return asked
 
 
 def _ask_always(
-    guesses: Sequence[HeadingGuess],
-    known: ListTable | None,
-    becomes: str,
-    language: Language,
-) -> list[str]:
+    table: ListTable, guesses: Sequence[HeadingGuess], language: Language
+) -> _Asked:
     """What stands in every line though no heading says it: how a pull-out is proven."""
-    given, about = dict(known.always) if known else {}, ""
     keys = {one.target.key for one in guesses if one.target}
-    if "pull_out" in keys and "proven" not in keys and not given:
-        target = next(x for x in list_targets(becomes) if x.key == "proven")
-        given[target.label(language)] = UNANSWERED
-        words = tuple(map(target.field.name_word, target.field.words))
-        about = f"  # {render(say('accepted.words', words=words), language)}"
-    return [f"{_quote(one)} = {_quote(text)}{about}" for one, text in given.items()]
+    if table.always or "pull_out" not in keys or "proven" in keys:
+        return {column: (text, "") for column, text in table.always.items()}
+    target = next(x for x in list_targets(table.becomes) if x.key == "proven")
+    accepted = render(target.field.accepted, language)
+    return {target.label(language): (UNANSWERED, accepted)}
 
 
-def _show(one: HeadingGuess, language: Language) -> str:
-    """Line of the file: heading, answer, and how it was found."""
+def _explain(one: HeadingGuess, language: Language) -> str:
+    """How an answer was found, what else the heading may mean, and its first cells."""
     how = render(one.how, language) if one.how else ""
     ranked = one.ranked if UNANSWERED in one.answer else ""
     cells = render(say("map.cells", cells=one.cells), language) if one.cells else ""
-    about = " | ".join(filter(None, (how, ranked, cells)))
-    line = f"{_quote(one.name)} = {_quote(one.answer)}"
-    return f"{line}  # {' '.join(about.split())}" if about else line
+    return " ".join(" | ".join(filter(None, (how, ranked, cells))).split())
 
 
 def _quote(text: str) -> str:

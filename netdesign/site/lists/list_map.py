@@ -157,19 +157,24 @@ def _judge(file: str, name: str, table: ListTable) -> Iterator[Finding]:
     if not table.becomes:
         return
     columns = (*table.headings.items(), *((key, key) for key in table.always))
-    read = [(key, text, read_answer(text, table.becomes)) for key, text in columns]
-    words = (*table.words.items(), *table.always.items())
-    unanswered = "list_map.unanswered"
+    texts = (*columns, *table.words.items(), *table.always.items())
     faults = [
-        *((key, text, "list_map.no_column") for key, text, one in read if one.fault),
-        *((key, text, unanswered) for key, text, one in read if one.is_open),
-        *((key, text, unanswered) for key, text in words if is_unanswered(text)),
+        *(
+            (key, say("list_map.unanswered", answer=quote(text)))
+            for key, text in texts
+            if is_unanswered(text)
+        ),
+        *(
+            (key, say("list_map.no_column", answer=quote(text)))
+            for key, text in columns
+            if read_answer(text, table.becomes).fault
+        ),
     ]
-    for key, text, fault in faults:
+    for key, rule in faults:
         yield Finding(
             file=file,
             sheet=name,
             text=key,
-            rule=say(fault, answer=quote(text)),
+            rule=rule,
             accepted=say("list_map.wanted"),
         )

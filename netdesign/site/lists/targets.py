@@ -45,6 +45,8 @@ class Target:
         Sheet and column of the input workbook.
     measure : str
         ``vertical``, ``normal``, ``sag`` or ``slack``; empty of any other column.
+    choice : str
+        List that the measure is of.
     field : Field
         Of the column, with the names that it had in earlier workbooks, too.
     """
@@ -52,6 +54,7 @@ class Target:
     table: str
     key: str
     measure: str = ""
+    choice: str = ""
     field: Field
 
     @property
@@ -71,8 +74,7 @@ class Target:
 
     def measure_in(self, language: Language, unit: str = "") -> str:
         """What it measures in a language, in a unit: "cm vertical"."""
-        choice = _find_column(self.table, self.key).choice
-        shown = name_measure(choice, self.measure, language)
+        shown = name_measure(self.choice, self.measure, language)
         first, _, word = shown.partition(" ")
         return f"{unit or first} {word}"
 
@@ -116,11 +118,8 @@ def _split(table: str, column: Column) -> Iterator[Target]:
         field = _add_names(column.field, old)
         # a name that says nothing of the measure is that of both
         named = replace(field, key=f"{key}.{measure}")
-        yield Target(table=table, key=key, measure=measure, field=named)
-
-
-def _find_column(table: str, key: str) -> Column:
-    return next(one for one in load_columns(table) if one.field.key == key)
+        choice = column.choice
+        yield Target(table=table, key=key, measure=measure, choice=choice, field=named)
 
 
 # Columns whose symbol, the last word of their name, stands for nothing else.
@@ -164,15 +163,12 @@ class Answer:
         The column; None where it is to be ignored, or is not answered.
     unit : str
         Of its numbers, where the answer gives it.
-    is_open : bool
-        A question mark stands in it.
     fault : bool
         It names no column, or not which of several measures.
     """
 
     target: Target | None = None
     unit: str = ""
-    is_open: bool = False
     fault: bool = False
 
 
@@ -187,10 +183,8 @@ def read_answer(text: str, becomes: str) -> Answer:
         Table that the sheet of the list becomes.
     """
     plain = " ".join(text.split())
-    if plain.casefold() == IGNORE:
+    if plain.casefold() == IGNORE or is_unanswered(plain):
         return Answer()
-    if is_unanswered(plain):
-        return Answer(is_open=True)
     label, _, bracket = plain.partition("[")
     bracket = bracket.rstrip("] ")
     named = [one for one in list_targets(becomes) if _is_named(one, label)]

@@ -8,11 +8,11 @@ from dataclasses import replace
 from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import FURTHER
+from netdesign.site.columns.office import load_plan
 from netdesign.site.lines import (
     TYPES,
     Lines,
     index_lines,
-    list_ids,
     refuse_unknown_ids,
     settle_ids,
 )
@@ -36,12 +36,6 @@ from netdesign.site.type_lines import name_by_ground, place_in_ground
 from netdesign.site.type_resistances import check_ends
 from netdesign.words.message import say
 
-# Columns of rows and net types that name a type, by the table of the types.
-_NAMING = {
-    "anchor_types": ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor"),
-    "ropes": ("ridge_rope", "lower_rope", "uphill_guy", "downhill_guy", "end_guy"),
-    "posts": ("post",),
-}
 _NOT_OF_ROWS = ("project", "declared")
 
 
@@ -85,21 +79,20 @@ def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list
     return lines
 
 
-def _settle_all(lines: dict[str, list[Row]]) -> dict[str, list[Row]]:
+def _settle_all(lines: Mapping[str, list[Row]]) -> dict[str, list[Row]]:
     """Lines whose ids are spelt as their own sheet has them."""
-    ids = {name: list(list_ids(lines[name])) for name in ("rows", "net_types", *TYPES)}
-    both = [*ids["anchor_types"], *ids["ropes"]]
-    for table, key, known in (
-        ("rows", "net_type", ids["net_types"]),
-        ("tests", "type", ids["anchor_types"]),
-        ("links", "type", both),
-        ("layers", "row", ids["rows"]),
-        *((name, "at_end", ids[name]) for name in TYPES),
-        *(("rows", key, ids["anchor_types"]) for key in _NAMING["anchor_types"]),
-        *(("net_types", x, ids[of]) for of in ("ropes", "posts") for x in _NAMING[of]),
-    ):
-        lines[table] = settle_ids(lines[table], known, key)
-    return lines
+    settled = dict(lines)
+    ids = {
+        table: [word for line in lines[table] if (word := line["id"].word)]
+        for table in ("rows", "net_types", *TYPES)
+    }
+    for table in lines:
+        for field in load_plan(table).fields:
+            known = ids.get(field.refers_to, ())
+            settled[table] = settle_ids(settled[table], known, field.key)
+    either = [*ids["anchor_types"], *ids["ropes"]]  # at whose end a link is
+    settled["links"] = settle_ids(settled["links"], either, "type")
+    return settled
 
 
 def _join(

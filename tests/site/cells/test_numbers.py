@@ -34,6 +34,7 @@ from tests.each import each
         ("-1\u202f234", -1234.0),
         ("1'234.5", 1234.5),
         ("1’234’567", 1234567.0),
+        ("0." + "3" * 21, 1 / 3),  # to the last bit that a float has
     ],
 )
 def test_numbers_and_clear_text_are_taken(value, number):
@@ -46,7 +47,7 @@ NO_NUMBER = [
     *("", "nan", "inf", "−3", "٣", "2,5;", "=1", "0x10", "1_000"),
 ]
 RANGES = ["4000 - 20000", "270 bis 431", "0,27–0,43", "3 à 4,7"]
-LONG = ["9" * 40, "0." + "3" * 21, "1" * 16 + ",5"]
+LONG = ["9" * 40, "1" * 16 + ",5"]
 TIMES = [datetime.datetime(2026, 5, 2), datetime.timedelta(days=1)]
 AGAINST_MARK = [("2.5", ","), ("2,5", "."), ("0.450", ","), ("1.234,5", ".")]
 
@@ -59,7 +60,7 @@ AGAINST_MARK = [("2.5", ","), ("2,5", "."), ("0.450", ","), ("1.234,5", ".")]
         ("-12,500", "", "is ambiguous: -12.500 or -12500"),
         *((text, "", "is not a number") for text in NO_NUMBER),
         *((text, "", "holds two numbers") for text in RANGES),
-        *((text, "", "has more than 15 digits in a row") for text in LONG),
+        *((text, "", "is not a usable number") for text in LONG),
         (True, "", "is a truth value, not a number"),
         *((value, "", "is a date or time, not a number") for value in TIMES),
         *((x, "", "is not a usable number") for x in (math.nan, math.inf, 10**400)),
