@@ -12,6 +12,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.assumed import ALTITUDE
 from netdesign.site.reader import read_site
+from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import LANGUAGES
@@ -41,14 +42,14 @@ def studies(tmp_path_factory):
     drawn = draw_untidy(random.Random(SEED))
     write_site(folder / "untidy.xlsx", drawn, measures=VERTICAL)
     return {
-        name: judge(folder / f"{name}.xlsx", profile)
-        for name, profile in (("example", SWISS), ("untidy", "eurocode"))
+        "example": judge(folder / "example.xlsx", SWISS),
+        "untidy": judge(folder / "untidy.xlsx", "eurocode", search_site),
     }
 
 
-def judge(path, profile):
+def judge(path, profile, solve=solve_site):
     site = read_site(path)
-    return judge_site(site, solve_site(site, RUN), load_standard(profile), RUN)
+    return judge_site(site, solve(site, RUN), load_standard(profile), RUN)
 
 
 @pytest.fixture(scope="module")

@@ -114,6 +114,20 @@ def test_settlement_of_level_snow_is_exact_for_linear_creep():
     assert np.abs(state.stress[..., [0, 2]]).max() <= 1e-12
 
 
+def test_settlement_of_level_snow_converges_for_power_law_creep():
+    """Velocity of fourth degree; stress vanishes at the surface, n = 3."""
+    errors = []
+    for subdivisions in (0, 1, 2):
+        mesh = uniform_mesh(1.0, 0.25, subdivisions)
+        velocity, _ = flow_of(a_law(bulk_ratio=NO_SIDE_PRESSURE), mesh)
+        expected = -(1 - (1 - mesh.nodes[1]) ** 4) / 16
+        errors.append(np.abs(velocity[1] - expected).max() * 16)
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    # third order where the viscosity is smooth; it is unbounded at the surface
+    assert orders.min() >= 2.0
+    assert errors[-1] <= 2e-4
+
+
 def slab_surface_velocity(slope, n, bulk_ratio):
     """Infinite slab on rough ground: (shear, settlement) rates over the height.
 
