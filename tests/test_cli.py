@@ -1,7 +1,4 @@
-"""The command line: exit codes, streams, files; each command once in a process.
-
-One run of a tiny site feeds most tests; the rest runs only what it needs.
-"""
+"""The command line: exit codes, streams, files; each command once in a process."""
 
 import json
 import shutil

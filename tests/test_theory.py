@@ -1,8 +1,4 @@
-"""The theory pages against each other and against the code that cites them.
-
-A page has one letter for its formulas; they ascend. Whatever cites a formula, a section
-or a constant finds it, and a constant has the value that the page prints.
-"""
+"""The theory pages against each other and against the code that cites them."""
 
 import ast
 import dataclasses

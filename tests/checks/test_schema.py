@@ -2,7 +2,6 @@
 
 import math
 import random
-import re
 
 import pytest
 
@@ -84,15 +83,6 @@ def test_every_mode_of_a_site_may_have_a_factor():
     assert {f"resistance.{mode}" for _, mode in MEMBER_MODES} <= set(FACTOR_IDS)
 
 
-def test_unknown_key_is_refused_with_the_accepted_ones():
-    message = refusal(FactorsFile, {"factor": [an_entry(), an_entry(valeu=1.5)]})
-    assert "my.toml: 'factor' entry 2 'valeu': unknown key" in message
-    assert "accepted are id, clause, text, value, unit, status, source" in message
-    assert "'factors': unknown key; accepted are factor" in refusal(
-        FactorsFile, {"factor": [], "factors": []}
-    )
-
-
 def test_an_unknown_key_further_in_is_refused_with_those_of_its_place():
     choice = {"name": "annex", "text": "An annex.", "factor": [an_entry(valeu=1)]}
     message = refusal(ChoicesFile, {"choice": [choice]})
@@ -102,28 +92,6 @@ def test_an_unknown_key_further_in_is_refused_with_those_of_its_place():
     rows = [{"from": 1, "to": math.inf, "value": 1.4, "valeu": 1.4}]
     message = refusal(TablesFile, {"table": [table | {"rows": rows}]})
     assert message.endswith("'valeu': unknown key; accepted are from, to, value")
-
-
-@each("key", list(an_entry()))
-def test_every_key_of_an_entry_is_needed(key):
-    entry = an_entry()
-    del entry[key]
-    message = refusal(FactorsFile, {"factor": [entry]})
-    assert f"my.toml: 'factor' entry 1 '{key}': is missing" in message
-
-
-@each("key", ["clause", "text", "source"])
-@each("blank", ["", "   "])
-def test_blank_text_is_refused(key, blank):
-    message = refusal(FactorsFile, {"factor": [an_entry(**{key: blank})]})
-    assert f"'{key}' = {blank!r}: " in message
-
-
-@each("value", [0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None])
-def test_value_must_be_a_positive_finite_number(value):
-    message = refusal(FactorsFile, {"factor": [an_entry(value=value)]})
-    place = rf"my\.toml: 'factor' entry 1:? 'value' = {re.escape(repr(value))}: "
-    assert re.match(place, message)
 
 
 def test_smallest_positive_value_is_accepted():
@@ -167,51 +135,58 @@ def test_known_statuses_are_accepted(status):
     assert check_table(FactorsFile, table, "f").factor[0].status == status
 
 
-@pytest.mark.parametrize("status", ["placeholder", "Read", ""])
-def test_unknown_status_is_refused_with_the_accepted_ones(status):
-    message = refusal(FactorsFile, {"factor": [an_entry(status=status)]})
-    assert f"'status' = {status!r}" in message
-    assert "'read', 'secondary', 'assumed' or 'user'" in message
+def without(key):
+    return {name: value for name, value in an_entry().items() if name != key}
 
 
-@pytest.mark.parametrize("wrong", ["action.wind", "resistance.pullout", "resistance."])
-def test_unknown_id_is_refused_with_the_accepted_ones(wrong):
-    message = refusal(FactorsFile, {"factor": [an_entry(id=wrong)]})
-    assert f"'id' = {wrong!r}: must be one of action.snow, " in message
+ENTRY = "my.toml: 'factor' entry 1"
+WORDS = "'read', 'secondary', 'assumed' or 'user'"
+KEYS = "accepted are id, clause, text, value, unit, status, source"
+NO_VALUES = (0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None)
+LOW, HIGH = some_limits()
 
 
-def test_id_of_a_factor_is_none_of_a_limit():
-    limits = [an_entry(unit="deg"), *some_limits()]
-    assert "'id' = 'action.snow'" in refusal(LimitsFile, {"limit": limits})
+@each(
+    "entries, told",
+    [
+        *(([without(key)], (f"{ENTRY} '{key}': is missing",)) for key in an_entry()),
+        *(([an_entry(**{key: blank})], (f"'{key}' = {blank!r}: ",))
+          for key in ("clause", "text", "source") for blank in ("", "   ")),
+        *(([an_entry(value=x)], (ENTRY, f"'value' = {x!r}: ")) for x in NO_VALUES),
+        *(([an_entry(status=x)], (f"'status' = {x!r}", WORDS))
+          for x in ("placeholder", "Read", "")),
+        *(([an_entry(id=x)], (f"'id' = {x!r}: must be one of action.snow, ",))
+          for x in ("action.wind", "resistance.pullout", "resistance.")),
+        ([an_entry(unit="deg")], ("'unit' = 'deg'",)),
+        ([an_entry(), an_entry(value=1.0)], ("twice or more: action.snow",)),
+        ([an_entry(), an_entry(valeu=1.5)], ("entry 2 'valeu': unknown key", KEYS)),
+    ],
+)  # fmt: skip
+def test_an_entry_is_refused_at_its_place_with_what_is_accepted(entries, told):
+    message = refusal(FactorsFile, {"factor": entries})
+    assert all(part in message for part in told)
 
 
-def test_unit_must_be_that_of_the_value():
-    assert "'unit' = 'deg'" in refusal(FactorsFile, {"factor": [an_entry(unit="deg")]})
-    limits = [some_limits()[0] | {"unit": "rad"}, some_limits()[1]]
-    assert "'unit' = 'rad'" in refusal(LimitsFile, {"limit": limits})
+@each(
+    "limits, told",
+    [
+        ([an_entry(unit="deg"), LOW, HIGH], "'id' = 'action.snow'"),
+        ([LOW | {"unit": "rad"}, HIGH], "'unit' = 'rad'"),
+        ([LOW, HIGH, LOW, HIGH], "whole file: each id may occur once; twice or more: "
+         "geometry.inclination.max, geometry.inclination.min"),
+        ([LOW], "whole file: geometry.inclination.min is only accepted with "
+         "geometry.inclination.max"),
+        (some_limits(35.0, 25.0), "geometry.inclination.min must be less than"),
+        (some_limits(30.0, 30.0), "geometry.inclination.min must be less than"),
+    ],
+)  # fmt: skip
+def test_limits_are_refused_with_what_is_accepted(limits, told):
+    assert told in refusal(LimitsFile, {"limit": limits})
 
 
-def test_same_id_twice_is_refused():
-    message = refusal(FactorsFile, {"factor": [an_entry(), an_entry(value=1.0)]})
-    assert "twice or more: action.snow" in message
-    message = refusal(LimitsFile, {"limit": [*some_limits(), *some_limits()]})
-    assert message == (
-        "my.toml: whole file: each id may occur once; twice or more: "
-        "geometry.inclination.max, geometry.inclination.min"
-    )
-
-
-def test_one_end_of_a_range_alone_is_refused():
-    assert refusal(LimitsFile, {"limit": some_limits()[:1]}) == (
-        "my.toml: whole file: geometry.inclination.min is only accepted with "
-        "geometry.inclination.max"
-    )
-
-
-@pytest.mark.parametrize(("low", "high"), [(35.0, 25.0), (30.0, 30.0)])
-def test_reversed_or_empty_range_is_refused(low, high):
-    message = refusal(LimitsFile, {"limit": some_limits(low, high)})
-    assert "geometry.inclination.min must be less than" in message
+def test_an_unknown_key_of_a_file_is_refused():
+    told = refusal(FactorsFile, {"factor": [], "factors": []})
+    assert "'factors': unknown key; accepted are factor" in told
 
 
 @pytest.mark.parametrize("name", ["", "My profile", "../x", "-a"])

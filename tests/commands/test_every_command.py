@@ -1,10 +1,4 @@
-"""No English in what any command tells or writes in French and German.
-
-Counted are words of the English texts that no text of the language has. What is no
-language is taken out first: names of commands, options, files, profiles and types.
-Commands and messages that are English only are left out, and ``--size``, which takes
-seconds.
-"""
+"""No English in what any command tells or writes in French and German."""
 
 import re
 

@@ -1,8 +1,4 @@
-"""Hostile files are refused with a message, before they cost memory or time.
-
-One child process meets all of them, one after the other; the largest memory it ever
-had is a bound for each. A child that hangs is ended by its time limit.
-"""
+"""Hostile files are refused with a message, before they cost memory or time."""
 
 import json
 import os

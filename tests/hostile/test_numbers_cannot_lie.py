@@ -1,8 +1,4 @@
-"""Whatever goes wrong between a solver and a verdict, the verdict is no pass.
-
-A small site that passes is spoilt in one place: a solver that lies or dies, a limit
-that is missing, a store of another time, units exchanged, cases out of order.
-"""
+"""Whatever goes wrong between a solver and a verdict, the verdict is no pass."""
 
 import contextlib
 import math

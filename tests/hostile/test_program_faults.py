@@ -1,8 +1,4 @@
-"""A fault of the program, wherever it falls: told, exit code 5, the other rows kept.
-
-Faults go through the command line: the solver that the workers call raises in the
-solve drawn, or a scene raises in whatever process it is solved.
-"""
+"""A fault of the program, wherever it falls: told, exit code 5, the other rows kept."""
 
 import json
 import math

@@ -1,8 +1,4 @@
-"""No text of an input is ever more than text in an output.
-
-Every text of a study is replaced by one that attacks: formulas, HTML, SVG, escape
-sequences, marks that turn the direction of writing, mathematics, and sheer length.
-"""
+"""No text of an input is ever more than text in an output."""
 
 import dataclasses
 import io

@@ -1,8 +1,4 @@
-"""A realistic study by hand: one row that passes, one that fails, one unproven.
-
-No solver is involved: forces follow a made-up smooth law, so that every test
-can state what it expects. Some texts attack the outputs.
-"""
+"""A realistic study by hand: one row that passes, one that fails, one unproven."""
 
 import math
 import random

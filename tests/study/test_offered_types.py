@@ -10,26 +10,15 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.columns.office import load_columns
 from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
 from netdesign.structure.members import NetPart
-from netdesign.study.check_site import solve_rows
 from netdesign.study.judge import judge_site
 from tests.make import find_cell, load_rows, write_site
 from tests.small_site import RUN
+from tests.study.test_sizing import solve
 
 PROFILE = load_standard("nf-p-95-304-style")
 ROWS = ("R4", "R6", "R7")  # a bar; no test; free ground
 AT_END = dict.fromkeys(("lateral_anchor", "end_guy_anchor"), "end_anchor")
-
-
-class Nobody:
-    def enter(self, key, words=None):
-        """No phase is told."""
-
-    report_wave = enter
-
-    def count_piece(self):
-        """Nor a check."""
 
 
 def write_example(path, dice=None):
@@ -116,7 +105,7 @@ def test_a_type_that_is_offered_passes_unless_its_own_resistance_is_unproven(tmp
     for number in range(8):
         path = tmp_path / f"{number}.xlsx"
         sites.append((path, write_example(path, dice if number else None)))
-    rows = solve_rows(sites[0][1], RUN, Runner(), Nobody()).rows
+    rows = solve(sites[0][1]).rows
     found = [one for path, site in sites for one in list_outcomes(path, site, rows)]
     counts = Counter(found)
     assert set(counts) == {

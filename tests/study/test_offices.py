@@ -1,8 +1,4 @@
-"""Lists of offices answer what is asked of their anchors, with what they have.
-
-Once the headings are answered nothing more is asked for before there are forces: the
-lists say neither slack nor sags, splay, tilt nor distances.
-"""
+"""Lists of offices answer what is asked of their anchors, with what they have."""
 
 from dataclasses import replace
 

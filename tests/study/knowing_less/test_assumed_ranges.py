@@ -1,7 +1,4 @@
-"""What is typed inside an assumed range pulls no harder than the range: drawn rows.
-
-Of the snow, the net and the ground, which are searched; by the search that a check has.
-"""
+"""What is typed inside an assumed range pulls no harder than the range: drawn rows."""
 
 import random
 
