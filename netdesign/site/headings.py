@@ -273,12 +273,7 @@ def _find_unit(
 
 
 def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> None:
-    plan = table.plan
-    for field in plan.fields:
+    for field in table.plan.fields:
         if field.required and field.key not in known:
             rule = say("heading.lacks", heading=field.title)
             findings.append(table.sheet.finding(rule))
-    if plan.one_of and known.isdisjoint(plan.one_of):
-        fields = [field for field in plan.fields if field.key in plan.one_of]
-        rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
-        findings.append(table.sheet.finding(rule))

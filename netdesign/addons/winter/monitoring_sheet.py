@@ -125,7 +125,7 @@ def _choose_time(line: Row, findings: list[Finding]) -> Reading | None:
         refuse_beside(second, first, findings)
         return None
     if "given" not in (first.state, second.state):
-        seen = first if first.cell is not None else second
+        seen = next(x for x in (first, second, line["row"]) if x.cell is not None)
         rule = say("cell.neither", names=(first.field.name, second.field.name))
         refuse(seen, rule, say("accepted.exactly_one"), findings)
         return None

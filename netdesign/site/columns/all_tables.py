@@ -2,7 +2,7 @@
 
 What a quantity is: ``columns.toml``. The input workbook (`office`) takes its columns
 from there; sheets of add-ons are read as they stand there. Names of sheets and columns,
-and words of cells, stand in ``netdesign/words``; notes on headings in ``words/``. How
+and words of cells, stand in ``netdesign/words``. How
 offices write headings stands in ``headings/``, for guesses of ``netdesign map``.
 A heading is known by its whole name, in which case, accents and punctuation do not
 count.
@@ -35,7 +35,7 @@ _OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them 
 
 @lru_cache
 def load_file(name: str) -> Data:
-    """Tables of a file of this folder: ``columns``, ``words/LANGUAGE`` and others."""
+    """Tables of a file of this folder: ``columns``, ``headings/en`` and others."""
     file = files(__package__).joinpath(f"{name}.toml")
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
@@ -85,10 +85,6 @@ def build_field(table: str, key: str, entry: Data) -> Field:
         key=key,
         table=table,
         headings=list_names(f"column.{table}.{key}", table, key),
-        notes={
-            one: load_file(f"words/{one}").get(table, {}).get(key, "")
-            for one in LANGUAGES
-        },
         spellings=_list_spellings(key, entry.get("words", ())),
         **values,
     )

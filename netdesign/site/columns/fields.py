@@ -275,12 +275,11 @@ class Field:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetPlan:
-    """One sheet: its names, its columns in template order, its alternatives."""
+    """One sheet: its names, its columns in template order."""
 
     name: str
     fields: tuple[Field, ...]
     required: bool = False
-    one_of: tuple[str, ...] = ()  # keys of which at least one heading must be there
     # Accepted names by language, the sheet's own first; as the headings of a field.
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name

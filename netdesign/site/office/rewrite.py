@@ -102,7 +102,7 @@ def rewrite(workbook: Workbook, language: Language) -> Rewritten:
 def _free_all(plan: SheetPlan) -> SheetPlan:
     """Plan that needs no column: what is not there is left empty."""
     fields = tuple(replace(one, required=False) for one in plan.fields)
-    return replace(plan, fields=fields, required=False, one_of=())
+    return replace(plan, fields=fields, required=False)
 
 
 def _copy_all(line: Row) -> Line:
