@@ -2,6 +2,8 @@
 
 import random
 
+from tests.site.office.drawn import draw_line
+
 ROWS = 4  # fewer than a median of a column needs
 
 
@@ -23,8 +25,8 @@ def draw_office(seed, *, rows=ROWS):
         ],
         "net_types": nets,
         "anchor_types": [
-            _draw_anchor("long", strong, 0.8 * strong),
-            _draw_anchor("short", strong - 100, strong - 190),
+            _draw_anchor(draw, "long", strong, 0.8 * strong),
+            _draw_anchor(draw, "short", strong - 100, strong - 190),
         ],
         "ropes": [{"id": "rope", "rope": 10 * draw.randint(20, 26)}],
         "posts": [{"id": "post", "bearing": 10 * draw.randint(20, 40)}],
@@ -32,51 +34,22 @@ def draw_office(seed, *, rows=ROWS):
 
 
 def _draw_row(draw, name, net):
-    return {
-        "id": name,
-        "slope_angle": draw.randint(30, 46),
-        "snow": round(net["net_height"] * draw.uniform(0.8, 1.0), 2),
-        "glide_factor": draw.choice((1.8, 2.0, 2.2, 2.5)),
-        "upslope_length": draw.randint(12, 28),
-        "altitude": 10 * draw.randint(185, 215),
-        "net_type": net["id"],
-        "post_spacing": draw.choice((3.0, 3.5, 3.5)),
-        "foot_anchor": "long",
-        "uphill_anchor": draw.choice(("long", "short")),
-        "downhill_anchor": "short",
-        "ground": "till",
-    }
+    snow = round(net["net_height"] * draw.uniform(0.8, 1.0), 2)
+    line = {"id": name, "snow": snow, "net_type": net["id"]}
+    return line | draw_line(draw, "office_rows")
 
 
 def _draw_net(draw, name, height, tilt, splay):
     own = height + draw.choice((0.0, 0.0, 0.5))
-    return {
-        "id": name,
-        "net_height": own,
-        "slack": draw.choice((5, 6)),
-        "post_tilt": tilt,
-        "guy_count": 2,
-        "guy_splay": splay,
-        "uphill_anchor_distance": round(own * draw.uniform(0.8, 1.2), 1),
-        "downhill_anchor_distance": round(own * draw.uniform(0.8, 1.2), 1),
-        "guy_anchors": "shared",
-        "net_stiffness": 8000,
-        "mesh_strength": 180,
-        "uphill_guy": "rope",
-        "downhill_guy": "rope",
-        "post": "post",
-    }
+    line = {"id": name, "net_height": own, "post_tilt": tilt, "guy_splay": splay}
+    for side in ("uphill", "downhill"):
+        line[f"{side}_anchor_distance"] = round(own * draw.uniform(0.8, 1.2), 1)
+    return line | draw_line(draw, "office_net_types")
 
 
-def _draw_anchor(name, tendon, least):
-    return {
-        "id": name,
-        "kind": "rope anchor",
-        "tendon": tendon,
-        "ground": "till",
-        "pull_out": round(least),
-        "proven": "tests",
-    }
+def _draw_anchor(draw, name, tendon, least):
+    line = {"id": name, "tendon": tendon, "pull_out": round(least)}
+    return line | draw_line(draw, "office_anchor_types")
 
 
 def alter(tables, place, value):
