@@ -43,6 +43,8 @@ def test_what_does_not_fail_becomes_declared_and_keeps_its_numbers(low, high, st
     for part in ("Report G-17", "B. Rüegg", "2026-03-09", "Declared!B2"):
         assert part in told
     assert str(computed.reason).rstrip(".") in told
+    undated = check(low, high, strength, replace(PROOF, date="")).declared.describe()
+    assert undated.key != found.declared.describe().key
 
 
 def test_what_is_computed_and_fails_stays_a_failure():

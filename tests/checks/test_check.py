@@ -14,7 +14,7 @@ from netdesign.checks import (
     load_standard,
 )
 from netdesign.checks.check import judge
-from netdesign.checks.comparison import find_resistance
+from netdesign.checks.comparison import find_proof_factor, find_resistance
 from netdesign.checks.geometry import check_inclination
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.ground import PullOutTests
@@ -196,3 +196,15 @@ def test_tests_need_both_of_their_correlation_factors(left_out):
     assert found.value is None
     (lack,) = found.lacks
     assert str(lack).startswith("the profile has no correlation factors for 3 tests")
+
+
+@pytest.mark.parametrize(
+    ("profile", "factor"),
+    [("eurocode", 1.2 * 1.15), ("nf-p-95-304-style", 1.2 * 1.35)],
+)
+def test_proof_load_proves_the_anchor_by_as_many_held_tests(profile, factor):
+    assert find_proof_factor(load_standard(profile)) == pytest.approx(factor)
+    bare = load_standard(profile)
+    bare = replace(bare, values=tuple(v for v in bare.values if v.id != "tests.count"))
+    assert find_proof_factor(bare) is None
+    assert find_proof_factor(replace(load_standard(profile), tables=())) is None

@@ -60,6 +60,14 @@ def print_out(study, language):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
+def test_rows_that_are_left_out_are_named_beside_the_verdict(language):
+    part, words = replace(BUILT, left_out=["N7", "N8"]), Words(language)
+    whole, shown = (mark_verdict(one, words) for one in (BUILT, part))
+    assert shown.word != whole.word
+    assert all(row in shown.meaning for row in part.left_out)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_site_as_built_has_no_mark(language):
     mark = load_texts(language)["what_if.mark"]
     assert mark not in title_pages(BUILT, Words(language))

@@ -1,11 +1,7 @@
 """Pull-out tests of sheet Tests, from the workbook to the judged study."""
 
-from dataclasses import replace
-
 import pytest
 
-from netdesign.checks import load_standard
-from netdesign.checks.comparison import find_proof_factor
 from netdesign.report.sections.schedule import list_anchors, show_tests
 from netdesign.report.words import Words
 from tests.checks.given_pulls import study_row
@@ -119,15 +115,3 @@ def test_a_value_by_a_report_without_its_name_is_that_of_a_calculation():
     checks = [judge_typed(proven=how) for how in ("report", "calculated", "")]
     assert {check.resistance_basis for check in checks} == {"computed"}
     assert len({(check.verdict, check.utilisation) for check in checks}) == 1
-
-
-@pytest.mark.parametrize(
-    ("profile", "factor"),
-    [("eurocode", 1.2 * 1.15), ("nf-p-95-304-style", 1.2 * 1.35)],
-)
-def test_proof_load_proves_the_anchor_by_as_many_held_tests(profile, factor):
-    assert find_proof_factor(load_standard(profile)) == pytest.approx(factor)
-    bare = load_standard(profile)
-    bare = replace(bare, values=tuple(v for v in bare.values if v.id != "tests.count"))
-    assert find_proof_factor(bare) is None
-    assert find_proof_factor(replace(load_standard(profile), tables=())) is None
