@@ -130,8 +130,10 @@ _TURNED = np.array([1.0, -1.0])  # what the lower rope gains the upper one loses
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PanelsAlike:
-    """Panels of one spacing and kind of anchors, whatever net hangs between them.
+class PanelRopes:
+    """Border ropes of panels, and what the net's pulls do to them.
+
+    The panels have one spacing and one kind of anchors.
 
     Attributes
     ----------
@@ -159,13 +161,16 @@ class PanelsAlike:
 
 
 @lru_cache(maxsize=64)  # a row asks for the same ones in every case
-def liken_panels(panels: tuple[Panel, ...], count: int) -> PanelsAlike:
-    """Panels of one spacing and kind of anchors, at so many stations of each."""
+def lay_ropes(panels: tuple[Panel, ...], count: int) -> PanelRopes:
+    """Ropes of panels that have one spacing and one kind of anchors.
+
+    The net's pulls act at ``count`` stations of half a panel.
+    """
     ((spacing, has_mid),) = {(x.post_spacing, x.has_mid_anchors) for x in panels}
     stations = build_stations(count, has_mid_anchors=has_mid)
     half, spans = spacing / 2.0, (stations.lower, stations.upper)
     ropes = [(panel.lower, panel.upper) for panel in panels]
-    return PanelsAlike(
+    return PanelRopes(
         panels=panels,
         stations=stations,
         cut_off=np.array([cut_strips(panel, stations) for panel in panels]),
@@ -184,7 +189,7 @@ class PanelProblem:
 
     Attributes
     ----------
-    alike : PanelsAlike
+    ropes : PanelRopes
         Ropes, stations and cut.
     strip : Strip
         The net at the post.
@@ -192,14 +197,14 @@ class PanelProblem:
         Unstressed, of the strips at the stations and in mid-panel [m].
     """
 
-    alike: PanelsAlike
+    ropes: PanelRopes
     strip: Strip
     lengths: Floats
 
     @property
     def half(self) -> float:
         """Half the post spacing [m]."""
-        return self.alike.panels[0].post_spacing / 2.0
+        return self.ropes.panels[0].post_spacing / 2.0
 
     @property
     def load_size(self) -> float:
@@ -250,10 +255,13 @@ class PanelState:
 
 
 def build_problem(strip: Strip, panels: Sequence[Panel], count: int) -> PanelProblem:
-    """Panels of one spacing and kind of anchors, at so many stations of each."""
-    alike = liken_panels(tuple(panels), count)
-    lengths = (1.0 + strip.slack) * (strip.chord - alike.cut_off)
-    return PanelProblem(alike=alike, strip=strip, lengths=lengths)
+    """Equations of panels that have one spacing and one kind of anchors.
+
+    ``strip`` is the net at the post; ``count`` strips hang on half a panel.
+    """
+    ropes = lay_ropes(tuple(panels), count)
+    lengths = (1.0 + strip.slack) * (strip.chord - ropes.cut_off)
+    return PanelProblem(ropes=ropes, strip=strip, lengths=lengths)
 
 
 def describe_panels(
@@ -266,18 +274,18 @@ def describe_panels(
     ValueError
         If an array is not of its shape.
     """
-    strip, alike = problem.strip, problem.alike
+    strip, ropes = problem.strip, problem.ropes
     count, strips = problem.lengths.shape
     points, places = strip.alike.weights.size, ROPE_WEIGHTS.size
     arrays = {
         "offsets": to_floats(strip.alike.offsets, (2, points)),
         "weights": to_floats(strip.alike.weights, (points,)),
         "lengths": to_floats(problem.lengths, (count, strips)),
-        "deflection": to_floats(alike.deflection, (2, strips, strips - 1)),
-        "shear": to_floats(alike.shear, (2, places, strips - 1)),
+        "deflection": to_floats(ropes.deflection, (2, strips, strips - 1)),
+        "shear": to_floats(ropes.shear, (2, places, strips - 1)),
         "rope_weights": ROPE_WEIGHTS,
-        "rope_stiffness": to_floats(alike.stiffness, (count, 2)),
-        "excess": to_floats(alike.excess, (count, 2)),
+        "rope_stiffness": to_floats(ropes.stiffness, (count, 2)),
+        "excess": to_floats(ropes.excess, (count, 2)),
     }
     argument = PanelArgument(strips, points, places)
     point_to(argument, **arrays)
@@ -295,7 +303,7 @@ def guess_points(problem: PanelProblem) -> Floats:
     ndarray, shape (n, 2 K + 4)
         [-].
     """
-    strip, panels = problem.strip, problem.alike.panels
+    strip, panels = problem.strip, problem.ropes.panels
     foot = strip.foot_pull
     sizes = math.hypot(*foot), math.hypot(*(strip.load - foot))
 
@@ -324,7 +332,7 @@ def read_loads(problem: PanelProblem, points: Floats) -> RopeLoads:
     along = np.exp(points[..., -2:])
     pulls = np.stack([foot, problem.strip.load[:, None] - foot], axis=-3)
     # mid-panel's strip shows only where it hangs
-    displacements = pulls[..., :-1] @ problem.alike.deflection.transpose(0, 2, 1)
+    displacements = pulls[..., :-1] @ problem.ropes.deflection.transpose(0, 2, 1)
     displacements /= along[..., None, None]
     return RopeLoads(along=along, pulls=pulls, displacements=displacements)
 
@@ -345,9 +353,9 @@ def read_point(problem: PanelProblem, place: int, point: Floats) -> PanelState:
     -----------
     tests/panel/test_equations.py
     """
-    strip, alike, loads = problem.strip, problem.alike, read_loads(problem, point)
-    shear = loads.pulls[..., :-1] @ alike.shear.transpose(0, 2, 1)
-    lengths = measure_lengths(shear, alike.stiffness[place], loads.along)
+    strip, ropes, loads = problem.strip, problem.ropes, read_loads(problem, point)
+    shear = loads.pulls[..., :-1] @ ropes.shear.transpose(0, 2, 1)
+    lengths = measure_lengths(shear, ropes.stiffness[place], loads.along)
     pulls = loads.pulls[0] - strip.alike.to_foot[:, None]
     ends, reached = reach_ends(strip.alike, pulls)
     moved = loads.displacements[1] - loads.displacements[0]
@@ -355,7 +363,7 @@ def read_point(problem: PanelProblem, place: int, point: Floats) -> PanelState:
     gaps = (ends - wanted / problem.lengths[place]).ravel()
     return PanelState(
         loads=loads,
-        missing=np.concatenate([gaps, lengths.excess - alike.excess[place]]),
+        missing=np.concatenate([gaps, lengths.excess - ropes.excess[place]]),
         reached=reached,
         rope_lengths=lengths,
     )
@@ -363,17 +371,17 @@ def read_point(problem: PanelProblem, place: int, point: Floats) -> PanelState:
 
 def derive_missing(problem: PanelProblem, place: int, state: PanelState) -> Floats:
     """Derivative of what is missing by the point, shape (2 K + 4, 2 K + 4)."""
-    lengths, size, alike = problem.lengths[place], problem.load_size, problem.alike
+    lengths, size, ropes = problem.lengths[place], problem.load_size, problem.ropes
     strips = lengths.size
     every = np.arange(strips)
     by_pull = np.zeros((2, strips, 2, strips))
     for row, column in np.ndindex(2, 2):
         by_pull[row, every, column, every] = state.reached[row, column]
-    moved = np.tensordot(1.0 / state.loads.along, alike.deflection, 1)
+    moved = np.tensordot(1.0 / state.loads.along, ropes.deflection, 1)
     by_pull[[0, 1], :, [0, 1], :-1] += moved / lengths[:, None]
     by_along = -_TURNED[:, None, None] * state.loads.displacements / lengths
     by_load = np.zeros((2, 2, strips))
-    by_load[..., :-1] = state.rope_lengths.by_shear @ alike.shear
+    by_load[..., :-1] = state.rope_lengths.by_shear @ ropes.shear
     whole = np.empty((2 * strips + 2, 2 * strips + 2))
     whole[:-2, :-2] = size * by_pull.reshape(2 * strips, 2 * strips)
     whole[:-2, -2:] = by_along.reshape(2, -1).T

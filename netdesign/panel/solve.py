@@ -237,7 +237,7 @@ def solve_strips(
     require_within("stations", stations, 1, LARGEST_COUNT)
     problem = build_problem(strip, panels, stations)
     chord, points = problem.strip.chord, guess_points(problem)
-    has_net = (chord - problem.alike.cut_off).min(axis=1) > LEAST_NET * chord
+    has_net = (chord - problem.ropes.cut_off).min(axis=1) > LEAST_NET * chord
     points[~has_net] = np.nan
     core = find_core()
     if core is None:
@@ -313,7 +313,7 @@ def _read_panels(
         np.moveaxis(loads.displacements, 0, 2).reshape(2, 2, -1),
         np.moveaxis(loads.pulls[:, 0], 0, 1).reshape(2, -1),
     ).reshape(*problem.lengths.shape, 2, -1)
-    stations = problem.alike.stations
+    stations = problem.ropes.stations
     supports = tuple(  # x and y, post and mid-panel, of both bays
         2.0
         * problem.half
@@ -328,7 +328,7 @@ def _read_panels(
     )
     places = problem.half * (1.0 - np.append(stations.xi, 0.0))
     return SolvedPanels(
-        panels=problem.alike.panels,
+        panels=problem.ropes.panels,
         failures=_refuse(problem, curves, balance) | failures,
         foot=supports[0][:, :, 0],
         mid_foot=supports[0][:, :, 1],
@@ -381,7 +381,7 @@ def _measure_balance(
     panel about the post's section.
     """
     strip, half = problem.strip, problem.half
-    load, weights = strip.load, problem.alike.stations.weights
+    load, weights = strip.load, problem.ropes.stations.weights
     size, chord = problem.load_size, strip.chord
     lower, upper = supports
     force = lower.sum(axis=-1) + upper.sum(axis=-1) - 2.0 * half * load

@@ -105,8 +105,8 @@ def try_spoilt_panel(solution, rng):
     solve_panel(solution, panel, stations=stations)
     with suppress(SolveError):  # no net is left
         problem = build_problem(take_strip(solution), [panel], stations)
-        deflection = spoil(problem.alike.deflection, rng)
-        spoilt = replace(problem, alike=replace(problem.alike, deflection=deflection))
+        deflection = spoil(problem.ropes.deflection, rng)
+        spoilt = replace(problem, ropes=replace(problem.ropes, deflection=deflection))
         for one, points in (
             (spoilt, guess_points(problem)),
             (problem, spoil(guess_points(problem), rng)),
