@@ -15,7 +15,7 @@ from pathlib import Path
 from netdesign.checks import Standard, load_default, load_standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.edge.progress import RunProgress, Standing
+from netdesign.edge.progress import RunProgress, show_stages
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, build_search
 from netdesign.envelope.search import search_rows
@@ -40,7 +40,7 @@ from netdesign.study.document import load_study
 from netdesign.study.records import Study
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.catalogue import Language
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 
 def check(
@@ -101,7 +101,8 @@ def check(
         has_reliability=reliability,
     )
     phases = list_phases(chosen)
-    watch = RunProgress(phases, _show_stages(progress))
+    tell = progress or (lambda _: None)
+    watch = RunProgress(phases, show_stages(lambda standing: tell(str(standing.line))))
     with open_runner(
         executor="",
         processes=run.jobs,
@@ -144,21 +145,6 @@ def _choose_profile(standard: Standard | str | Path | None, site: Site) -> Stand
         return standard
     named = standard or site.project.standard
     return load_standard(named) if named else load_default()
-
-
-def _show_stages(
-    progress: Callable[[str], object] | None,
-) -> Callable[[Standing], None]:
-    """Call for each new stage of a run."""
-    last: Message | str = ""
-
-    def show(standing: Standing) -> None:
-        nonlocal last
-        if progress and standing.stage != last and standing.done:
-            last = standing.stage
-            progress(str(standing.line))
-
-    return show
 
 
 def read_study(path: str | Path) -> Study:

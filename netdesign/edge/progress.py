@@ -216,7 +216,11 @@ def show_phases(
         yield RunProgress(phases, lambda _: None)
         return
     if not console.is_terminal:
-        yield RunProgress(phases, _write_lines(language))
+
+        def write(standing: Standing) -> None:
+            sys.stderr.write(f"{render(standing.line, language)}\n")
+
+        yield RunProgress(phases, show_stages(write, _SILENCE_S))
         return
     text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
     columns = (
@@ -244,16 +248,18 @@ def show_phases(
         yield RunProgress(phases, show, clear=progress.stop)
 
 
-def _write_lines(language: Language) -> Callable[[Standing], None]:
-    """Writes one line for each stage, and one at least every ``_SILENCE_S`` seconds."""
+def show_stages(
+    write: Callable[[Standing], object], silence_s: float = math.inf
+) -> Callable[[Standing], None]:
+    """Writes each stage once, and what there is at least every so many seconds."""
     last: Message | str = ""
     shown_at = time.monotonic()
 
     def show(standing: Standing) -> None:
         nonlocal last, shown_at
         is_new = standing.stage != last and standing.done > 0
-        if is_new or time.monotonic() - shown_at >= _SILENCE_S:
+        if is_new or time.monotonic() - shown_at >= silence_s:
             last, shown_at = standing.stage, time.monotonic()
-            sys.stderr.write(f"{render(standing.line, language)}\n")
+            write(standing)
 
     return show

@@ -125,18 +125,8 @@ def write_grid_document(
             key: [min(values), max(values)]
             for key, values in _list_values(results).items()
         },
-        "extremes": [
-            {
-                "quantity": QUANTITY_KEYS[member],
-                "max": kilonewton_from_newton(extreme.force.value),
-                "upper_bound": None,  # a grid says nothing between its cases
-                "low": kilonewton_from_newton(extreme.force.low),
-                "high": kilonewton_from_newton(extreme.force.high),
-                "case": show_case(extreme.governing.case.values),
-                "coincident": _list_coincident(extreme),
-            }
-            for member, extreme in extremes.items()
-        ],
+        # a grid says nothing between its cases
+        "extremes": [_write_extreme(extreme, None) for extreme in extremes.values()],
         **_describe_run(results, skipped, counts, wall_s),
     }
 
@@ -157,31 +147,37 @@ def _describe_run(
     }
 
 
+def _write_extreme(extreme: Extreme, bound: float | None) -> dict[str, Any]:
+    """Largest tension with its band, its case, and those of the others there."""
+    force = extreme.widened
+    coincident = show_coincident(extreme, tuple(QUANTITY_KEYS))
+    return {
+        "quantity": QUANTITY_KEYS[extreme.member],
+        "max": kilonewton_from_newton(force.value),
+        "upper_bound": bound,
+        "low": kilonewton_from_newton(force.low),
+        "high": kilonewton_from_newton(force.high),
+        "case": show_case(extreme.governing.case.values),
+        "coincident": {
+            QUANTITY_KEYS[other]: size for other, size in coincident.items()
+        },
+    }
+
+
 def _write_bound(
     envelope: RowEnvelope, extreme: Extreme, language: Language
 ) -> dict[str, Any]:
+    """The same with its bound, and with the governing case solved again."""
     force = record_largest(extreme, envelope)
     confirmation, bound = None, force.bound_kN
     if force.confirmed is not None:
         reason = render(force.confirmed.reason or "", language)
         plain = asdict(replace(force.confirmed, reason=None))
         confirmation = _per_metre(plain | {"reason": reason})
-    return {
-        "quantity": QUANTITY_KEYS[force.quantity],
-        "max": force.value_kN,
-        "upper_bound": bound,
+    return _write_extreme(extreme, bound) | {
         "gap": bound / force.value_kN - 1.0 if force.value_kN else 0.0,
-        "low": force.low_kN,
-        "high": force.high_kN,
-        "case": show_case(extreme.governing.case.values),
-        "coincident": _list_coincident(extreme),
         "confirmation": confirmation,
     }
-
-
-def _list_coincident(extreme: Extreme) -> dict[str, float]:
-    coincident = show_coincident(extreme, tuple(QUANTITY_KEYS))
-    return {QUANTITY_KEYS[other]: force for other, force in coincident.items()}
 
 
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
