@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,6 @@ from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed_forces import (
     SIGNED,
-    choose_watched,
     gather_pulls,
     name_sources,
     read_signed,
@@ -174,17 +174,21 @@ class Quantities:
     ----------
     task : RowTask
         What is searched.
-    members, signed : tuple of str
-        Quantities of the results, and the signed forces behind them; none without any
-        result that converged.
-    is_shared : bool
-        Net and uphill guy end at one anchor.
+    sources : mapping of str to tuple of str
+        Quantities by which each member is bounded: itself, or the signed forces behind
+        it; none without any result that converged.
+    signed : tuple of str
+        All signed forces that are modelled.
     """
 
     task: RowTask
-    members: tuple[str, ...] = ()
+    sources: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     signed: tuple[str, ...] = ()
-    is_shared: bool = False
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """Quantities of the results."""
+        return tuple(self.sources)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -222,13 +226,14 @@ class Quantities:
             return set(range(len(values)))
         lower = (values - errors)[is_known].max(axis=0)
         is_far = values + errors < _NEAR * np.maximum(lower, 0.0)
-        watched = [self.names.index(name) for name in self._watched]
+        watched = [self.names.index(name) for name in self.watched]
         is_far = is_far[:, watched].all(axis=1) & is_known
         return set(np.flatnonzero(~is_far).tolist())
 
     @property
-    def _watched(self) -> tuple[str, ...]:
-        return choose_watched(self.members, self.signed, is_shared=self.is_shared)
+    def watched(self) -> tuple[str, ...]:
+        """Quantities that a search has to bound, so that every member is bounded."""
+        return tuple(dict.fromkeys(chain.from_iterable(self.sources.values())))
 
     def watch(self, readings: Sequence[Reading]) -> dict[int, Watched]:
         """Quantities to be bounded, by place, and how closely each; after some cases.
@@ -244,7 +249,7 @@ class Quantities:
         smallest = np.min(errors, axis=0, where=values > 0.0, initial=np.inf)
         forces = dict(zip(self.members, largest.tolist(), strict=True))
         closest = dict(zip(self.members, smallest.tolist(), strict=True))
-        names = self._watched
+        names = self.watched
         if any(reading.lacks_panel.any() for reading in readings):
             names = tuple(name for name in names if not name.startswith(_BY_PANEL))
         return {
@@ -256,11 +261,7 @@ class Quantities:
         self, name: str, forces: Mapping[str, float], errors: Mapping[str, float]
     ) -> Watched:
         """Half the numerical error of the members that a quantity stands for."""
-        behind = [
-            member
-            for member in self.members
-            if name in (member, *name_sources(member, is_shared=self.is_shared))
-        ]
+        behind = [member for member, its in self.sources.items() if name in its]
         floor = min((forces[member] for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
             guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else GUYS
@@ -280,10 +281,9 @@ class Quantities:
         if not self.signed or not maxima.upper_bound:
             return maxima
         upper = list(maxima.upper_bound)
-        for place, member in enumerate(self.members):
-            sources = name_sources(member, is_shared=self.is_shared)
-            allowed = [upper[self.names.index(name)] for name in sources]
-            if allowed:
+        for place, (member, sources) in enumerate(self.sources.items()):
+            if sources != (member,):
+                allowed = [upper[self.names.index(name)] for name in sources]
                 upper[place] = float(np.max([maxima.maximum[place], 0.0, *allowed]))
         return replace(maxima, upper_bound=tuple(upper))
 
@@ -298,14 +298,14 @@ def name_quantities(task: RowTask, results: Sequence[CaseResult]) -> Quantities:
     if not converged:
         return Quantities(task=task)
     first, layouts = converged[0], task.layouts
-    own = [name for name in first.member_forces if name not in PANEL_QUANTITIES]
-    every = (*own, *(PANEL_QUANTITIES if task.panels else ()))
+    section = [name for name in first.member_forces if name not in PANEL_QUANTITIES]
+    every = (*section, *(PANEL_QUANTITIES if task.panels else ()))
+    members = [name for name in every if name not in POST_PULLS]
     signed: tuple[str, ...] = ()
+    sources: dict[str, tuple[str, ...]] = {}
     if layouts and np.isfinite(read_signed(converged, layouts)[0]).all():
         signed = SIGNED if task.panels else SIGNED[: len(SIGNED) // 2]
-    return Quantities(
-        task=task,
-        members=tuple(name for name in every if name not in POST_PULLS),
-        signed=signed,
-        is_shared=first.anchors is not None and first.anchors.is_foot_shared,
-    )
+        is_shared = first.anchors is not None and first.anchors.is_foot_shared
+        sources = {x: name_sources(x, is_shared=is_shared) for x in members}
+    own = {member: sources.get(member) or (member,) for member in members}
+    return Quantities(task=task, sources=own, signed=signed)

@@ -203,16 +203,3 @@ def name_sources(member: str, *, is_shared: bool) -> tuple[str, ...]:
     if is_shared and member in (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR):
         return (_NET, _SHARED)
     return sources.get(member, ())
-
-
-def choose_watched(
-    members: Sequence[str], signed: Sequence[str], *, is_shared: bool
-) -> tuple[str, ...]:
-    """Quantities that a search has to bound, so that every member is bounded."""
-    if not signed:
-        return tuple(members)
-    watched: dict[str, None] = {}
-    for member in members:
-        sources = name_sources(member, is_shared=is_shared)
-        watched |= dict.fromkeys(sources or (member,))
-    return tuple(watched)

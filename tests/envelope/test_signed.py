@@ -5,10 +5,11 @@ import random
 
 import pytest
 
-from netdesign.envelope.signed_forces import choose_watched, name_sources
+from netdesign.envelope.signed_forces import SIGNED, name_sources
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport, resolve_signed
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.structure.members import CARRYING_MEMBERS, name_in_panel
 from tests.each import each
 
 HEAD = (1.5, 3.0)
@@ -51,14 +52,11 @@ def test_a_guy_along_the_post_gives_nothing():
     assert all(map(math.isnan, forces))
 
 
-def test_every_member_is_watched_itself_or_through_its_sources():
-    members = ("foot_anchor", "uphill_guy", "downhill_guy", "post", "something_new")
-    signed = [s for m in members for s in name_sources(m, is_shared=True)]
-    watched = choose_watched(members, signed, is_shared=True)
-    for member in members:
-        sources = name_sources(member, is_shared=True)
-        assert set(sources or (member,)) <= set(watched)
-    assert choose_watched(members, (), is_shared=False) == members
+@pytest.mark.parametrize("is_shared", [False, True])
+def test_what_stands_behind_a_member_is_a_signed_force(is_shared):
+    for member in (*CARRYING_MEMBERS, *map(name_in_panel, CARRYING_MEMBERS)):
+        assert set(name_sources(member, is_shared=is_shared)) <= set(SIGNED)
+    assert name_sources("something_new", is_shared=is_shared) == ()
 
 
 def test_a_shared_anchor_takes_the_guy_where_it_pulls():
