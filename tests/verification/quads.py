@@ -1,13 +1,7 @@
 """Independent finite elements for three scenes: other elements, other solver.
 
-Nine-node quadrilaterals on a mapped grid, velocities, Newton's method on the creep
-potential with a line search. It takes of the program the net's curve, layers
-with a and b, the slope, the base. The law is written from its equations, in three
-dimensions, not from the program's plane matrices.
-
-Run it for the stored figures (a minute)::
-
-    python -m tests.verification.quads
+Of the program: the net's curve, a and b of the layers, slope and base.
+``python -m tests.verification.quads`` prints the figures that are stored.
 """
 
 import sys

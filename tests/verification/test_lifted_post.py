@@ -26,24 +26,24 @@ TRIANGLES = SupportPoints(
 )
 
 
-def test_lifted_head_by_hand():
+@pytest.mark.parametrize(
+    ("pull", "lifts", "guy", "demands"),
+    [
+        ((16.0, 52.0), 40.0, 20.0, (160 / 3, 100 / 3)),
+        ((0.0, 60.0), 60.0, 0.0, (50, 50)),
+    ],
+)
+def test_lifted_head_by_hand(pull, lifts, guy, demands):
     """P = (16, 52): Tu = 16 / 0.8 = 20, Z = 52 - 0.6 * 20 = 40.
 
     Without the post Tu - Td = 16 / 0.8 and Tu + Td = 52 / 0.6: 53.33 and 33.33.
+    P = (0, 60): the foot holds 60, or each guy 60 / (2 * 0.6) = 50.
     """
-    held = compute_head_forces((16.0, 52.0), TRIANGLES)
-    assert held.post_tension == pytest.approx(40.0, rel=1e-14)
-    assert held.post_compression == 0.0
-    assert held.uphill_guy_tension == pytest.approx(20.0, rel=1e-14)
-    assert held.downhill_guy_tension == 0.0
-    assert held.guy_demands == pytest.approx((160.0 / 3.0, 100.0 / 3.0), rel=1e-14)
-
-
-def test_pull_up_the_post_by_hand():
-    """P = (0, 60): the foot holds 60, or each guy 60 / (2 * 0.6) = 50."""
-    held = compute_head_forces((0.0, 60.0), TRIANGLES)
-    assert (held.post_tension, held.uphill_guy_tension) == (60.0, 0.0)
-    assert held.guy_demands == pytest.approx((50.0, 50.0), rel=1e-14)
+    held = compute_head_forces(pull, TRIANGLES)
+    assert held.post_tension == pytest.approx(lifts, rel=1e-14)
+    assert held.uphill_guy_tension == pytest.approx(guy, rel=1e-14)
+    assert held.post_compression == held.downhill_guy_tension == 0.0
+    assert held.guy_demands == pytest.approx(demands, rel=1e-14)
 
 
 def test_forces_on_members_and_ground_by_hand():

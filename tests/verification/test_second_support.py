@@ -1,8 +1,4 @@
-"""The support beside a row's end, (S10a), (P10), (P11): lever rule and ropes.
-
-Numbers of the built-in example, rows R1, R2, R4 and R5, by an independent derivation to
-the digits given there.
-"""
+"""The support beside a row's end, (S10a), (P10), (P11): lever rule and ropes."""
 
 import math
 

@@ -103,11 +103,7 @@ class Bar:
 
 
 def solve_truss(head, bars, load):
-    """Forces of the bars, tension positive [kN]: the head moves, ropes go slack.
-
-    All sets of ropes at work are tried: the one counts whose ropes pull and whose
-    others have come nearer to their anchors.
-    """
+    """Forces of the bars, tension positive [kN]: the set whose ropes all pull."""
     spans = np.array([bar.end for bar in bars], float) - np.array(head, float)
     lengths = np.linalg.norm(spans, axis=1)
     units = spans / lengths[:, None]
@@ -126,10 +122,7 @@ def solve_truss(head, bars, load):
 
 
 def build_end_truss(section, splay, ropes, *, reach):
-    """Bars of the support at the end of a row; the row goes on towards +Z.
-
-    ``ropes`` are the stiffnesses EA of uphill guy, downhill guy, end guy and post.
-    """
+    """Bars of the support at the end of a row, which goes on towards +Z."""
     bars = []
     for name, point in (("uphill", section.uphill), ("downhill", section.downhill)):
         flat = math.hypot(point[0] - section.head[0], section.head[1])
