@@ -8,35 +8,20 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
-from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.envelope.rows import RowTask, build_point_task
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.rows import build_point_task
 from netdesign.envelope.search import FrictionSkip, search_rows, solve_first
 from netdesign.envelope.signed_forces import SIGNED, read_signed
 from netdesign.outcome import Outcome
-from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
 from tests.each import each
+from tests.envelope.tasks import build_row
 from tests.solving.made_up_workers import Recording, Spoiling, finish
-from tests.solving.small_scene import LAYOUT, build_scene, solve_case
+from tests.solving.small_scene import LAYOUT, solve_case
 
 SETTINGS = SolverSettings(accuracy=0.004, levels=MESH_LEVELS[:4])
-TASK = RowTask(
-    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
-    ranges=Ranges(
-        intervals=(
-            ("density", Interval(low=253.0, high=418.0)),
-            (
-                "friction_angle",
-                Interval(low=math.radians(14.3), high=math.radians(44.1)),
-            ),
-        )
-    ),
-    layouts=(LAYOUT,),
-    settings=SETTINGS,
-    search=SearchSettings(gap=0.004),
-    confirmed_by=None,
-)
+TASK = build_row((253.0, 418.0), (14.3, 44.1), gap=0.004, settings=SETTINGS)
 
 
 def show(result):

@@ -8,15 +8,13 @@ import numpy as np
 import pytest
 
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES
-from netdesign.envelope.ranges import Case, Interval, Ranges
-from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.envelope.signed_forces import read_signed
 from netdesign.panel.inputs import list_panels
-from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
+from tests.envelope.tasks import build_row, draw_case
 from tests.solving.small_scene import COARSE, PANEL, build_scene
 
 SPACING = PANEL.post_spacing
@@ -35,27 +33,7 @@ LAYOUTS = tuple(
     )
     for tilt, uphill, downhill in product((9.5, 21.0), (2.1, 3.4), (1.9, 3.7))
 )
-TASK = RowTask(
-    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
-    ranges=Ranges.of(
-        density=Interval(low=251.0, high=397.0),
-        friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
-        inclination=Interval(low=math.radians(24.0), high=math.radians(34.0)),
-    ),
-    layouts=LAYOUTS,
-    settings=COARSE,
-    search=SearchSettings(gap=0.01),
-    confirmed_by=None,
-)
-
-
-def draw_case(seed):
-    rng = np.random.default_rng(seed)
-    return Case(
-        density=rng.uniform(240.0, 420.0),
-        friction_angle=math.radians(rng.uniform(14.0, 46.0)),
-        inclination=math.radians(rng.uniform(22.0, 38.0)),
-    )
+TASK = build_row((251.0, 397.0), (16.0, 44.0), (24.0, 34.0), layouts=LAYOUTS)
 
 
 def solve(case, layouts, panels=()):
@@ -67,7 +45,7 @@ def solve(case, layouts, panels=()):
 @pytest.mark.parametrize("panels", [(), PANELS])
 @pytest.mark.parametrize("seed", range(3))
 def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
-    case = draw_case(seed)
+    case = draw_case(np.random.default_rng(seed))
     together = solve(case, LAYOUTS, panels)
     alone = [solve(case, [one], panels) for one in LAYOUTS]
     for name, band in together.member_forces.items():
@@ -87,7 +65,7 @@ def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
 @pytest.mark.parametrize("panels", [(), PANELS])
 def test_signed_forces_are_the_largest_on_any_layout(panels):
     """The same of their errors."""
-    case = draw_case(11)
+    case = draw_case(np.random.default_rng(11))
     together = read_signed([solve(case, LAYOUTS, panels)], LAYOUTS)
     alone = [read_signed([solve(case, [one], panels)], [one]) for one in LAYOUTS]
     assert np.isfinite(together).all()
@@ -120,6 +98,6 @@ def test_no_case_of_a_grid_exceeds_the_bound_on_any_layout(runner, panels):
 
 
 def test_one_layout_is_itself():
-    result = solve(draw_case(3), LAYOUTS[:1], (PANEL,))
+    result = solve(draw_case(np.random.default_rng(3)), LAYOUTS[:1], (PANEL,))
     assert result.at_layout(0) is result
     assert set(result.member_forces) >= set(PANEL_QUANTITIES)

@@ -14,14 +14,13 @@ from netdesign.envelope.panel_forces import (
     PanelForces,
     resolve_panels,
 )
-from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS
-from netdesign.envelope.rows import RowTask, refine_settings
+from netdesign.envelope.rows import refine_settings
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.outcome import Outcome
 from netdesign.panel.solve import FailedPanel
-from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
@@ -30,28 +29,10 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.words.message import say
+from tests.envelope.tasks import build_row, draw_case
 from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
 
-TASK = RowTask(
-    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
-    ranges=Ranges.of(
-        density=Interval(low=251.0, high=397.0),
-        friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
-    ),
-    layouts=(LAYOUT,),
-    settings=COARSE,
-    search=SearchSettings(gap=0.01),
-    confirmed_by=None,
-    panels=(PANEL,),
-)
-
-
-def draw_case(rng):
-    return Case(
-        density=rng.uniform(240.0, 420.0),
-        friction_angle=math.radians(rng.uniform(14.0, 46.0)),
-        inclination=math.radians(rng.uniform(24.0, 36.0)),
-    )
+TASK = build_row((251.0, 397.0), (16.0, 44.0), panels=(PANEL,))
 
 
 def solve(case, panel=PANEL, settings=COARSE):

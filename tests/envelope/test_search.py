@@ -10,8 +10,8 @@ from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
 from netdesign.envelope.panel_forces import POST_PULLS
-from netdesign.envelope.ranges import PARAMETERS, Case, Interval, Ranges
-from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
+from netdesign.envelope.ranges import PARAMETERS, Case
+from netdesign.envelope.rows import build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.outcome import ModelError, Outcome
 from netdesign.search.maxima import SearchSettings
@@ -20,27 +20,12 @@ from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
+from tests.envelope.tasks import build_row
 from tests.solving.made_up_workers import Spoiling, finish
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
-SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
-RANGES = Ranges(
-    intervals=(
-        ("density", Interval(low=250.0, high=400.0)),
-        (
-            "friction_angle",
-            Interval(low=math.radians(15.0), high=math.radians(45.0)),
-        ),
-    )
-)
-TASK = RowTask(
-    scene=SCENE,
-    ranges=RANGES,
-    layouts=(LAYOUT,),
-    settings=COARSE,
-    search=SearchSettings(gap=0.01),
-    confirmed_by=None,
-)
+TASK = build_row((250.0, 400.0), (15.0, 45.0))
+RANGES = TASK.ranges
 
 
 @pytest.fixture(scope="module")
