@@ -181,7 +181,7 @@ def find_floors(
     except _FailedAtError as failed:
         if len(layouts) == 1:
             return [Floor(reason=failed.reason)]
-        alone = (find_floors(model, ranges, altitude, (one,)) for one in layouts)
+        alone = (find_floors(model, ranges, altitude, (layout,)) for layout in layouts)
         return [floor for (floor,) in alone]
     count, tried = len(layouts), scan.try_points(points)
     own = np.split(np.arange(points.shape[1]), count)
@@ -192,7 +192,7 @@ def find_floors(
 
 
 def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
-    """Ways of the members below some heads, on each of some layouts.
+    """Unit vectors from some post heads along their members, on each layout.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
 def _take_floor(
     scan: _Scan, layout: int, points: Floats, largest: Floats, own: Ints, tried: Tried
 ) -> Floor:
-    """Floor on one of the layouts, from its own points and what they bring."""
+    """Floor on one layout, from the points at which its forces are largest."""
     # members are often largest at the same place
     solve = cache(scan.solve_one)
     forces: list[FloorForce] = []
@@ -248,7 +248,7 @@ def _take_floor(
 
 
 def _measure_head(largest: Floats) -> HeadSpan:
-    """Span at head and foot, of the largest of all that is sought.
+    """Span of what acts at head and foot, from the largest values of the search.
 
     A tension with a sign is that of the uphill guy, or less that of the downhill one.
     Between a load with one sign and one with the other lies one without tension.
@@ -335,7 +335,7 @@ class _Scan:
         }
 
     def _place(self, points: Floats) -> NetGeometry[Floats]:
-        """Nets at points; the ends of the tension are rows."""
+        """Nets at some points; each end of the tension is a row."""
         ranges = self.ranges
         inclination, thickness, _ = points
         ends = np.array(_list_ends(ranges))

@@ -92,7 +92,7 @@ class LoadCase(Generic[Number]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GuidelineResult:
-    """One load case of the guideline.
+    """Load, pulls and forces under one load case, or why they are missing.
 
     Attributes
     ----------

@@ -185,7 +185,7 @@ def lay_ropes(panels: tuple[Panel, ...], count: int) -> PanelRopes:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PanelProblem:
-    """Panels of strips like the one at the post.
+    """Equations of panels whose strips are like the net at the post.
 
     Attributes
     ----------
@@ -233,7 +233,7 @@ class RopeLoads:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PanelState:
-    """State at a point.
+    """Pulls and ropes of one panel at a point, and what is missing there.
 
     Attributes
     ----------
@@ -296,7 +296,7 @@ def describe_panels(
 
 
 def guess_points(problem: PanelProblem) -> Floats:
-    """Strips that pull as the net at the post, and ropes under that alone, (P3).
+    """First points: strips pull as the net at the post, ropes hang from that, (P3).
 
     Returns
     -------

@@ -134,7 +134,7 @@ class SolvedPanels:
     steps: Ints
 
     def describe(self, place: int) -> PanelSolution | FailedPanel:
-        """One of the panels."""
+        """Solution of the panel at a place, or why it has none."""
         if place in self.failures:
             return self.failures[place]
         lower, upper = (
@@ -186,7 +186,7 @@ _NO_NET = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("panel.no_net_
 def solve_panel(
     solution: Solution, panel: Panel, *, stations: int = STATIONS
 ) -> PanelSolution | FailedPanel:
-    """Panel whose post section has been solved.
+    """Solve a panel of a row whose section at the post has been solved.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def solve_panel(
 def solve_strips(
     strip: Strip, panels: Sequence[Panel], *, stations: int = STATIONS
 ) -> SolvedPanels:
-    """Panels of strips like the one at the post; otherwise as ``solve_panel``.
+    """Solve panels whose strips are like the net at the post, as ``solve_panel``.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ def _solve(problem: PanelProblem, place: int, point: Floats) -> tuple[int, int]:
 def _solve_compiled(
     core: ctypes.PyDLL, problem: PanelProblem, points: Floats
 ) -> tuple[Ints, Ints]:
-    """The same by the compiled core, of all panels."""
+    """Move the points of all panels by the compiled core, as `_solve` moves one."""
     argument, kept = describe_panels(problem)
     argument.still, argument.longest_step = _STILL, _LONGEST_STEP
     argument.most_steps, argument.most_halvings = _MOST_STEPS, _HALVINGS
@@ -349,7 +349,7 @@ _BOTH_WAYS = np.array([1.0, -1.0])
 def _refuse(
     problem: PanelProblem, curves: Floats, balance: Floats
 ) -> dict[int, FailedPanel]:
-    """Panels that lie on the ground, or are not in balance."""
+    """Refuse panels that lie on the ground, or are not in balance."""
     depths = -curves[:, :, 1].min(axis=(1, 2))
     lies: Mask = depths > _ON_GROUND * problem.strip.chord
     refused = {}

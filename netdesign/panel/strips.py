@@ -175,7 +175,7 @@ class Strip:
 
 
 def take_strip(solution: Solution) -> Strip:
-    """Strip of a solution.
+    """Metre of net of a section that has been solved.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def take_strip(solution: Solution) -> Strip:
 
 
 def build_strip(net: Net, curve: Floats, forces: Floats, foot: EndPull) -> Strip:
-    """Strip of a net at rest.
+    """Metre of a net at rest, with the forces that the snow leaves on it.
 
     The unstressed lengths follow from the curve: each element is as long as it would
     be without the tension that the forces leave in it.

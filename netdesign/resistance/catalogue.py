@@ -94,7 +94,7 @@ def find_imperfection(curve: str) -> Datum:
 
 
 def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:
-    """Value of a table between its places, linear.
+    """Value of a table at a place, linear between its own.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def load_products() -> dict[str, Any]:
 
 
 def join(name: str, family: str, fitting: Sequence[Fitting]) -> Product:
-    """Product of all that a name may mean: least and largest of shared values."""
+    """Product with the least and largest values of all that a name may mean."""
     spans = {
         quantity: [values[quantity] for values, _ in fitting]
         for quantity in fitting[0][0]
@@ -243,7 +243,7 @@ def join(name: str, family: str, fitting: Sequence[Fitting]) -> Product:
 
 
 def make_beam(row: list[float]) -> Fitting:
-    """I-section of its table.
+    """Values of a rolled I-section, from its line in the table.
 
     Parameters
     ----------
@@ -257,7 +257,7 @@ def make_beam(row: list[float]) -> Fitting:
 
 
 def make_hollow_section(sizes: tuple[float, ...]) -> list[Fitting]:
-    """Round tube, or box: this is hot finished or cold formed, so two products.
+    """Values of a hollow section: of a box twice, hot finished and cold formed.
 
     Parameters
     ----------
@@ -282,7 +282,7 @@ def make_hollow_section(sizes: tuple[float, ...]) -> list[Fitting]:
 
 
 def make_bar(entry: dict[str, Any], diameters: list[float]) -> Fitting:
-    """Solid bar of one of some diameters.
+    """Values of a solid bar that has one of these diameters.
 
     Parameters
     ----------
@@ -301,7 +301,7 @@ def make_bar(entry: dict[str, Any], diameters: list[float]) -> Fitting:
 
 
 def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Fitting:
-    """Hollow bar; its strengths are its forces over its area."""
+    """Values of a hollow bar, whose strengths are its forces over its area."""
     units = load_products()["hollow"]["units"].items()
     values = {key: _span(bar[key], unit) for key, unit in units if key in bar}
     least, most = values["area"]
@@ -319,7 +319,7 @@ def list_constructions_of(strands: Iterable[str]) -> list[str]:
 
 
 def make_rope(construction: str, diameter: float, grades: list[float]) -> Fitting:
-    """Wire rope of one of some grades; THEORY.md, (R4) without its ends.
+    """Values of a wire rope that has one of these grades; THEORY.md, (R4) without ends.
 
     Parameters
     ----------

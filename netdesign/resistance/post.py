@@ -200,7 +200,7 @@ def compute_bent_post_resistance(
 def _solve(
     section: PostSection, factor: float, used: float, linear: float, square: float
 ) -> float:
-    """Design compression C [N] with all of the section used; (R11b).
+    """Design compression C [N] that uses all of the section; (R11b).
 
     (1 - factor C / N_k) (1 - C / N_cr) = used + linear C + square C^2.
     """

@@ -51,7 +51,7 @@ _STRANDS = r"(?<![\w.])(\d ?x ?\d{1,2} ?(?:ws|s|w|m)?)(?!\w)"
 
 
 def find_product(name: str) -> Product | None:
-    """Product that the name of a type holds, as an office writes it.
+    """Product that a type is named after, as an office writes it.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def find_product(name: str) -> Product | None:
 
 
 def find_bar(name: str) -> Product | None:
-    """Bar that the name of a type means; None of one that says no size it is made in.
+    """Bar that a type is named after; None where the name has no size of that bar.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def find_bar(name: str) -> Product | None:
 
 
 def _simplify(name: str) -> str:
-    """Lower case, no accents, lengths, forces or drilled holes; "@" for a diameter."""
+    """Fold a name: no accents, lengths, forces or drilled holes; "@" for a diameter."""
     text = re.sub("[®™]", "", name[:_LONGEST_NAME])
     text = unicodedata.normalize("NFKD", text).casefold()
     text = "".join(sign for sign in text if not unicodedata.combining(sign))
@@ -203,7 +203,7 @@ def _find_diameter(
 
 
 def _pick_size(number: float, sizes: list[float]) -> float | None:
-    """Size of the list that a number means, which may leave its decimals away."""
+    """Size of the list that a number stands for; its decimals may be left out."""
     near = (s for s in sizes if number in (s, math.floor(s), math.ceil(s)))
     return next(near, None)
 
@@ -280,6 +280,6 @@ def _find_rope_diameter(
 
 
 def _keep_cores(ropes: list[str], text: str, cores: dict[str, str]) -> list[str]:
-    """Constructions whose core is named; all, if none is, or none has it."""
+    """Constructions with a core that the name states; all where it states none."""
     named = [core for core, pattern in cores.items() if _has_word(pattern, text)]
     return [rope for rope in ropes if rope.partition("-")[2] in named] or ropes

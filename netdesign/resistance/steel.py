@@ -265,7 +265,7 @@ def find_direction_factor(angle: float) -> Datum:
 
 
 def find_angle(link: Link, pulled: float | None) -> float:
-    """Angle of the force to the line of a link: of the pull, else as given, else right.
+    """Angle of the force to the line of a link: of the pull, else as stated, or 90 deg.
 
     Parameters
     ----------

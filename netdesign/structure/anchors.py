@@ -104,7 +104,7 @@ def turn_by_splay(inclination: float, splay: float) -> float:
 
 
 def find_pull_range(directions: Iterable[float]) -> PullRange | None:
-    """Least and largest of some directions.
+    """Range of the directions of some pulls.
 
     Parameters
     ----------
@@ -225,7 +225,7 @@ def compute_member_forces(
     post_spacing: float,
     is_foot_shared: bool,
 ) -> tuple[dict[str, Floats], Mask]:
-    """Member forces of many supports under many pulls, as `compute_anchor_forces` has.
+    """Forces of many supports under many pulls, each as by `compute_anchor_forces`.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ def _list_forces(
     out_of_ground: Number,
     is_foot_shared: bool,
 ) -> dict[str, Number]:
-    """Forces by (S7) and (S8): an anchor has its guy's; the base across its plate."""
+    """Forces by (S7), (S8): an anchor resists its guy's, a base what presses it."""
     uphill, downhill = head.guy_demands
     on_foot = foot + uphill if is_foot_shared else foot
     return {
