@@ -106,19 +106,6 @@ def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
         assert not [one for one in none.values if one.id.startswith("floor.")]
 
 
-@pytest.mark.parametrize("profile", ["eurocode", "nf-p-95-304-style"])
-def test_load_model_is_the_guideline_s_under_every_profile(profile):
-    """Without the dimensioning form, which is that of its own profile."""
-    plain = replace(
-        SWISS,
-        values=tuple(one for one in SWISS.values if one.id != "load.dimensioning"),
-    )
-    found = a_floor(standard=load_standard(profile))
-    assert found == a_floor(standard=plain) != a_floor()
-    for one in found.forces:
-        assert one.force <= a_floor().find(one.member).force
-
-
 def test_snow_of_a_profile_of_one_s_own_changes_no_floor_and_no_comparison(solved):
     """The load model is the guideline's as it comes; the study lists it beside."""
     values = [
@@ -286,42 +273,6 @@ def test_floor_has_every_carrying_member_and_the_mesh(solved):
 
 def study_floor(study):
     return {one.member: one.force_kN for one in study.rows[0].floor.forces}
-
-
-def test_altitude_of_the_row_counts_in_its_floor():
-    high = a_floor(replace(ROW, altitude=2470.0)).find(Member.UPHILL_GUY)
-    low = a_floor().find(Member.UPHILL_GUY)
-    assert high.case.density == pytest.approx(270.0 * (1.0 + 0.02 * 9.7))
-    assert high.force > 1.1 * low.force
-    unknown = a_floor(replace(ROW, altitude=None))
-    assert unknown == a_floor(replace(ROW, altitude=3000.0))
-    assert unknown.find(Member.UPHILL_GUY).case.density == pytest.approx(351.0)
-
-
-@pytest.mark.parametrize("typed", [2.2, 3.0, 3.99, 4.6])
-def test_floor_is_that_of_a_net_full_of_snow(typed):
-    """Less snow than the net is high lightens no member, more does not load it more."""
-    plain = load_standard("nf-p-95-304-style")  # without the dimensioning form
-    full = a_floor(standard=plain)
-    other = a_floor(replace(ROW, snow_thickness=typed), plain)
-    for one in full.forces:
-        force = other.find(one.member)
-        assert force.force >= one.force * (1.0 - 1e-9)
-        if one.member not in (Member.DOWNHILL_GUY, Member.DOWNHILL_ANCHOR):
-            assert force.force == pytest.approx(one.force, rel=1e-6)
-            if force.force > 0.0:
-                assert force.net.snow_thickness == pytest.approx(4.0, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    "ground", [GroundLaw(kind="no-slip"), GroundLaw(kind="sliding", slip_length=0.01)]
-)
-def test_rough_ground_has_the_least_factor_of_the_guideline(ground):
-    """As if the least of its tables had been typed, and if less is typed."""
-    rough = a_floor(replace(ROW, ground=ground))
-    for glide in (1.0, 1.1, 1.2):
-        assert a_floor(replace(ROW, glide_factor=glide)) == rough
-    assert {one.load.glide_factor for one in rough.forces} == {1.2}
 
 
 def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
