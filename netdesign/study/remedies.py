@@ -1,53 +1,38 @@
 """Resistance, type and post spacing with which a check passes.
 
 Forces follow resistance and spacing in exact proportion: no case is solved. The type is
-the weakest one of the workbook that does, else the smallest part of the catalogue:
-bars, ropes and post sections, by size.
+the weakest one of the workbook that does.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from netdesign.checks import OpenKind, find_resistance
 from netdesign.checks.check import Change
 from netdesign.checks.comparison import find_partial_factor
-from netdesign.resistance.catalogue import (
-    find_imperfection,
-    find_rope_factor,
-    find_termination,
-    load_catalogue,
-    load_products,
-)
-from netdesign.resistance.post import compute_buckling_resistance
-from netdesign.resistance.products import find_product
-from netdesign.resistance.steel import RoundSection, compute_rope_resistance
 from netdesign.site.model import Resistance, Site
-from netdesign.structure.members import NAMED_BY, EndMember, Member, NetPart
+from netdesign.structure.members import END_ANCHORS, NAMED_BY, NetPart
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.case_records import PullRecord
 from netdesign.study.member_checks import MemberCheck, find_lasting
 from netdesign.study.posts import find_short_post
 from netdesign.study.row_resistances import corrode
 from netdesign.study.row_to_check import Basis
 from netdesign.study.scopes import CLOSE
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.units import kilonewton_if_known
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 
 def list_remedies(member_check: MemberCheck) -> list[Change]:
     """List the changes with which a failing, unproven or close check passes."""
     basis = member_check.forces
-    is_of_ground = (
-        member_check.resistance.mode in ("sliding", "wedge")
-        and member_check.resistance.dimensions
-    )
-    is_of_head = (
-        member_check.resistance.mode == "direction"
-    )  # of which E_d sin δ is told
+    given = member_check.resistance
+    is_of_ground = given.mode in ("sliding", "wedge") and given.dimensions
+    is_of_head = given.mode == "direction"  # of which E_d sin δ is told
     if is_of_ground or is_of_head or not _is_worth_telling(basis, member_check):
         return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(basis, member_check)
@@ -132,12 +117,6 @@ def find_spacing_remedy(
     )
 
 
-_ANCHORS = (
-    *(Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR),
-    *(EndMember.LATERAL_ANCHOR, EndMember.END_GUY_ANCHOR),
-)
-
-
 def find_ground(site: Site, type_id: str) -> str:
     """Ground of an anchor type of the workbook; "" where it is not given."""
     grounds = (kind.ground for kind in site.catalogue if kind.type_id == type_id)
@@ -158,18 +137,18 @@ def holds_in_ground(member: str, now: str, other: Resistance) -> bool:
     other : Resistance
         Of the type that would replace it.
     """
-    return member not in _ANCHORS or not now or now == other.ground
+    is_anchor = member in (*ANCHORS, *END_ANCHORS)
+    return not is_anchor or not now or now == other.ground
 
 
 def find_type_change(
     basis: Basis, resistance: Resistance, demand: float, pull: PullRecord | None
 ) -> Change | None:
-    """Type whose design resistance reaches the design ``demand`` [kN].
+    """Weakest type of the workbook whose design resistance reaches ``demand`` [kN].
 
-    First the weakest type of the workbook, whether a net row uses it or not, those
-    whose own resistance is proven before the others; else the smallest part of the
-    catalogue. None where the type that is there does, where it is that of another
-    member, or nothing is known that would.
+    Whether a net row uses it or not; those whose own resistance is proven come before
+    the others. None where the type that is there does, where it is that of another
+    member, or no type would.
 
     An anchor type of another ground, or of one that is not known, is none of them.
     ``pull`` is that on the anchor.
@@ -180,28 +159,17 @@ def find_type_change(
     sure = [candidate for candidate in enough if candidate.note is None]
     if any(candidate.type_id == resistance.type_id for candidate in sure or enough):
         return None
-    if enough:
-        weakest = min(
-            sure or enough, key=lambda candidate: (candidate.design, candidate.type_id)
-        )
-        quantity = say("change.type_of_workbook", type=weakest.type_id)
-        return _record(quantity, weakest.value, resistance, weakest.note)
-    size = _find_enough_size(basis, resistance, demand)
-    _, open_lasting = find_lasting(basis, resistance, pull)
-    return (
-        _record(*size, resistance, _find_note(resistance, open_lasting))
-        if size
-        else None
+    weakest = min(sure or enough, key=lambda x: (x.design, x.type_id), default=None)
+    if weakest is None:
+        return None
+    return Change(
+        quantity=say("change.type_of_workbook", type=weakest.type_id),
+        unit="kN",
+        now=kilonewton_if_known(resistance.value),
+        bound=math.floor(weakest.value * 10.0) / 10.0,
+        sense="has",
+        note=weakest.note,
     )
-
-
-def _find_enough_size(
-    basis: Basis, resistance: Resistance, demand: float
-) -> Size | None:
-    """Smallest part of the catalogue that bears a design force [kN]."""
-    factor = basis.standard.find_resistance_factor(resistance.mode, "declared")
-    needed = demand / _find_share(resistance)
-    return find_size(resistance, needed * factor.value_si) if factor else None
 
 
 def _find_note(resistance: Resistance, open_lasting: Message | None) -> Message | None:
@@ -210,13 +178,6 @@ def _find_note(resistance: Resistance, open_lasting: Message | None) -> Message 
         return say("change.if_rest_proven")
     is_of_net = resistance.member in tuple(NetPart)
     return say("change.solve_again") if is_of_net else None
-
-
-def _find_share(resistance: Resistance) -> float:
-    """Share of a resistance that corrosion leaves [-]; a larger bar loses less."""
-    how = resistance.derivation
-    share = how.arguments.get("share") if how and resistance.wear else None
-    return float(str(share)) if share else 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,121 +212,3 @@ def _list_enough(
         design = value / factor.value_si
         if design >= demand:
             yield _Enough(other.type_id, design, value, _find_note(other, open_lasting))
-
-
-def _record(
-    quantity: Message, value: float, resistance: Resistance, note: Message | None
-) -> Change:
-    return Change(
-        quantity=quantity,
-        unit="kN",
-        now=kilonewton_if_known(resistance.value),
-        bound=math.floor(value * 10.0) / 10.0,
-        sense="has",
-        note=note,
-    )
-
-
-_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
-_ROPES_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
-_BAR_STRENGTH = 500.0  # of a bar without a given steel [MPa]
-
-
-# A part of the catalogue: what it is, and its characteristic resistance [kN].
-Size = tuple[Message, float]
-
-
-def find_size(resistance: Resistance, needed: float) -> Size | None:
-    """Smallest part in the place of a type that bears a characteristic force [kN].
-
-    None where the catalogue has none that bears it, or where the workbook does not say
-    what the part is made of, as the section of a post.
-    """
-    sizes = _BY_MODE.get(resistance.mode)
-    parts = sizes(resistance) if sizes else iter(())
-    return next((part for part in parts if part[1] >= needed), None)
-
-
-def _list_ropes(_: Resistance) -> Iterator[Size]:
-    factor = find_rope_factor(_CONSTRUCTION)
-    loss = find_termination(_TERMINATION)
-    for diameter in _ROPES_MM:
-        value = compute_rope_resistance(
-            diameter=diameter / 1e3,
-            grade=_GRADE,
-            breaking_factor=factor.value,
-            termination=loss.value,
-        )
-        part = say(
-            "change.rope",
-            diameter=diameter,
-            construction=_CONSTRUCTION,
-            grade=_GRADE / 1e6,
-            termination=name("termination", _TERMINATION),
-            status=name("status", loss.status),
-        )
-        yield part, kilonewton_from_newton(value)
-
-
-def _list_bars(resistance: Resistance) -> Iterator[Size]:
-    """Solid bars of the catalogue, of the steel of the type's own bar."""
-    how = _find_derivation(resistance, "derivation.bar")
-    strength = _take(how, "strength") if how else _BAR_STRENGTH
-    every = (product["diameters"] for product in load_products()["bar"])
-    for diameter in sorted({size for sizes in every for size in sizes}):
-        section = RoundSection(outer=diameter / 1e3, strength=strength * 1e6)
-        part = say("change.bar", diameter=float(diameter), strength=strength)
-        yield part, kilonewton_from_newton(section.axial_resistance)
-
-
-def _list_sections(resistance: Resistance) -> Iterator[Size]:
-    """Sections of the series of a post, by size, of its steel and buckling length."""
-    how = _find_derivation(resistance, "derivation.buckling")
-    if how is None:
-        return
-    series, sizes = _find_series(resistance.type_id)
-    strength = _take(how, "strength")
-    imperfection = find_imperfection(str(how.arguments["curve"])).value
-    for size in sorted(sizes, key=int):
-        product = find_product(f"{series} {size}")
-        if product is None:
-            continue
-        buckling = compute_buckling_resistance(
-            area=product.values["area"][0],
-            second_moment=product.values["second_moment_weak"][0],
-            length=_take(how, "length"),
-            yield_strength=strength * 1e6,
-            modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
-            imperfection=imperfection,
-        )
-        part = say("change.section", name=f"{series}{size}", grade=strength)
-        yield part, kilonewton_from_newton(buckling.value)
-
-
-def _find_series(type_id: str) -> tuple[str, Mapping[str, object]]:
-    """Series of the section that a type is named after, with its sizes."""
-    product = find_product(type_id)
-    table = load_products()["section"]["series"]
-    for series, sizes in table.items():
-        if product and product.id.startswith(series):
-            return series, sizes["sizes"]
-    return "", {}
-
-
-def _find_derivation(resistance: Resistance, key: str) -> Message | None:
-    """Way in which a resistance was worked out as built, where it is this one."""
-    how = resistance.derivation
-    as_built = how.arguments.get("of") if how else None  # before it corrodes
-    how = as_built if isinstance(as_built, Message) else how
-    return how if how is not None and how.key == key else None
-
-
-def _take(how: Message, key: str) -> float:
-    return float(str(how.arguments[key]))
-
-
-_BY_MODE: Mapping[str, Callable[[Resistance], Iterator[Size]]] = {
-    "rope": _list_ropes,
-    "tendon": _list_bars,
-    "compression": _list_sections,
-}

@@ -185,6 +185,7 @@ def test_anchors_along_the_pull_are_drilled_15_degrees_down(slope, axis):
     assert foot.dip_deg == pytest.approx(axis - slope)
     assert min(foot.dip_deg, uphill.dip_deg) >= 15.0 - 1e-9
     assert downhill.axis_deg == pytest.approx(downhill.least_deg)
+    assert not foot.is_axis_given
 
 
 @pytest.mark.parametrize("turn", [0.0, 7.0, 31.0])
