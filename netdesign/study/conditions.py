@@ -75,12 +75,12 @@ class Condition:
 
 
 def list_conditions(forces: RowForces) -> list[Condition]:
-    """Conditions of one net row, each once."""
-    return merge_conditions(
+    """Conditions of one net row at one corner of its statics."""
+    return [
         replace(condition, rows=[forces.row.id])
         for part in (_list_of_snow, _list_of_types, _list_of_ground, _list_of_bores)
         for condition in part(forces)
-    )
+    ]
 
 
 def merge_conditions(conditions: Iterable[Condition]) -> list[Condition]:

@@ -9,9 +9,8 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, is_dataclass
+from dataclasses import dataclass
 from datetime import datetime
-from enum import Enum
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,6 @@ from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
     hash_values,
     join_members,
-    list_fields,
     read_json,
     restore_json,
     write_json,
@@ -213,7 +211,6 @@ ROUNDING = 1e-12  # relative; of the same number, summed in another order
 # Absolute, of residuals, shares and small differences, which are rounding themselves.
 _NOISE = 1e-6
 _PERCENT = "_percent"  # end of the name of a difference or an error
-_PLAIN = frozenset({float, int, str, bool, type(None)})  # have no values within
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,7 +242,7 @@ def list_values(part: object) -> dict[str, Any]:
     is a value too.
     """
     values: dict[str, Any] = {}
-    _collect(part, "", values)
+    _collect(json.loads(write_json(part)), "", values)
     return values
 
 
@@ -289,36 +286,24 @@ def compare_listed(
 
 def _collect(value: Any, place: str, values: dict[str, Any]) -> None:
     """Add the values of a part to those known, in the order of the part."""
-    if type(value) in _PLAIN:
+    if not value or not isinstance(value, dict | list):
         values[place] = value
         return
-    if is_dataclass(value):
-        value = list_fields(value)
-    if not isinstance(value, Mapping | list | tuple):
-        values[place] = str(value) if isinstance(value, Enum) else value
-        return
-    ids: list[str] = []
-    names: Iterable[object] = value
-    parts: Iterable[object] = value
-    if isinstance(value, Mapping):
-        parts = value.values()
-    else:
-        ids = _list_ids(value)
-        names = ids or range(len(value))
-    if not value:
-        values[place] = {} if isinstance(value, Mapping) else type(value)()
     before = f"{place}." if place else ""
-    if ids:
-        values[f"{before}order"] = ", ".join(ids)
-    for name, part in zip(names, parts, strict=True):
+    if isinstance(value, list):
+        ids = _list_ids(value)
+        if ids:
+            values[f"{before}order"] = ", ".join(ids)
+        value = dict(zip(ids or range(len(value)), value, strict=True))
+    for name, part in value.items():
         _collect(part, f"{before}{name}", values)
 
 
 def _list_ids(members: Sequence[Any]) -> list[str]:
     """Ids or symbols of the members of a list; none if one lacks it or two share it."""
-    ids = [
-        str(getattr(member, "id", getattr(member, "symbol", ""))) for member in members
-    ]
+    if not all(isinstance(member, dict) for member in members):
+        return []
+    ids = [str(member.get("id", member.get("symbol", ""))) for member in members]
     return ids if all(ids) and len(set(ids)) == len(ids) else []
 
 

@@ -6,20 +6,22 @@ guideline/THEORY.md, (G10); the way to each anchor is that of a check.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from netdesign.checks import Check, Standard
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.ranges import Interval
+from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import END_ANCHORS, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import weigh_splay
 from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.case_records import HeldSidewaysRecord
 from netdesign.study.guideline_load import (
+    RowEffects,
     find_effects,
     find_row_floors,
     list_assumed,
@@ -34,9 +36,6 @@ from netdesign.study.row_to_check import list_layouts, list_variants
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
 
-_HEAD_PULL = "head_pull"
-# Forces by anchor, and pull on the head, of each layout [N].
-Loads = Mapping[SupportLayout, Mapping[str, float]]
 # Modes in which a check has the whole force of an anchor.
 _OF_FORCE = ("pull_out", "tendon")
 
@@ -98,12 +97,10 @@ class RowAnchors:
         ]
         if not matching:
             return None
+        pairs = ((force.guideline_kN, force.coupled_kN) for force in matching)
         guideline, coupled = (
-            max((x for x in forces if x is not None), default=None)
-            for forces in (
-                [force.guideline_kN for force in matching],
-                [force.coupled_kN for force in matching],
-            )
+            max((force for force in forces if force is not None), default=None)
+            for forces in zip(*pairs, strict=True)
         )
         return replace(matching[0], guideline_kN=guideline, coupled_kN=coupled)
 
@@ -132,104 +129,96 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
 
     Where the statics are assumed, the largest force at all corners counts.
     """
-    ranges = site.at_row(row).ranges
-    effects = find_effects(row, standard, ranges)
-    loads = _find_loads(row, ranges, standard)
-    variants = []
-    if not isinstance(loads, Message):
-        for variant in _list_statics(row):
-            load, span = loads[variant.layout], ranges["inclination"]
-            pull = kilonewton_from_newton(load[_HEAD_PULL])
-            at_corner = RowForces(
-                site=site,
-                row=variant,
-                standard=standard,
-                law=BOUTILLIER_2004,  # no force here depends on it
-                effects=effects,
-                largest={},
-                floor=None,
-                held=_hold_sideways(variant, span, pull, effects.lateral_share),
-                tilt=0.0,
-            )
-            variants.append((at_corner, load))
+    effects = find_effects(row, standard, site.at_row(row).ranges)
+    variants = _list_variants(site, row, standard, effects)
+    reason = variants if isinstance(variants, Message) else None
+    known = [] if isinstance(variants, Message) else variants
+    by_support = product(effects.supports, ANCHORS)
     forces = [
         AnchorForce(
             anchor=anchor,
             position=width.position,
-            guideline_kN=_find_largest(variants, anchor, width),
+            guideline_kN=_find_largest(known, anchor, width),
         )
-        for width in effects.supports
-        for anchor in ANCHORS
+        for width, anchor in by_support
     ]
-    has_end = any(support.position == "edge" for support in effects.supports)
-    forces += [
-        AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
-        for anchor in (END_ANCHORS if has_end else ())
-    ]
-    return RowAnchors(
-        id=row.id,
-        anchors=forces,
-        reason=loads if isinstance(loads, Message) else None,
-        notes=_list_notes(row, [at_corner for at_corner, _ in variants]),
-    )
+    if effects.supports[-1].position == "edge":
+        forces += [
+            AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
+            for anchor in END_ANCHORS
+        ]
+    notes = _list_notes(row, [at_corner.held for at_corner, _ in known])
+    return RowAnchors(id=row.id, anchors=forces, reason=reason, notes=notes)
 
 
-def _find_loads(row: NetRow, ranges: Ranges, standard: Standard) -> Loads | Message:
-    """Forces inside the row by layout, or why they are not available."""
-    loads: dict[SupportLayout, Mapping[str, float]] = {}
-    found = find_row_floors(row, ranges, standard, list_layouts(row))
-    for layout, floor in found.items():
+def _list_variants(
+    site: Site, row: NetRow, standard: Standard, effects: RowEffects
+) -> list[tuple[RowForces, Floor]] | Message:
+    """Row at each corner of its statics with the forces inside it, or why it has none.
+
+    The end guy has no part in them.
+    """
+    ranges = site.at_row(row).ranges
+    floors = find_row_floors(row, ranges, standard, list_layouts(row))
+    apart = {(variant.layout, variant.guys): variant for variant in list_variants(row)}
+    variants = []
+    for variant in apart.values():
+        floor = floors[variant.layout]
         if floor is None or floor.head is None:
             return (floor.reason if floor else None) or say("check.no_case_solved")
-        forces = {force.member: force.force for force in floor.forces}
-        loads[layout] = {**forces, _HEAD_PULL: floor.head.pull}
-    return loads
-
-
-def _list_statics(row: NetRow) -> list[NetRow]:
-    """The row at each corner of its statics; the end guy has no part in them."""
-    apart = {(variant.layout, variant.guys): variant for variant in list_variants(row)}
-    return list(apart.values())
+        pull = kilonewton_from_newton(floor.head.pull)
+        span, share = ranges["inclination"], effects.lateral_share
+        at_corner = RowForces(
+            site=site,
+            row=variant,
+            standard=standard,
+            law=BOUTILLIER_2004,  # no force here depends on it
+            effects=effects,
+            largest={},
+            floor=None,
+            held=_hold_sideways(variant, span, pull, share),
+            tilt=0.0,
+        )
+        variants.append((at_corner, floor))
+    return variants
 
 
 def _find_largest(
-    variants: Sequence[tuple[RowForces, Mapping[str, float]]],
-    anchor: str,
-    width: LoadedWidth,
+    variants: Sequence[tuple[RowForces, Floor]], anchor: Member, width: LoadedWidth
 ) -> float | None:
     """Largest force on an anchor of a support at any corner of the statics [kN]."""
     if anchor == Member.FOOT_ANCHOR:  # no statics change it, unless a guy ends there
         shared = [each for each in variants if each[0].row.layout.is_foot_shared]
         variants = shared or variants[:1]
+    inside = ((forces, floor.find(anchor)) for forces, floor in variants)
     return max(
         (
             find_guideline_force(
-                forces, anchor, width, kilonewton_from_newton(load[anchor])
+                forces, anchor, width, kilonewton_from_newton(force.force)
             )
-            for forces, load in variants
+            for forces, force in inside
+            if force is not None
         ),
         default=None,
     )
 
 
-def _list_notes(row: NetRow, variants: Sequence[RowForces]) -> list[Message]:
+def _list_notes(
+    row: NetRow, held: Sequence[HeldSidewaysRecord | Message]
+) -> list[Message]:
     """Notes on what is taken for granted, and on a load along the row that is not held.
 
     A single guy on each side holds none; where the number is assumed, two guys hold it.
     """
-    lacks = [forces.held for forces in variants if isinstance(forces.held, Message)]
-    held = lacks[:1] if len(lacks) == len(variants) else []
-    ranged = [
-        assumed
+    lacks = [each for each in held if isinstance(each, Message)]
+    shown = tuple(
+        say("table.assumed_one", name=assumed.name, text=assumed.text)
         for assumed in row.assumed
         if assumed.is_range and assumed.key in _IN_LOADS
-    ]
-    shown = [
-        say("table.assumed_one", name=assumed.name, text=assumed.text)
-        for assumed in ranged
-    ]
-    assumed = [say("table.assumed", ranges=tuple(shown))] if shown else []
-    return [*list_assumed(row), *assumed, *held]
+    )
+    notes = list_assumed(row)
+    notes += [say("table.assumed", ranges=shown)] if shown else []
+    return notes + (lacks[:1] if len(lacks) == len(held) else [])
 
 
 # What is assumed of a row that the guideline's forces on its anchors depend on.
@@ -271,33 +260,32 @@ def add_coupled(
     solved : mapping of str to sequence of Check
         Checks of the study by the id of the row; one without any stays as it is.
     """
-    return [_add_of_row(row, solved.get(row.id, ())) for row in rows]
-
-
-def _add_of_row(row: RowAnchors, checks: Sequence[Check]) -> RowAnchors:
-    forces = [
-        replace(anchor, coupled_kN=find_coupled(checks, anchor.anchor, anchor.position))
-        for anchor in row.anchors
+    return [
+        replace(
+            row,
+            anchors=[
+                replace(force, coupled_kN=find_coupled(checks, force))
+                for force in row.anchors
+            ],
+        )
+        for row in rows
+        for checks in [solved.get(row.id, ())]
     ]
-    return replace(row, anchors=forces)
 
 
-def find_coupled(checks: Sequence[Check], anchor: str, position: str) -> float | None:
-    """Largest solved force on an anchor, by the checks of its row [kN]."""
-    own = (
-        check
-        for check in checks
-        if (check.member, check.position) == (anchor, position)
+def find_coupled(checks: Sequence[Check], force: AnchorForce) -> float | None:
+    """Largest of section, panel and truss, or of a rope, by an anchor's check [kN]."""
+    whole = next(
+        (
+            check
+            for check in checks
+            if (check.member, check.position) == (force.anchor, force.position)
+            and check.mode in _OF_FORCE
+        ),
+        None,
     )
-    whole = next((check for check in own if check.mode in _OF_FORCE), None)
-    return max(_list_solved(whole), default=None) if whole else None
-
-
-def _list_solved(check: Check) -> Iterator[float]:
-    """List the forces of section, panel and truss on a support, or the rope's force."""
-    symbols = ("E_c", "E_p", "E_t")
-    for force in map(check.read, symbols):
-        if force is not None:
-            yield force
-    if "E_g" not in check.step_of and (force := check.read("E_k")) is not None:
-        yield force
+    if whole is None:
+        return None
+    symbols = ("E_c", "E_p", "E_t", *(() if "E_g" in whole.step_of else ("E_k",)))
+    solved = (whole.read(symbol) for symbol in symbols)
+    return max((each for each in solved if each is not None), default=None)

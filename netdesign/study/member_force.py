@@ -47,25 +47,6 @@ from netdesign.units import (
 )
 from netdesign.words.message import say
 
-# What the end guy's pull on the head loads, by the part of it in each.
-PUSHED: Mapping[str, str] = {
-    Member.POST: "post_part",
-    Member.POST_BASE: "base_part",
-    Member.UPHILL_GUY: "uphill_part",
-    Member.UPHILL_ANCHOR: "uphill_part",
-    Member.DOWNHILL_GUY: "downhill_part",
-    Member.DOWNHILL_ANCHOR: "downhill_part",
-}
-# Tension of the outer guy of each side by the linear truss.
-_BY_TRUSS: Mapping[str, str] = {
-    Member.UPHILL_GUY: "uphill_guy_kN",
-    Member.UPHILL_ANCHOR: "uphill_guy_kN",
-    Member.DOWNHILL_GUY: "downhill_guy_kN",
-    Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
-}
-# Modes with a force of their own; in all others that of the member counts.
-OWN_FORCES = ("sliding",)
-_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
     Member.UPHILL_GUY: "uphill_part",
@@ -73,6 +54,15 @@ PARTS: Mapping[str, str] = {
     Member.DOWNHILL_GUY: "downhill_part",
     Member.DOWNHILL_ANCHOR: "downhill_part",
 }
+# What the end guy's pull on the head loads, by the part of it in each.
+PUSHED: Mapping[str, str] = {
+    Member.POST: "post_part",
+    Member.POST_BASE: "base_part",
+    **PARTS,
+}
+# Modes with a force of their own; in all others that of the member counts.
+OWN_FORCES = ("sliding",)
+_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
 
 
 def find_cell(row: NetRow, column: str) -> str:
@@ -323,7 +313,8 @@ def _list_rope_leaves(
     rope = forces.largest.get(RopeForce.UPPER_ALONG)
     if member not in PUSHED or at_end is None or rope is None:
         return []
-    truss = getattr(at_end, _BY_TRUSS.get(member, ""), None)
+    of_guy = PUSHED[member].replace("_part", "_guy_kN")  # by the linear truss
+    truss = getattr(at_end, of_guy, None)
     leaves = [] if truss is None else [_solved("E_t", truss, "kN", "truss")]
     part: float = getattr(at_end, PUSHED[member])
     if part > 0.0:

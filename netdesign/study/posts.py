@@ -96,27 +96,18 @@ def find_post_resistance(
         return replace(resistance, lack=error.message)
     if least.value is None:
         return replace(resistance, lack=say("post_bending.too_much", **most.numbers))
-    derivation = say("post_bending.beside", **most.numbers)
-    if most.numbers["efficiency"] == least.numbers["efficiency"]:
-        return replace(resistance, value=most.value, derivation=derivation)
-    span = {
-        key: post.numbers["efficiency"]
-        for key, post in (("low", least), ("high", most))
-    }
-    if most.value is None:  # no load is left to it at the worse end
-        derivation = say("post_bending.beside", **least.numbers)
-        open_point = say("post_bending.too_much_at_most", **span)
+    borne = least if most.value is None else most  # none is left at the worse end
+    derivation = say("post_bending.beside", **borne.numbers)
+    bent = replace(resistance, value=borne.value, derivation=derivation)
+    low, high = (post.numbers["efficiency"] for post in (least, most))
+    if low == high:
+        return bent
+    if most.value is None:
         return replace(
-            resistance, value=least.value, derivation=derivation, open=open_point
+            bent, open=say("post_bending.too_much_at_most", low=low, high=high)
         )
-    open_point = say("post_bending.assumed", **span)
-    return replace(
-        resistance,
-        value=most.value,
-        best=least.value,
-        derivation=derivation,
-        open=open_point,
-    )
+    open_point = say("post_bending.assumed", low=low, high=high)
+    return replace(bent, best=least.value, open=open_point)
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,7 +46,7 @@ from netdesign.study.scopes import (
     sum_up_study,
 )
 from netdesign.words.message import Message, Text, say
-from netdesign.words.names import name, name_check
+from netdesign.words.names import name
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -228,30 +228,6 @@ class RowStudy:
     def member_forces(self) -> list[LargestForce]:
         """Largest forces of post, guys and foot anchor by the section."""
         return [force for force in self.forces if force.quantity in REPORTED_MEMBERS]
-
-    @cached_property
-    def reasons(self) -> list[Message]:
-        """Reasons why the row does not pass: of its checks and of laws not met.
-
-        Checks with the same reason share one line.
-        """
-        titles: dict[str, list[Message]] = {}
-        messages: dict[str, Message] = {}
-        for check in self.checks:
-            if check.verdict is not Verdict.PASS:
-                text = str(check.reason)  # numbers that are not shown may differ
-                title = name_check(check.member, check.mode, check.position)
-                titles.setdefault(text, []).append(title)
-                messages.setdefault(text, check.reason)
-        unproven = [
-            say(
-                "row.check_reason",
-                check=tuple(named) if len(named) > 1 else named[0],
-                reason=messages[text],
-            )
-            for text, named in titles.items()
-        ]
-        return [*unproven, *self.unmet]
 
     @cached_property
     def written(self) -> str:

@@ -171,6 +171,6 @@ def test_coupled_forces_are_those_of_the_stored_study(solved, tmp_path):
 
 
 def test_a_row_that_no_study_has_stays_without_coupled_forces():
-    assert find_coupled([], "foot_anchor", "intermediate") is None
     rows = list_guideline_forces(SITE, PROFILES[0])
+    assert find_coupled([], rows[0].anchors[0]) is None
     assert add_coupled(rows, {}) == rows
