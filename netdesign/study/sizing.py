@@ -26,7 +26,7 @@ from netdesign.structure.members import (
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
-from netdesign.study.records import RowStudy, Study
+from netdesign.study.records import Study
 from netdesign.study.remedies import find_ground, holds_in_ground
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.message import say
@@ -117,69 +117,62 @@ def size_site(
     list of SizedCell
         In the order of rows and columns; empty where every check passes.
     """
-    slots = [slot for slot in _join_slots(study, solved.site) if slot.open_rows]
-    placed = [slot for slot in slots if slot.cell]
-    used_by_type: dict[SizedCell, dict[str, float]] = {slot: {} for slot in slots}
-    for number in range(max((len(slot.types) for slot in placed), default=0)):
+    trials = _Trials(solved=solved, study=study, standard=standard, run=run, read=read)
+    cells = [cell for cell in _list_cells(study, solved.site) if cell.open_rows]
+    placed = [cell for cell in cells if cell.cell]
+    used_by_type: dict[SizedCell, dict[str, float]] = {cell: {} for cell in cells}
+    for number in range(max((len(cell.types) for cell in placed), default=0)):
         trial = {
-            slot: slot.types[number] for slot in placed if number < len(slot.types)
+            cell: cell.types[number] for cell in placed if number < len(cell.types)
         }
-        for slot, used in _try_types(trial, solved, study, standard, run, read):
-            used_by_type[slot][trial[slot]] = used
-    return [_choose(slot, used_by_type[slot]) for slot in slots]
+        for cell, used in trials.list_passing(trial):
+            used_by_type[cell][trial[cell]] = used
+    return [_choose(cell, used) for cell, used in used_by_type.items()]
 
 
-def _join_slots(study: Study, site: Site) -> list[SizedCell]:
-    """Join the cells of several rows into one."""
-    joined: dict[tuple[str, str, str], SizedCell] = {}
-    for row, net_row in zip(study.rows, site.rows, strict=True):
-        for slot in _list_slots(row, net_row, site):
-            key = (slot.cell, "" if slot.cell else row.id, slot.column)
-            joined[key] = _join(joined[key], slot) if key in joined else slot
-    return list(joined.values())
-
-
-def _join(sized: SizedCell, other: SizedCell) -> SizedCell:
-    """Join a cell of two rows: a type has to hold in the ground of both."""
-    return replace(
-        sized,
-        checks={**sized.checks, **other.checks},
-        open_rows=sized.open_rows + other.open_rows,
-        types=tuple(kind for kind in sized.types if kind in other.types),
-        left_out=max(sized.left_out, other.left_out),
-    )
-
-
-def _choose(slot: SizedCell, passing: Mapping[str, float]) -> SizedCell:
+def _choose(cell: SizedCell, passing: Mapping[str, float]) -> SizedCell:
     best = min(passing, key=lambda kind: (-passing[kind], kind), default="")
-    return replace(slot, now=best, used=passing.get(best))
+    return replace(cell, now=best, used=passing.get(best))
 
 
-def _list_slots(row: RowStudy, net_row: NetRow, site: Site) -> Iterator[SizedCell]:
-    """List the cells of a row that name a type, with the checks of the type.
+def _list_cells(study: Study, site: Site) -> Iterator[SizedCell]:
+    """Cells that name a type, with the checks of the type in each row.
 
-    A row is open where a check with a known force does not pass.
+    A row is open where a check with a known force does not pass. Of two rows a type has
+    to hold in the ground of both.
     """
-    checks: dict[tuple[Column, str, str], list[Check]] = {}
-    for check in row.checks:
-        column = _find_column(check.member)
-        if column is not None:
-            place = _find_cell(net_row, column, check.position)
-            checks.setdefault((column, *place), []).append(check)
-    for (column, cell, was), of_cell in checks.items():
-        is_open = any(
-            check.verdict in _OPEN and check.demand_kN is not None for check in of_cell
-        )
-        holding = _compare_grounds(site, net_row, column, was)
+    named: dict[tuple[str, ...], dict[str, list[Check]]] = {}
+    rows = {row.id: row for row in site.rows}
+    for row in study.rows:
+        for check in row.checks:
+            column = _find_column(check.member)
+            if column is not None:
+                cell, was = _find_cell(rows[row.id], column, check.position)
+                key = (column, cell, was, "" if cell else row.id)
+                named.setdefault(key, {}).setdefault(row.id, []).append(check)
+    for (name, cell, was, _), of_rows in named.items():
+        column = next(column for column in _MODES if column == name)
+        grounds = [_compare_grounds(site, rows[row], column, was) for row in of_rows]
         yield SizedCell(
-            checks={row.id: tuple(check.id for check in of_cell)},
-            open_rows=(row.id,) if is_open else (),
+            checks={
+                row: tuple(check.id for check in checks)
+                for row, checks in of_rows.items()
+            },
+            open_rows=tuple(
+                row for row, checks in of_rows.items() if any(map(_is_open, checks))
+            ),
             column=column,
             cell=cell,
             was=was,
-            types=tuple(kind for kind, is_here in holding.items() if is_here),
-            left_out=sum(not is_here for is_here in holding.values()),
+            types=tuple(
+                kind for kind in grounds[0] if all(holds[kind] for holds in grounds)
+            ),
+            left_out=max(list(holds.values()).count(False) for holds in grounds),
         )
+
+
+def _is_open(check: Check) -> bool:
+    return check.verdict in _OPEN and check.demand_kN is not None
 
 
 def _compare_grounds(
@@ -214,69 +207,68 @@ def _find_cell(row: NetRow, column: Column, position: str) -> tuple[str, str]:
     return echo.cell, str(echo.value)
 
 
-def _try_types(
-    trial: Mapping[SizedCell, str],
-    solved: SolvedSite,
-    study: Study,
-    standard: Standard,
-    run: CheckRun,
-    read: ReadInstead,
-) -> Iterator[tuple[SizedCell, float]]:
-    """Cells that pass with their types of a trial, with their largest utilisations.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Trials:
+    """Site as built, with what judges it again with other types in its cells."""
 
-    A type that raises a question leaves its row open, and one that is refused the whole
-    site: the types of other cells are then tried alone.
-    """
-    try:
-        site = read({slot.cell: kind for slot, kind in trial.items()})
-    except SiteDataError:
-        if len(trial) > 1:
-            for slot, kind in trial.items():
-                yield from _try_types({slot: kind}, solved, study, standard, run, read)
-        return
-    by_id = {row.id: row for row in solved.site.rows}
-    rows, judged = _judge_again(site, trial, solved, standard, run)
-    built = {row.id: row.checks for row in study.rows}
-    tried = {row.id: row.checks for row in judged.rows}
-    asked = {
-        row.id for row in rows if set(row.questions) - set(by_id[row.id].questions)
-    }
-    for slot, kind in trial.items():
-        if not asked.isdisjoint(slot.checks):
-            if len(trial) > 1:
-                alone = {slot: kind}
-                yield from _try_types(alone, solved, study, standard, run, read)
-            continue
-        used = [
-            _rate(slot.column, ids, built[row_id], tried[row_id])
-            for row_id, ids in slot.checks.items()
-            if row_id in tried  # its forces are known with this type
-        ]
-        if len(used) == len(slot.checks) and None not in used:
-            yield slot, max(value for value in used if value is not None)
+    solved: SolvedSite
+    study: Study
+    standard: Standard
+    run: CheckRun
+    read: ReadInstead
 
+    def list_passing(
+        self, trial: Mapping[SizedCell, str]
+    ) -> Iterator[tuple[SizedCell, float]]:
+        """Cells that pass with their types of a trial, with their largest utilisations.
 
-def _judge_again(
-    site: Site,
-    slots: Iterable[SizedCell],
-    solved: SolvedSite,
-    standard: Standard,
-    run: CheckRun,
-) -> tuple[Sequence[NetRow], Study]:
-    """Rows of some cells whose forces are known with other types, and their study."""
-    wanted = {row_id for slot in slots for row_id in slot.checks}
-    old = zip(solved.site.rows, solved.rows, strict=True)
-    by_id = {row.id: (row, of_row) for row, of_row in old}
-    rows = [
-        row
-        for row in site.rows
-        if row.id in wanted
-        and have_same_forces(
-            row, site.ranges, by_id[row.id][0], solved.site.ranges, run
+        A type that raises a question leaves its row open, and one that is refused the
+        whole site: the types of other cells are then tried alone.
+        """
+        try:
+            site = self.read({cell.cell: kind for cell, kind in trial.items()})
+        except SiteDataError:
+            yield from self._try_alone(trial, trial)
+            return
+        questions = {row.id: set(row.questions) for row in self.solved.site.rows}
+        rows, judged = self._judge_again(site, trial)
+        asked = {row.id for row in rows if set(row.questions) - questions[row.id]}
+        alone = [cell for cell in trial if not asked.isdisjoint(cell.checks)]
+        yield from self._try_alone(alone, trial)
+        built = {row.id: row.checks for row in self.study.rows}
+        tried = {row.id: row.checks for row in judged.rows}
+        for cell in trial:
+            if cell in alone or not tried.keys() >= cell.checks.keys():
+                continue  # not all its forces are known with this type
+            used = [
+                _rate(cell.column, ids, built[row_id], tried[row_id])
+                for row_id, ids in cell.checks.items()
+            ]
+            if None not in used:
+                yield cell, max(value for value in used if value is not None)
+
+    def _try_alone(
+        self, cells: Iterable[SizedCell], trial: Mapping[SizedCell, str]
+    ) -> Iterator[tuple[SizedCell, float]]:
+        for cell in cells if len(trial) > 1 else ():
+            yield from self.list_passing({cell: trial[cell]})
+
+    def _judge_again(
+        self, site: Site, cells: Iterable[SizedCell]
+    ) -> tuple[Sequence[NetRow], Study]:
+        """Rows whose forces are known with other types in cells, and their study."""
+        wanted = {row_id for cell in cells for row_id in cell.checks}
+        built, run = self.solved.site, self.run
+        known = zip(built.rows, self.solved.rows, strict=True)
+        by_id = {row.id: (row, of_row) for row, of_row in known}
+        rows = tuple(
+            row
+            for row in site.rows
+            if row.id in wanted
+            and have_same_forces(row, site.ranges, by_id[row.id][0], built.ranges, run)
         )
-    ]
-    envelopes = [by_id[row.id][1] for row in rows]
-    return rows, judge_site(replace(site, rows=tuple(rows)), envelopes, standard, run)
+        solved = [by_id[row.id][1] for row in rows]
+        return rows, judge_site(replace(site, rows=rows), solved, self.standard, run)
 
 
 def _rate(
