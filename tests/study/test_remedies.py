@@ -63,7 +63,7 @@ def test_whatever_is_known_of_grounds_no_type_of_another_one_is_offered(workbook
         built = {name_ground(n): dice.choice((ground, "")) for n in USED}
         instead = drawn | built | {find_cell("rows", "ground"): ground}
         instead = {cell: one for cell, one in instead.items() if one != "till"}
-        site = read_site(workbook, instead=instead or None)
+        site = read_site(workbook, instead=instead)
         grounds = {one.type_id: one.ground for one in site.catalogue}
         for given, told in list_offers(site, dice.uniform(230.0, 650.0)):
             ground = site.rows[0].ground_type or given.ground
@@ -79,7 +79,7 @@ def test_a_type_of_which_nobody_gives_the_ground_is_not_offered(workbook):
     """
     unknown = {name_ground(0): ""}
     for instead, expected in (({}, "A32-tested"), (unknown, "B50-tested")):
-        site = read_site(workbook, instead=instead or None)
+        site = read_site(workbook, instead=instead)
         offers = {
             given.member: told
             for given, told in list_offers(site, 600.0)
