@@ -8,7 +8,6 @@ from netdesign.resistance.ground import PullOutTests
 from netdesign.site import net_rows
 from netdesign.snow.ground import (
     LARGEST_GLIDE_FACTOR,
-    GroundLaw,
     build_ground_from_glide_factor,
 )
 from netdesign.structure.members import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
@@ -26,19 +25,6 @@ def echoes(net_row):
 
 
 # What a sound workbook gives
-
-
-def test_values_arrive_in_si_units(book):
-    row = book.read().rows[0]
-    assert row.id == "R1"
-    assert row.slope_angle == math.radians(40)
-    assert row.snow_thickness == 3.0
-    assert row.upslope_length == 20.0
-    assert row.ground == GroundLaw(kind="free")
-    assert row.net_height == 3.5
-    assert row.net_stiffness_per_m == 9e6
-    assert row.layout.post_spacing == 3.5
-    assert row.length == 35.0
 
 
 def test_ranges_are_read_and_an_inclination_not_given_is_assumed(book):

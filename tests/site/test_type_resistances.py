@@ -344,20 +344,6 @@ def test_the_panel_of_a_row_in_si():
         assert (min(known), max(known)) == (3e6, 150e6)
 
 
-@each(
-    "key, value",
-    [
-        *(("ridge_rope", "B9"), ("lower_rope", "A1"), ("ridge_sag", 31)),
-        *(("lower_sag", -0.01), ("lower_sag", "8 to 12"), ("mid_anchors", "some")),
-    ],
-)
-def test_bad_input_of_a_panel_is_one_finding_with_its_cell(tmp_path, key, value):
-    tables = tiny()
-    tables["net_types"][0][key] = value
-    (finding,) = refuse(tmp_path, tables)
-    assert f"{finding.sheet}!{finding.cell}" == find_cell("net_types", key)
-
-
 # What is listed of empty cells
 
 

@@ -102,7 +102,10 @@ SPOILT = [
     ("rows", "ground", "cheese"),
     ("net_types", "net_height", "tall"),
     ("net_types", "slack", -4),
-    ("net_types", "ridge_rope", "S 99"),
+    *(("net_types", key, "S 99") for key in ("ridge_rope", "lower_rope")),
+    *(("net_types", "lower_sag", bad) for bad in (31, -0.01, "8 to 12")),
+    ("net_types", "ridge_sag", 31),
+    ("net_types", "mid_anchors", "some"),
     ("net_types", "guy_count", 3),
     ("anchor_types", "tendon", "strong"),
     ("anchor_types", "proven", "I think so"),
@@ -157,18 +160,6 @@ def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
     with pytest.raises(SiteDataError) as refused:
         read_site(write_sheets(tmp_path / "site.xlsx", sheets))
     assert {one.cell[:1] for one in refused.value.findings} == {"ABCDEF"[column]}
-
-
-def test_nets_that_go_on_at_both_ends_have_no_end():
-    tables = draw_tables(5, rows=4)
-    first = tables["rows"][0]
-    for line in tables["rows"]:  # alike, so that the nets are one
-        line |= {key: first[key] for key in first if key not in ("id", "gap")}
-    for line, gap in zip(tables["rows"], ("into a2", "into A3", 1.5, 2.0), strict=True):
-        line["gap"] = gap
-    site = read_tables(tables)
-    assert [row.gap for row in site.rows] == [math.inf, 0.0, 1.5, 2.0]
-    assert [row.row_end is None for row in site.rows] == [False, True, False, False]
 
 
 @each("language, word", [("en", "free"), ("fr", "libre"), ("de", "frei")])
@@ -237,22 +228,6 @@ def test_a_pull_out_force_is_known_in_one_way(proven, basis):
         if (one.member, one.mode) == ("foot_anchor", "pull_out")
     )
     assert (known.basis, known.value) == (basis, 1e3 * anchor["pull_out"])
-
-
-def test_layers_belong_to_the_rows_that_have_some():
-    tables = draw_tables(10)
-    line = tables["rows"][2]
-    height = line["snow"]
-    tables["layers"] = [
-        {"row": "a3", "layer": 1, "thickness": round(0.4 * height, 3), "density": 380},
-        {"row": "a3", "layer": 2, "thickness": round(0.6 * height, 3), "density": 310},
-    ]
-    measures = dict.fromkeys((("layers", "thickness"), ("rows", "snow")), "vertical")
-    site = read_tables(tables, measures)
-    assert [len(row.layers) for row in site.rows] == [0, 0, 2, 0]
-    total = sum(layer.thickness for layer in site.rows[2].layers)
-    factor = math.cos(math.radians(line["slope_angle"]))
-    assert total == pytest.approx(height * factor, abs=0.011)
 
 
 def test_a_word_declares_several_checks_of_several_rows():
