@@ -100,7 +100,7 @@ class NetRow:
     # Between two posts: one, or several of which the worst counts, where something of
     # it is assumed; none of a row without ropes: a metre of net times the spacing.
     panels: tuple[Panel, ...] = ()
-    panel_assumed: tuple[Message, ...] = ()  # names of its columns that are empty
+    is_panel_assumed: bool = False  # as of every row that is read: no cell says its cut
     row_end: RowEnd | None = None  # of a row with panel and end
     # mesh, and border ropes where there are some
     net_parts: tuple[Resistance, ...] = field(default=(), hash=False)

@@ -39,7 +39,6 @@ from netdesign.site.snow_sheets import (
 from netdesign.site.statements import (
     build_panels,
     has_same_types,
-    list_assumed,
 )
 from netdesign.site.support_types import (
     build_row_end,
@@ -255,7 +254,7 @@ def _compose_net_row(
         axes=read_axes(row, ANCHORS, types),
         anchors=read_anchors(row, ANCHORS, types),
         panels=build_panels(row, types["ropes"]),
-        panel_assumed=list_assumed(row, types["ropes"]),
+        is_panel_assumed=True,
         row_end=None if gap == 0.0 else build_row_end(at_end, types),
         net_parts=find_net_parts(row, types),
         approval=read_approval(row),

@@ -39,9 +39,6 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name_check, name_member
 
 _ROPES = ("ridge_rope", "lower_rope")
-_OF_PANEL = ("ridge_rope", "ridge_sag", "lower_rope", "lower_sag", "mid_anchors")
-# Of a panel, without a column: the worst of what is built counts.
-_NEVER = (say("column.Nets.panel_system"), say("column.Nets.net_cut"))
 # Columns that name a type of a support.
 TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
@@ -63,13 +60,6 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
         stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
         has_mid_anchors=row["mid_anchors"].word == "yes",
     )
-
-
-def list_assumed(row: Row, ropes: Mapping[str, Row]) -> tuple[Message, ...]:
-    """Names of what is assumed of the panel of a net row."""
-    lacking = [row[key].field.name for key in _OF_PANEL if row[key].state != "given"]
-    open_ropes = list_open_ropes(row, ropes)
-    return (*_NEVER, *lacking, *(say("panel.stiffness_of", id=x) for x in open_ropes))
 
 
 def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:

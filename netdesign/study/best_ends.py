@@ -156,7 +156,7 @@ class _BestEnds:
             check = self._ease(_take_off_ropes, "assumed.by_ropes")
         if check.verdict is Verdict.FAIL and _has_open_truss(self.row):
             check = self._ease(take_off_truss, "assumed.by_stiffness")
-        is_open = bool(self.searched or self.task.row.panel_assumed)
+        is_open = bool(self.searched or self.task.row.is_panel_assumed)
         if check.verdict is Verdict.FAIL and is_open:
             check = check.ease(self._find_least())
         if check.verdict is not Verdict.FAIL and (deciding := self._tell()):

@@ -94,7 +94,7 @@ def _record(
     # Between two panels or two layouts as they may be built, the guy of one side can
     # give way to that of the other: then none is counted on.
     least = 0.0
-    if not row.panel_assumed and not is_layout_assumed(row):
+    if not row.is_panel_assumed and not is_layout_assumed(row):
         in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
         least = max(0.0, find_least_tension(task.solved.results) - in_guys)
     return HeldSidewaysRecord(

@@ -329,7 +329,7 @@ def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
 def _list_sag_notes(row: NetRow, drawn: CaseResult | None) -> Iterator[Message]:
     """Height of the loaded net between two posts, in the case that is drawn."""
     panel = drawn.panel if drawn else None
-    if row.panel_assumed or not isinstance(panel, PanelForces):
+    if row.is_panel_assumed or not isinstance(panel, PanelForces):
         return
     height = float(panel.solution.curves[-1][1, -1])  # of the head, in mid-panel
     yield say(

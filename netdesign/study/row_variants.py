@@ -81,7 +81,7 @@ def find_least_forces(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> Row
     on it least. As `find_forces_alone` where the panel is given.
     """
     cases = gather_cases(task, row, solved)
-    if not row.panel_assumed:
+    if not row.is_panel_assumed:
         return place_forces(cases, read_cases(cases))
     heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
@@ -225,6 +225,6 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
 def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
     """Reason why an assumed panel fails, so that a force may be larger."""
     failed = [result for result in results if isinstance(result.panel, FailedPanel)]
-    if not failed or not row.panel_assumed:
+    if not failed or not row.is_panel_assumed:
         return None
     return say("panel.assumed_fails", reason=failed[0].lack or "")

@@ -333,7 +333,7 @@ def test_the_panel_of_a_row_in_si():
     del tables["ropes"][-1]["axial_stiffness"]
     (row,) = read_tables(tables).rows
     assert len({one.lower.stiffness for one in row.panels}) > 1
-    assert any("of rope B2" in render(one, "en") for one in row.panel_assumed)
+    assert row.find_assumed("axial_stiffness") is not None
     for key in ("ridge_rope", "lower_rope", "ridge_sag", "lower_sag"):
         del net[key]
     (row,) = read_tables(tables).rows

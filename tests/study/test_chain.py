@@ -46,7 +46,7 @@ def state_all(site):
         name: tuple(replace(one, is_of_whole=True) for one in chain)
         for name, chain in site.links.items()
     }
-    net = {"panels": row.panels[1:2], "panel_assumed": ()}  # of one cut
+    net = {"panels": row.panels[1:2], "is_panel_assumed": False}  # of one cut
     row = replace(row, **net)
     return replace(site, rows=(row,), links=links)
 
