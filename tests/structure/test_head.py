@@ -11,6 +11,7 @@ from netdesign.structure.head import (
     MIN_GUY_ANGLE,
     HeadForces,
     compute_head_forces,
+    hold_head,
     resolve_signed,
 )
 from netdesign.structure.layout import SupportPoints
@@ -49,6 +50,11 @@ def test_forces_by_hand(pull, uphill, downhill, post):
         guys = (forces.uphill_guy_tension, forces.downhill_guy_tension)
         assert guys == pytest.approx((uphill * KN, downhill * KN), rel=1e-14, abs=0)
         assert forces.post_compression == pytest.approx(post * KN, rel=1e-14, abs=0)
+
+
+@pytest.mark.parametrize("guy", [(0.0, 0.0), (0.0, -1.0), (-0.6, -0.8)])
+def test_a_head_without_a_pull_is_held_whatever_its_guys(guy):
+    assert hold_head((0.0, 0.0), (0.0, -1.0), guy, guy).is_held
 
 
 @pytest.mark.parametrize("sign", [1, -1])
