@@ -136,22 +136,22 @@ class ContentError(ValueError):
         return str(self.message)
 
 
-class ModelError(NetDesignError):
+class InputError(NetDesignError):
+    """What the user gave is refused."""
+
+    exit_code = 3
+
+
+class ModelError(InputError):
     """An input is impossible or outside what the model can represent."""
 
-    exit_code = 3
 
-
-class StandardError(NetDesignError):
+class StandardError(InputError):
     """A limit profile is missing, malformed or incomplete."""
 
-    exit_code = 3
 
-
-class SiteDataError(NetDesignError):
+class SiteDataError(InputError):
     """A site workbook was refused; carries every finding, not the first."""
-
-    exit_code = 3
 
     def __init__(
         self, findings: Sequence[Remark], lines: tuple[Message, ...] = ()
@@ -164,22 +164,16 @@ class SiteDataError(NetDesignError):
         self.args = (findings, lines)
 
 
-class StudyError(NetDesignError):
+class StudyError(InputError):
     """A stored study cannot be read."""
 
-    exit_code = 3
 
-
-class SceneFileError(NetDesignError):
+class SceneFileError(InputError):
     """A scene file was refused; the message lists every fault."""
 
-    exit_code = 3
 
-
-class TerrainError(NetDesignError):
+class TerrainError(InputError):
     """A grid, lines on it, or prices were refused; the message lists every fault."""
-
-    exit_code = 3
 
 
 class AddonError(NetDesignError):

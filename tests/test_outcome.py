@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from netdesign.outcome import (
     Fault,
+    InputError,
     ModelError,
     NetDesignError,
     Outcome,
@@ -89,7 +90,11 @@ def test_every_error_knows_its_exit_code(kind, exit_code):
 
 def test_no_error_ends_like_a_verdict():
     """1 means that a check fails and 0 that all pass: no error may say so."""
-    kinds = [NetDesignError, *NetDesignError.__subclasses__()]
+    bases = (NetDesignError, InputError)
+    kinds = [
+        NetDesignError,
+        *(kind for base in bases for kind in base.__subclasses__()),
+    ]
     assert len(kinds) > 5
     assert not {kind.exit_code for kind in kinds} & {0, 1}
 
