@@ -17,6 +17,7 @@ from netdesign.checks.inputs import Band
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.rows import LARGE
 from netdesign.envelope.run import CaseResult
+from netdesign.envelope.signed_forces import gather_pulls
 from netdesign.guideline.floor import Floor
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.structure.anchors import measure_pull
@@ -79,21 +80,15 @@ def read_heads(
     post_spacing: float, results: Sequence[CaseResult], *, has_panels: bool = True
 ) -> HeadPulls:
     """Pulls on the heads in the solved cases of a row; those of panels if wanted."""
-    states = []
-    for result in results:
-        if result.anchors is None:
-            continue
-        own = result.solution.head.error if result.solution else 0.0
-        ends = [(*result.anchors.head_pull, own * post_spacing)]
-        if has_panels and isinstance(result.panel, PanelForces):
-            errors = result.panel.error * post_spacing
-            ends += np.column_stack([result.panel.solved.head, errors]).tolist()
-        states += [(result.case.inclination, *end) for end in ends]
-    inclinations, x, y, errors = np.array(states).reshape(-1, 4).T
+    solved = [result for result in results if result.anchors and result.solution]
+    pulls = gather_pulls(solved, post_spacing)
+    most = None if has_panels else 1
+    x, y, errors = (part[:, :most].ravel() for part in (*pulls.head, pulls.head_errors))
+    inclinations = [result.case.inclination for result in solved]
     distinct, places = np.unique(inclinations, return_inverse=True)
     return HeadPulls(
         inclinations=tuple(distinct.tolist()),
-        places=places,
+        places=places.repeat(x.size // max(1, places.size)),
         pulls=np.array((x, y)),
         errors=errors,
         has_panels=has_panels and bool(list_panels(results)),

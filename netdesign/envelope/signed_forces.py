@@ -62,11 +62,15 @@ class CasePulls(NamedTuple):
         are those of its section.
     feet, beside_post : ndarray, shape (cases, 1 + panels)
         Force on the more loaded foot anchor, and on that beside a post [N].
+    foot_errors, head_errors : ndarray, shape (cases, 1 + panels)
+        Of the pulls [N].
     """
 
     head: Vector[Floats]
     feet: Floats
     beside_post: Floats
+    foot_errors: Floats
+    head_errors: Floats
 
 
 def gather_pulls(results: Sequence[CaseResult], width: float) -> CasePulls:
@@ -74,19 +78,22 @@ def gather_pulls(results: Sequence[CaseResult], width: float) -> CasePulls:
     panels = [
         one.panel if isinstance(one.panel, PanelForces) else None for one in results
     ]
-    most = max(len(panel.solved.panels) if panel else 0 for panel in panels)
-    table = np.empty((4, len(results), 1 + most))
+    counts = (len(panel.solved.panels) if panel else 0 for panel in panels)
+    most = max(counts, default=0)
+    table = np.empty((6, len(results), 1 + most))
     for k, (result, panel) in enumerate(zip(results, panels, strict=True)):
         if result.solution is None:
             raise ValueError("a case without a solution")
         foot, head = result.solution.foot, result.solution.head
         at_foot = np.hypot(width * foot.x, width * foot.y)  # as its band has it
-        own = np.array([width * head.x, width * head.y, at_foot, at_foot])
-        table[:, k] = own[:, None]
+        errors = width * foot.error, width * head.error
+        own = [width * head.x, width * head.y, at_foot, at_foot, *errors]
+        table[:, k] = np.array(own)[:, None]
         if panel:
             table[:2, k, 1:] = panel.solved.head.T
-            table[2:, k, 1:] = panel.largest_feet, panel.feet_beside_posts
-    return CasePulls((table[0], table[1]), table[2], table[3])
+            table[2:4, k, 1:] = panel.largest_feet, panel.feet_beside_posts
+            table[4:, k, 1:] = width * panel.error
+    return CasePulls((table[0], table[1]), *table[2:])
 
 
 _NET = "signed foot"
@@ -132,17 +139,14 @@ def _read_solved(
     width, ends = layouts[0].post_spacing, spread_ends(layouts, results)
     pulls = gather_pulls(results, width)
     forces = _find_signed(pulls.head, pulls.feet, ends).max(axis=1)
-    panels = [x.panel if isinstance(x.panel, PanelForces) else None for x in results]
-    states = [result.solution for result in results if result.solution]
-    foot, head = np.array([(x.foot.error, x.head.error) for x in states]).T
-    by_panel = np.array([np.max(x.error) if x else 0.0 for x in panels])
-    has_panel = np.array([panel is not None for panel in panels])
+    has_panel = np.array([isinstance(x.panel, PanelForces) for x in results])
+    by_panel = pulls.head_errors[:, 1:].max(axis=1, initial=0.0)
     of_panel = np.where(has_panel, forces[..., 1:].max(axis=-1, initial=-np.inf), 0.0)
     read = [
         (forces[..., 0], of_panel),
         (
-            _find_errors(width * foot, width * head, ends),
-            has_panel * _find_errors(width * by_panel, width * by_panel, ends),
+            _find_errors(pulls.foot_errors[:, 0], pulls.head_errors[:, 0], ends),
+            has_panel * _find_errors(by_panel, by_panel, ends),
         ),
     ]
     return np.array([np.concatenate(pair).T for pair in read])

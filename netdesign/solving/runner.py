@@ -31,7 +31,6 @@ class Counts:
 
     solved: int = 0
     reused: int = 0
-    failed: int = 0
     lost: int = 0  # with their worker or by a fault: no other run can rely on this one
 
 
@@ -94,7 +93,6 @@ class Runner:
         self.ask_store(lambda store: store.keep(name, end), None)
         self.counts.solved += 1
         if isinstance(end, FailedSolution):
-            self.counts.failed += 1
             self.counts.lost += end.outcome in FORGOTTEN
             self.keep_fault(end.fault)
         self.on_done(end)
@@ -103,7 +101,6 @@ class Runner:
         """Count what another runner did for this one, and remember its faults."""
         self.counts.solved += theirs.solved
         self.counts.reused += theirs.reused
-        self.counts.failed += theirs.failed
         self.counts.lost += theirs.lost
         for _ in range(theirs.solved + theirs.reused):
             self.on_done(None)

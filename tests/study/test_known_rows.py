@@ -342,7 +342,7 @@ def test_the_runner_counts_what_was_lost(lost):
     for outcome in (lost, Outcome.NO_EQUILIBRIUM):
         failed = FailedSolution(outcome=outcome, reason=say("worker.died"))
         runner._note("a", failed)
-    assert (runner.counts.failed, runner.counts.lost) == (2, 1)
+    assert (runner.counts.solved, runner.counts.lost) == (2, 1)
 
 
 def test_a_row_s_part_is_judged_as_in_the_whole_site(quick_names):

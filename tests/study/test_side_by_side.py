@@ -127,11 +127,11 @@ def test_what_fails_in_a_worker_is_told_as_if_it_failed_here(pool):
 
 def test_what_a_worker_counted_and_met_is_counted_once_more():
     done = []
-    runner = Runner(on_done=done.append, counts=Counts(solved=3, reused=1, failed=1))
+    runner = Runner(on_done=done.append, counts=Counts(solved=3, reused=1))
     fault = Fault(kind="ValueError", message="spoilt", place="snow/mesh.py:88")
     runner.keep_fault(fault, "R7")
-    runner.take(Counts(solved=5, reused=2, failed=4, lost=3), {fault: {"R2"}})
-    assert runner.counts == Counts(solved=8, reused=3, failed=5, lost=3)
+    runner.take(Counts(solved=5, reused=2, lost=3), {fault: {"R2"}})
+    assert runner.counts == Counts(solved=8, reused=3, lost=3)
     assert runner.faults == {fault: {"R2", "R7"}}
     assert len(done) == 7
 
