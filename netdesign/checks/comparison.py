@@ -22,8 +22,8 @@ from netdesign.checks.schema import (
     CORRELATION_LEAST,
     CORRELATION_MEAN,
     TEST_COUNT,
+    UPLIFT_FACTOR,
     StandardValue,
-    list_action_factors,
 )
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import PullOutTests
@@ -240,8 +240,9 @@ def leave_open(
 
 def find_action_factor(standard: Standard, mode: str = "") -> Quantity:
     """Factor on the action, gamma_E: on that of uplift its own, where there is one."""
-    ids = (key for key in list_action_factors(mode) if standard.find(key))
-    return find_profile_value(standard, next(ids, ACTION_FACTOR), "γ_E")
+    is_uplift = mode == "tension" and standard.find(UPLIFT_FACTOR) is not None
+    key = UPLIFT_FACTOR if is_uplift else ACTION_FACTOR
+    return find_profile_value(standard, key, "γ_E")
 
 
 def find_profile_value(standard: Standard, key: str, symbol: str) -> Quantity:

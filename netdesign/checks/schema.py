@@ -89,11 +89,6 @@ FACTOR_IDS = (
 )
 
 
-def list_action_factors(mode: str) -> tuple[str, ...]:
-    """Ids of the factor on the force of a check, the closest one first."""
-    return (UPLIFT_FACTOR, ACTION_FACTOR) if mode == "tension" else (ACTION_FACTOR,)
-
-
 class _Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, strict=True, str_strip_whitespace=True
