@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -83,11 +84,8 @@ def alone():
 
 @pytest.mark.parametrize("processes", [1, 2, 3])
 def test_a_pool_gives_the_same_bytes_as_one_process(alone, processes):
-    pool = ProcessPool(processes, worth=1)
-    try:
+    with closing(ProcessPool(processes, worth=1)) as pool:
         assert collect(pool, JOBS) == alone
-    finally:
-        pool.close()
     assert multiprocessing.active_children() == []
 
 
@@ -97,11 +95,8 @@ def kill_within(jobs):
 
 
 def test_a_worker_that_dies_costs_one_case_by_name(alone):
-    pool = ProcessPool(2, worth=1)
-    try:
+    with closing(ProcessPool(2, worth=1)) as pool:
         found = collect(pool, kill_within(JOBS))
-    finally:
-        pool.close()
     assert found.pop(3) == encode_end(LOST)
     assert found == alone
     assert multiprocessing.active_children() == []
@@ -122,20 +117,16 @@ def raise_elsewhere(own, value):
 
 @pytest.mark.parametrize("work", [die_elsewhere, raise_elsewhere])
 def test_a_call_that_a_worker_does_not_end_is_made_here(work):
-    pool = ProcessPool(2)
-    try:
+    with closing(ProcessPool(2)) as pool:
         waiting = [
             pool.begin(math.hypot, 3.0, 4.0),
             pool.begin(work, os.getpid(), 0.31),
         ]
         assert [finish() for finish in waiting] == [5.0, 0.31]
-    finally:
-        pool.close()
 
 
 def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
-    pool = ProcessPool(2, worth=1)
-    try:
+    with closing(ProcessPool(2, worth=1)) as pool:
         assert collect(pool, JOBS) == alone
         executor = pool._pool
         os.kill(next(iter(executor._processes)), signal.SIGKILL)
@@ -146,8 +137,6 @@ def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
         assert executor._broken
         assert pool.begin(math.hypot, 3.0, 4.0)() == 5.0
         assert collect(pool, JOBS) == alone
-    finally:
-        pool.close()
 
 
 def test_a_bug_in_one_case_is_its_outcome():
@@ -170,10 +159,8 @@ def assert_fault(workers, alone):
 
 @pytest.mark.parametrize("workers", [OwnProcess(), ProcessPool(2, worth=1)])
 def test_a_fault_comes_whole_from_any_process(workers, alone):
-    try:
+    with closing(workers):
         assert_fault(workers, alone)
-    finally:
-        workers.close()
 
 
 def test_an_interrupt_leaves_no_process_behind():
@@ -248,33 +235,24 @@ def cluster():
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
-    workers = build_workers(f"dask://{cluster}", 1)
-    try:
+    with closing(build_workers(f"dask://{cluster}", 1)) as workers:
         assert collect(workers, JOBS) == alone
-    finally:
-        workers.close()
 
 
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore")
 def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
-    workers = DaskCluster(cluster)
-    try:
+    with closing(DaskCluster(cluster)) as workers:
         found = collect(workers, kill_within(JOBS))
         workers._client.wait_for_workers(2, timeout=60)  # for those who come next
-    finally:
-        workers.close()
     assert found.pop(3) == encode_end(LOST)
     assert found == alone
 
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_fault_comes_whole_from_a_cluster(cluster, alone):
-    workers = DaskCluster(cluster)
-    try:
+    with closing(DaskCluster(cluster)) as workers:
         assert_fault(workers, alone)
-    finally:
-        workers.close()
 
 
 SCHEDULER = """
