@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 
 DOTS_PER_INCH = 200
 _SCALE = DOTS_PER_INCH / 72.0  # of a point [pixels]
-_STEP = re.compile(r"([A-Za-z])|(-?[\d.]+(?:e-?\d+)?)")
+_STEP = re.compile(r"([A-DF-Za-df-z])([^A-DF-Za-df-z]*)")  # e is an exponent
 _SIZES = {"M": 2, "L": 2, "l": 2, "H": 1, "h": 1, "V": 1, "v": 1, "Z": 0, "z": 0}
+_NUMBER = re.compile(r"-?[\d.]+(?:e-?\d+)?")
 _NUMBER_OF_COLOURS = 256
 
 Look = Mapping[str, str]
@@ -127,34 +128,21 @@ def _follow(steps: str) -> Path:
     points: list[tuple[float, float]] = []
     codes: list[Any] = []
     x = y = 0.0
-    for command, numbers in _list_steps(steps):
+    for command, text in _STEP.findall(steps):
+        numbers = [float(number) for number in _NUMBER.findall(text)]
+        if len(numbers) != _SIZES.get(command):
+            raise ValueError(f"a drawing has a step that is not known: {command}{text}")
         dx, dy = (x, y) if command.islower() else (0.0, 0.0)
-        if command in "Zz":
-            points.append((x, y))
-            codes.append(Path.CLOSEPOLY)
-            continue
         if command in "MLl":
             x, y = numbers[0] + dx, numbers[1] + dy
         elif command in "Hh":
             x = numbers[0] + dx
-        else:
+        elif command in "Vv":
             y = numbers[0] + dy
         points.append((x, y))
-        codes.append(Path.MOVETO if command == "M" else Path.LINETO)
+        special = {"M": Path.MOVETO, "Z": Path.CLOSEPOLY, "z": Path.CLOSEPOLY}
+        codes.append(special.get(command, Path.LINETO))
     return Path(points, codes)
-
-
-def _list_steps(steps: str) -> Iterator[tuple[str, list[float]]]:
-    """Each command with its numbers."""
-    signs = [match.groups() for match in _STEP.finditer(steps)]
-    place = 0
-    while place < len(signs):
-        command = signs[place][0]
-        if command not in _SIZES:
-            raise ValueError(f"a drawing has a step that is not known: {command}")
-        numbers = signs[place + 1 : place + 1 + _SIZES[command]]
-        yield command, [float(number) for _, number in numbers]
-        place += 1 + _SIZES[command]
 
 
 def _place(paper: _Paper, path: Path) -> Path:

@@ -40,7 +40,9 @@ def test_shapes_stand_where_the_drawing_has_them():
     assert look(picture, 20, 30) == look(picture, 40, 15) == (255, 255, 255)
 
 
-@pytest.mark.parametrize("shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>'])
+@pytest.mark.parametrize(
+    "shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>', '<path d="M0 0L1 1 2 2"/>']
+)
 def test_an_unknown_shape_is_a_fault_never_a_gap(shape):
     svg = Chart().write(72.0, "A", width=144.0).replace("</svg>", f"{shape}</svg>")
     with pytest.raises(ValueError, match="not known"):
