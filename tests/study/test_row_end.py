@@ -53,6 +53,46 @@ def judged():
     return judge(with_panel(a_panel(), end=an_end(angle=37.0)))
 
 
+def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
+    _, study = judged
+    row, checks = study.rows[0], checks_of(study)
+    forces = {one.quantity: one for one in row.forces}
+    width = find_effects(with_panel(a_panel()), PROFILE, RANGES).find_support("edge")
+    factor = compute_end_factor(width, 3.5)
+    assert factor > 1.2
+    lower, upper = (
+        factor * forces[f"panel_{rope}_along"].value_kN for rope in ("lower", "upper")
+    )
+    upper *= row.floor.ridge_rope  # the guideline's load pulls more on it, (P12)
+    lower *= row.floor.lower_rope
+    assert row.floor.ridge_rope > 1.0
+    expected = {
+        "lateral_anchor.tendon.end": lower,
+        "lateral_anchor.pull_out.end": lower,
+        "end_guy.rope.end": upper / math.cos(math.radians(37.0)),
+        "end_guy_anchor.tendon.end": upper / math.cos(math.radians(37.0)),
+        "end_guy_anchor.pull_out.end": upper / math.cos(math.radians(37.0)),
+    }
+    for name, force in expected.items():
+        check = checks[name]
+        assert check.read("E_k") == pytest.approx(force, rel=1e-12)
+        assert check.verdict is Verdict.PASS
+        assert check.position == "edge"
+    post = checks["post.compression.end"]
+    # Abreast of the head: 30 deg of the net, 15 of the post, both anchors 3 m away.
+    fall = math.atan2(2.5, 2.5 * math.tan(math.radians(30.0)) + 3.0)
+    part = math.cos(fall) / math.cos(fall + math.radians(15.0))
+    pushed = part * upper * math.tan(math.radians(37.0))
+    assert post.read("Z") == pytest.approx(pushed, rel=1e-12)
+    assert post.read(post.name_force("p")) > pushed
+    assert checks["post.compression"].read("Z") is None
+    width = post.read("b_e") / post.read("b")
+    for model, inside in (("coupled", "E_s"), ("panel", "E_p0")):  # the head holds both
+        of_net = (post.read(inside) + (post.read("A") or 0.0)) * width
+        held = post.read(post.name_force(model[0]))
+        assert held == pytest.approx(of_net + pushed, rel=1e-12)
+
+
 RANK = [Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS]
 GROUPS = ("end.", "lateral.", "post.", "tests.", "correlation.", "geometry.", "soil.")
 
