@@ -34,29 +34,21 @@ def assert_covers(found, truth):
         assert found.values[place][quantity] == found.maximum[quantity]
 
 
+def narrow_peak(seed):
+    """As narrow as is resolved."""
+    return peak(seed, RESOLVED_SHARE)
+
+
 @pytest.mark.parametrize("seed", FEW)
-@pytest.mark.parametrize("family", [smooth, valley])
-def test_bound_holds_and_is_closed(family, seed):
+@pytest.mark.parametrize("family", [smooth, valley, ridge, narrow_peak])
+def test_the_bound_holds_and_is_closed(family, seed):
     response = family(seed)
     found = drive(response, 3)
-    assert found.is_closed
     assert_covers(found, true_maxima(response, 3))
-    gaps = np.array(found.upper_bound) - np.array(found.maximum)
-    assert np.all(gaps <= 0.005 * np.array(found.maximum) * (1 + 1e-6))
-
-
-@pytest.mark.parametrize("seed", FEW)
-def test_a_ridge_inside_the_box_is_found(seed):
-    response = ridge(seed)
-    assert_covers(drive(response, 3), true_maxima(response, 3))
-
-
-@pytest.mark.parametrize("seed", FEW)
-def test_a_peak_as_narrow_as_is_resolved_is_never_missed(seed):
-    response = peak(seed, RESOLVED_SHARE)
-    found = drive(response, 3)
-    assert found.is_closed
-    assert_covers(found, true_maxima(response, 3))
+    assert found.is_closed or family is ridge  # its maximum may lie on the kink
+    if found.is_closed:
+        gaps = np.array(found.upper_bound) - np.array(found.maximum)
+        assert np.all(gaps <= 0.005 * np.array(found.maximum) * (1 + 1e-6))
 
 
 @each("seed", FEW)
