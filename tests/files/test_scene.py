@@ -12,6 +12,7 @@ from netdesign.files.solution import write_solution_document
 from netdesign.outcome import ModelError, Outcome, SceneFileError
 from netdesign.snow.creep_law import compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
+from tests.each import each
 from tests.full_scene import FULL_SCENE
 
 SOUND = """
@@ -73,76 +74,60 @@ def test_vertical_height_is_turned_to_the_normal(tables):
     assert scene.net.height_normal == scene.snowpack.thickness
 
 
-@pytest.mark.parametrize(
-    ("table", "key", "value"),
-    [
-        ("slope", "angle_deg", -0.1),
-        ("slope", "angle_deg", 80.1),
-        ("slope", "angle_deg", math.nan),
-        ("slope", "angle_deg", "40"),
-        ("slope", "angle_deg", True),
-        ("slope", "angle_degrees", 40),
-        ("snow", "thickness_m", 0.0),
-        ("snow", "thickness_m", math.inf),
-        ("snow", "thickness_m", math.nan),
-        ("snow", "density_kg_m3", 0.0),
-        ("snow", "density_kg_m3", 917.0),
-        ("snow", "density_kg_m3", math.nan),
-        ("snow", "upslope_length_m", -20.0),
-        ("snow", "creep_exponent", 0.9),
-        ("snow", "creep_exponent", 6.1),
-        ("snow", "fluidity_per_MPa3_a", 0.0),
-        ("snow", "temperature_C", 0.1),
-        ("snow", "layers", []),
-        ("ground", "law", "rough"),
-        ("ground", "slip_length_m", 0.0),
-        ("ground", "glide_factor", 0.9),
-        ("ground", "contact", "glued"),
-        ("net", "kind", "membrane"),
-        ("net", "inclination_deg", -1.0),
-        ("net", "inclination_deg", 90.0),
-        ("net", "height_m", 0.0),
-        ("net", "stiffness_kN_per_m", 0.0),
-        ("net", "stiffness_kN_per_m", math.inf),
-        ("net", "slack", -0.01),
-        ("net", "slack", 0.51),
-        ("net", "slack", False),
-        ("net", "friction_deg", -0.1),
-        ("net", "friction_deg", 60.1),
-        ("gravity", "mode", "none"),
-        ("solve", "method", "guess"),
-        ("solve", "accuracy", 0.00009),
-        ("solve", "accuracy", 0.11),
-        ("solve", "accuracy", math.nan),
-        ("solve", "start", "slack"),
-        ("solve", "horizon_days", 0.0),
-        ("wind", "speed", 3.0),
-    ],
-)
-def test_a_value_that_is_not_accepted_is_refused(tables, table, key, value):
-    tables.setdefault(table, {})[key] = value
-    with pytest.raises(ValueError, match=rf"(?m)^{table}"):
-        build(tables)
+REFUSED = {
+    ("slope", "angle_deg"): [-0.1, 80.1, math.nan, "40", True],
+    ("slope", "angle_degrees"): [40],
+    ("snow", "thickness_m"): [0.0, math.inf, math.nan],
+    ("snow", "density_kg_m3"): [0.0, 917.0, math.nan],
+    ("snow", "upslope_length_m"): [-20.0],
+    ("snow", "creep_exponent"): [0.9, 6.1],
+    ("snow", "fluidity_per_MPa3_a"): [0.0],
+    ("snow", "temperature_C"): [0.1],
+    ("snow", "layers"): [[]],
+    ("ground", "law"): ["rough"],
+    ("ground", "slip_length_m"): [0.0],
+    ("ground", "glide_factor"): [0.9],
+    ("ground", "contact"): ["glued"],
+    ("net", "kind"): ["membrane"],
+    ("net", "inclination_deg"): [-1.0, 90.0],
+    ("net", "height_m"): [0.0],
+    ("net", "stiffness_kN_per_m"): [0.0, math.inf],
+    ("net", "slack"): [-0.01, 0.51, False],
+    ("net", "friction_deg"): [-0.1, 60.1],
+    ("gravity", "mode"): ["none"],
+    ("solve", "method"): ["guess"],
+    ("solve", "accuracy"): [9e-05, 0.11, math.nan],
+    ("solve", "start"): ["slack"],
+    ("solve", "horizon_days"): [0.0],
+    ("wind", "speed"): [3.0],
+}
+BOUNDS = {
+    ("slope", "angle_deg"): [0, 80.0],
+    ("net", "inclination_deg"): [0.0],
+    ("net", "slack"): [0.5],
+    ("net", "friction_deg"): [0.0, 60],
+    ("snow", "temperature_C"): [-60.0],
+    ("solve", "accuracy"): [0.1, 0.0001],
+}
 
 
-@pytest.mark.parametrize(
-    ("table", "key", "value"),
-    [
-        ("slope", "angle_deg", 0),
-        ("slope", "angle_deg", 80.0),
-        ("net", "inclination_deg", 0.0),
-        ("net", "slack", 0.5),
-        ("net", "friction_deg", 0.0),
-        ("net", "friction_deg", 60),
-        ("snow", "temperature_C", -60.0),
-        ("solve", "accuracy", 0.1),
-        ("solve", "accuracy", 0.0001),
-    ],
-)
-def test_the_bounds_themselves_are_accepted(tables, table, key, value):
-    tables.setdefault(table, {})[key] = value
-    scene = build(tables)
-    assert scene.snowpack.density == 366.8
+@each("key, values", REFUSED.items())
+def test_values_that_are_not_accepted_are_refused(key, values):
+    table, name = key
+    for value in values:
+        tables = tomllib.loads(SOUND)
+        tables.setdefault(table, {})[name] = value
+        with pytest.raises(ValueError, match=rf"(?m)^{table}"):
+            build(tables)
+
+
+@each("key, values", BOUNDS.items())
+def test_the_bounds_themselves_are_accepted(key, values):
+    table, name = key
+    for value in values:
+        tables = tomllib.loads(SOUND)
+        tables.setdefault(table, {})[name] = value
+        assert build(tables).snowpack.density == 366.8
 
 
 @pytest.mark.parametrize(
@@ -289,27 +274,20 @@ def take_layers(tables, *layers):
     tables["snow"]["layers"] = list(layers)
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [
-        ("thickness_m", 0.0),
-        ("thickness_m", math.nan),
-        ("thickness_m", math.inf),
-        ("density_kg_m3", 0.0),
-        ("density_kg_m3", 917.0),
-        ("density_kg_m3", math.nan),
-        ("density_kg_m3", math.inf),
-        ("temperature_C", 0.1),
-        ("temperature_C", -60.1),
-        ("temperature_C", math.nan),
-        ("temperature_C", -math.inf),
-        ("hardness", 3.0),
-    ],
-)
-def test_fault_in_a_layer_is_told_with_its_place(tables, key, value):
-    take_layers(tables, LAYERS[0], {**LAYERS[1], key: value})
-    with pytest.raises(ValueError, match=rf"(?m)^snow\.layers\.1\.{key}"):
-        build(tables)
+BAD_LAYERS = {
+    "thickness_m": [0.0, math.nan, math.inf],
+    "density_kg_m3": [0.0, 917.0, math.nan, math.inf],
+    "temperature_C": [0.1, -60.1, math.nan, -math.inf],
+    "hardness": [3.0],
+}
+
+
+@each("key, values", BAD_LAYERS.items())
+def test_fault_in_a_layer_is_told_with_its_place(tables, key, values):
+    for value in values:
+        take_layers(tables, LAYERS[0], {**LAYERS[1], key: value})
+        with pytest.raises(ValueError, match=rf"(?m)^snow\.layers\.1\.{key}"):
+            build(tables)
 
 
 def test_layer_outside_the_calibration_is_flagged(tables):

@@ -149,16 +149,6 @@ def test_two_runs_share_a_store_at_the_same_time(opened):
         assert set(one.find(["a", "b"])) == {"a", "b"} == set(other.find(["a", "b"]))
 
 
-def test_a_runner_solves_equal_cases_once_and_known_ones_never(opened):
-    with opened() as kept:
-        first, second = Runner(store=kept), Runner(store=kept)
-        ends = first.solve([JOB, JOB])
-        assert (first.counts.solved, first.counts.reused) == (1, 1)
-        assert_same(ends[0], ends[1])
-        assert_same(second.solve([JOB])[0], ends[0])
-        assert (second.counts.solved, second.counts.reused) == (0, 1)
-
-
 def test_a_store_that_breaks_under_way_costs_its_use_not_the_run(opened, said):
     with opened() as kept:
         kept._base.close()
