@@ -53,11 +53,12 @@ def read_anchor(line: Row, ground: str) -> AnchorType:
     """What an anchor is, in the ground of its type, else of its row."""
     has_tube = line["tube_diameter"].state == "given"
     section, word = _build_section(line), line["ground"].word or ground
+    typed = line["lever_arm"].given_si  # else the longest usual free length
     return AnchorType(
         kind=line["kind"].word,
         section=section,
-        lever=_find_lever(line, section),
-        is_lever_assumed=line["lever_arm"].state != "given",
+        lever=_FREE * section.outer if typed is None and section else typed,
+        is_lever_assumed=typed is None,
         ground_lever=find_ground_lever(section, word) if section else 0.0,
         has_tube=has_tube,
         across=line["head_across"].given_si,
@@ -115,11 +116,3 @@ def _assume_section(line: Row) -> RoundSection | None:
 
 _STRONGEST = 1.2e9  # of a bar, the largest usual number of its column [Pa]
 _FREE = 3.0  # diameters: the longest usual free length of a bar, (R9d)
-
-
-def _find_lever(line: Row, section: RoundSection | None) -> float | None:
-    """Free length over which an anchor bends; the longest usual one if not given."""
-    given = line["lever_arm"].given_si
-    if given is not None or section is None:
-        return given
-    return _FREE * section.outer

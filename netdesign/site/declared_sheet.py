@@ -182,11 +182,6 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 
 
-def _list_positions(member: str, mode: str) -> tuple[str, ...]:
-    """Supports of which a check may be declared: of every one, or of those at ends."""
-    return ("",) if (member, mode) in OF_ROWS else ("", "edge")
-
-
 _IN_GROUND = (*_ANCHORS, *END_ANCHORS)
 GROUPS = ("structure", "anchors", "post base", "ground at the anchors")
 
@@ -211,7 +206,11 @@ def name_group(group: str, language: Language) -> str:
 @lru_cache(maxsize=1)
 def _list_subjects() -> Mapping[str, tuple[_Subject, ...]]:
     """Checks by id, and by the words for them that reports and the template have."""
-    every = [(*one, at) for one in DECLARABLE for at in _list_positions(*one)]
+    every = [
+        (*one, at)
+        for one in DECLARABLE
+        for at in (("",) if one in OF_ROWS else ("", "edge"))
+    ]
     names: dict[str, tuple[_Subject, ...]] = {}
     for subject in every:
         member, mode, position = subject

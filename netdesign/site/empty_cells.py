@@ -114,7 +114,8 @@ def _assume(key: str, row: Row, snow: Snow) -> Assumed:
     if key in _DISTANCES:
         return assume(key, row["net_height"].si)
     if key == "upslope_length":
-        return assume_upslope(thickness, ground)
+        felt = _FROM + _MORE * math.cbrt(ground.slip_length / thickness)
+        return assume_ends(key, thickness * felt, thickness * felt)
     if key == "density":
         height = thickness / math.cos(row["slope_angle"].si)
         return assume_density(height, row["altitude"].given_si, layers)
@@ -132,25 +133,6 @@ def _place(reading: Reading, assumed: Assumed) -> Reading:
 # Snow farther upslope than (_FROM + _MORE r^(1/3)) d adds less than 0.1 % to the pulls,
 # r = D* / d; snow/THEORY.md, (N16a).
 _FROM, _MORE = 12.0, 16.5
-
-
-def find_felt_length(thickness: float, slip_length: float) -> float:
-    """Length of the snow that a net on ground that holds it feels [m].
-
-    Parameters
-    ----------
-    thickness : float
-        d, normal to the slope [m].
-    slip_length : float
-        D* of the ground [m].
-    """
-    return thickness * (_FROM + _MORE * math.cbrt(slip_length / thickness))
-
-
-def assume_upslope(thickness: float, ground: GroundLaw) -> Assumed:
-    """Upslope length of a line that gives none, on ground that holds the snow."""
-    length = find_felt_length(thickness, ground.slip_length)
-    return assume_ends("upslope_length", length, length)
 
 
 def assume_density(

@@ -224,7 +224,11 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     judged = [_judge_unknown(cell, missing) for cell in unknown]
     findings.extend(finding for finding, _ in judged)
     near = {field.key for _, field in judged if field}
-    _report_missing(table, {*columns, *near}, findings)
+    findings.extend(
+        table.sheet.finding(say("heading.lacks", heading=one.title))
+        for one in missing
+        if one.required and one.key not in near
+    )
     return columns
 
 
@@ -270,10 +274,3 @@ def _find_unit(
         return own
     findings.append(cell.finding(*explain_unit(unit, field), field.name))
     return None
-
-
-def _report_missing(table: Table, known: set[str], findings: list[Finding]) -> None:
-    for field in table.plan.fields:
-        if field.required and field.key not in known:
-            rule = say("heading.lacks", heading=field.title)
-            findings.append(table.sheet.finding(rule))

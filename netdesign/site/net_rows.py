@@ -198,7 +198,12 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         refuse(rounded, rule, "", findings, severity="note")
     line, row = ({**one, "net_height": rounded} for one in (line, row))
     echoes = _echo_inputs(line, thickness, ground)
-    inputs = (*echoes, *echo_layers(snow), *_echo_end(end))
+    at_end = (
+        reading.echo(say(f"column.Ends.{key}"))
+        for key, reading in end.items()
+        if key != "ground"
+    )
+    inputs = (*echoes, *echo_layers(snow), *at_end)
     built = _compose_net_row(row, end, lines.types, held, inputs)
     return replace(built, assumed=assumed, ranges=find_own_ranges(assumed, row))
 
@@ -329,13 +334,6 @@ def _echo_inputs(
             name = say("column.Nets.slip_length")
             echoes.append(_echo_derived(name, slip, reading, table))
     return tuple(echoes)
-
-
-def _echo_end(end: Row) -> Iterator[InputEcho]:
-    """Types at the row's end, where they are others."""
-    for key, reading in end.items():
-        if key != "ground":
-            yield reading.echo(say(f"column.Ends.{key}"))
 
 
 def _derive_slip(glide_factor: float, thickness: float) -> Message | None:

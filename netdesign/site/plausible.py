@@ -117,8 +117,11 @@ def _list_all(lines: Lines) -> Iterator[Doubt]:
         *((table, list(lines.types[table].values())) for table in TYPES),
         *(("links", strengths), ("links", limits), ("tests", lines.tests)),
     ]
+    every = (*lines.rows, *lines.ends.values())
+    named = {one.word for line in every for one in line.values()}
     for table, group in groups:
-        yield from chain.from_iterable(map(list_doubts, group))
+        used = [x for x in group if table not in TYPES or x["id"].word in named]
+        yield from chain.from_iterable(map(list_doubts, used))
         yield from list_column_doubts(group, table)
 
 
@@ -412,7 +415,7 @@ def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
     Numbers are diameters where they fit the forces of all types but one.
     """
     named = [one for line in lines if (one := _read_name(line, key))]
-    off = [one for one in named if not _fits(one[1], one[2])]
+    off = [x for x in named if not _FITS[0] <= x[2].number / x[1] ** 2 <= _FITS[1]]
     if len(named) - len(off) < _OTHERS or len(off) > 1:
         return
     for _, diameter, reading in off:
@@ -435,8 +438,3 @@ def _read_name(line: Row, key: str) -> tuple[str, float, Reading] | None:
     if not _DIAMETERS[0] <= diameter <= _DIAMETERS[1]:
         return None
     return f"{match[1]}|{match[3]}", diameter, reading
-
-
-def _fits(diameter: float, reading: Reading) -> bool:
-    low, high = _FITS
-    return low <= reading.number / diameter**2 <= high

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal
@@ -251,26 +251,20 @@ def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> 
     refuse(reading, rule, say("accepted.one_of_two"), findings)
 
 
-def refuse_with(
-    reading: Reading, word: Reading, unfit: Sequence[str], findings: list[Finding]
-) -> None:
-    """Refuse a reading beside a word, one of some with which it means nothing."""
-    field, name = word.field, word.field.name
-    typed = field.name_word(word.word)
-    others = tuple(field.name_word(one) for one in field.words if one not in unfit)
-    rule = say("cell.not_with", name=name, word=typed, place=word.place)
-    refuse(reading, rule, say("cell.empty_or", name=name, words=others), findings)
-
-
 def refuse_misfits(row: Row, findings: list[Finding]) -> None:
     """Refuse cells of a line beside what they do not fit, or without what they need."""
     for reading in row.values():
         if reading.state != "given":
             continue
         field = reading.field
-        for key, words in field.not_with.items():
-            if row[key].word in words:
-                refuse_with(reading, row[key], words, findings)
+        for word, unfit in ((row[x], words) for x, words in field.not_with.items()):
+            if word.word in unfit:
+                name, name_word = word.field.name, word.field.name_word
+                others = tuple(name_word(x) for x in word.field.words if x not in unfit)
+                typed, place = name_word(word.word), word.place
+                rule = say("cell.not_with", name=name, word=typed, place=place)
+                accepted = say("cell.empty_or", name=name, words=others)
+                refuse(reading, rule, accepted, findings)
         for lacking in (row[key] for key in field.needs):
             if lacking.state == "blank":
                 rule = say("type.needs_more", names=(lacking.field.name,))
@@ -286,17 +280,12 @@ def refuse_stored(cell: Cell) -> Refusal | None:
     return None
 
 
-def _refuse_blank(field: Field) -> Refusal | None:
-    if not field.required:
-        return None
-    return Refusal(say("cell.empty"), field.accepted)
-
-
 def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:
     if refusal := refuse_stored(cell):
         return refusal
     if cell.is_blank:
-        return _refuse_blank(field)
+        refusal = Refusal(say("cell.empty"), field.accepted)
+        return refusal if field.required else None
     if field.kind in ("number", "count"):
         return _understand_number(cell, field, unit)
     if field.kind == "word":

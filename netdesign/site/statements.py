@@ -176,7 +176,11 @@ _ANCHORS = (*ANCHORS, *END_ANCHORS)
 
 
 def _list_resistances(row: NetRow) -> tuple[Resistance, ...]:
-    return (*row.resistances, *row.net_parts, *_list_at_end(row))
+    along = row.row_end.resistances if row.row_end else ()
+    return (
+        *(*row.resistances, *row.net_parts),
+        *(*(row.end_resistances or ()), *along),
+    )
 
 
 def _is_structure_asked(row: NetRow) -> bool:
@@ -210,9 +214,3 @@ def _list_chains(
         is_rope = one.mode in ("rope", "tendon") and one.member in CONNECTED
         if is_rope and one.type_id and one.type_id not in links:
             yield say("links.of_type", type=one.type_id)
-
-
-def _list_at_end(row: NetRow) -> tuple[Resistance, ...]:
-    """Resistances of the support at the row's end, and of what holds it there."""
-    along = row.row_end.resistances if row.row_end else ()
-    return (*(row.end_resistances or ()), *along)

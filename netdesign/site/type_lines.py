@@ -154,7 +154,9 @@ def count_in_tests(
         )
         of_line = [left.pop(key) for key in keys if key in left]
         for of_ground in of_line:
-            _refuse_others(line, of_ground, findings)
+            for reading in (line[key] for key in _OF_TESTS):
+                if reading.state == "given":
+                    refuse_beside(of_ground[0]["force"], reading, findings)
             ground = own if has_own else of_ground[0]["ground"]
             counted.append(_fill_in(line, of_ground, ground))
         if not of_line:
@@ -190,13 +192,6 @@ def _group_tests(
 
 
 _OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that say what tests say
-
-
-def _refuse_others(line: Row, tests: Sequence[Row], findings: list[Finding]) -> None:
-    """Refuse tests beside a number that a type has of its own."""
-    typed = (line[key] for key in _OF_TESTS if line[key].state == "given")
-    for reading in typed:
-        refuse_beside(tests[0]["force"], reading, findings)
 
 
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
