@@ -105,13 +105,10 @@ class FloorRecord:
 
     profile: str  # whose load model
     forces: Items[FloorForceRecord]  # empty where the floor is not available
-    altitude_factor: float  # on the density of load case 1
-    assumed: Items[Text] = field(default_factory=list)  # of the row, for its load
     reason: Text | None = None  # why it is not
     # Pull of the guideline's load on a rope over that of the solved cases, at least 1.
     lower_rope: float = 1.0
     ridge_rope: float = 1.0
-    heads: float = 1.0  # over that on the heads of the panel that pulls least
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -264,9 +264,7 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
 
 
 def record_floor(
-    floor: Floor | None,
-    row: NetRow,
-    factors: tuple[float, float, float] = (1.0, 1.0, 1.0),
+    floor: Floor | None, factors: tuple[float, float, float] = (1.0, 1.0, 1.0)
 ) -> FloorRecord | None:
     """Floor of a row in engineer's units.
 
@@ -277,12 +275,9 @@ def record_floor(
     return FloorRecord(
         profile=load_guideline().id,
         forces=[_record_force(force) for force in floor.forces],
-        altitude_factor=find_altitude_factor(row),
-        assumed=list_assumed(row),
         reason=floor.reason,
         lower_rope=factors[0],
         ridge_rope=factors[1],
-        heads=factors[2],
     )
 
 

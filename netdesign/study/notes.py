@@ -152,7 +152,6 @@ def list_judged_notes(
         *list_test_notes(checks, standard),
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
-        *_list_weak_tendons(checks),
         *list_guy_notes(row, ranges, checks, standard),
         *_list_sag_notes(row, drawn),
         *list_case_notes(cases),
@@ -200,19 +199,6 @@ def _list_tube_notes(checks: Sequence[Check]) -> list[Message]:
         if isinstance(how, Message) and how.key == "bending.of_tube"
     )
     return list(dict.fromkeys(notes))
-
-
-def _list_weak_tendons(checks: Sequence[Check]) -> Iterator[Message]:
-    """Anchor types whose tendon bears less than the ground holds: EN 1997-1, 8.5.4."""
-    by_type: dict[str, dict[str, float]] = {}
-    for check in checks:
-        design = check.read("R_d")
-        if check.mode in ("tendon", "pull_out") and design is not None:
-            by_type.setdefault(check.resistance_type, {})[check.mode] = design
-    for kind, designs in by_type.items():
-        tendon, ground = designs.get("tendon", math.inf), designs.get("pull_out", 0.0)
-        if tendon < ground:
-            yield say("row.weak_tendon", type=kind, tendon=tendon, ground=ground)
 
 
 def list_test_notes(checks: Sequence[Check], standard: Standard) -> list[Message]:

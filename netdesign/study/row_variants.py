@@ -193,7 +193,7 @@ def read_cases(cases: RowCases) -> RowForces:
         largest={
             k: record_largest(extreme, task.solved) for k, extreme in extremes.items()
         },
-        floor=record_floor(floor, row, cases.factors),
+        floor=record_floor(floor, cases.factors),
         held=say("check.no_case_solved"),
         tilt=find_tilt(
             row, (result.case.inclination for result in results if result.is_converged)

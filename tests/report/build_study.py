@@ -199,8 +199,6 @@ def build_floor(extreme: LargestForce) -> FloorRecord:
     return FloorRecord(
         profile="swiss-guideline-2007",
         forces=[force],
-        altitude_factor=1.3,
-        assumed=[say("row.altitude_assumed", factor=1.3)],
     )
 
 

@@ -14,7 +14,12 @@ from netdesign.outcome import Verdict
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.study.case_records import LargestForce
-from netdesign.study.guideline_load import find_effects, record_floor
+from netdesign.study.guideline_load import (
+    find_altitude_factor,
+    find_effects,
+    list_assumed,
+    record_floor,
+)
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import (
     RowForces,
@@ -123,27 +128,29 @@ def test_snow_of_a_profile_of_one_s_own_changes_no_floor_and_no_comparison(solve
     assert listed["snow.density"] == pytest.approx(0.189)
 
 
-def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
-    _, plain = judge(solved)
-    assert plain.rows[0].floor.assumed == []
-    assert plain.rows[0].floor.altitude_factor == 1.0
+def test_what_the_floor_takes_for_granted_stands_in_the_notes(solved):
+    site, plain = judge(solved)
+    assert list_assumed(site.rows[0]) == []
+    assert find_altitude_factor(site.rows[0]) == 1.0
     changes = {"altitude": None, "glide_factor": 1.1}
-    _, study = judge(solved, **changes)
-    floor = study.rows[0].floor
-    assert floor.altitude_factor == pytest.approx(1.3, rel=1e-12)
-    told = [str(one) for one in floor.assumed]
+    site, study = judge(solved, **changes)
+    (row,) = site.rows
+    assert find_altitude_factor(row) == pytest.approx(1.3, rel=1e-12)
+    assumed = list_assumed(row)
+    told = [str(one) for one in assumed]
     assert told[0].endswith("is calculated with its largest altitude factor, 1.30")
     assert "factor of 1.1 lies below the smallest" in told[1]
     assert told[1].endswith(
         "the coupled forces and the guideline's load are calculated with 1.2"
     )
-    assert [one for one in study.rows[0].notes if one in floor.assumed] == floor.assumed
+    assert [one for one in study.rows[0].notes if one in assumed] == assumed
+    assert not set(assumed) & set(plain.rows[0].notes)
     densities = {one.name: one.density_kg_m3 for one in study.rows[0].guideline.cases}
     assert densities["load_case_1"] == pytest.approx(351.0, rel=1e-12)
     assert {one.glide_factor for one in study.rows[0].guideline.cases} == {1.2}
     none = replace(SWISS, floor="none")
     _, without = judge(solved, none, **changes)
-    assert set(floor.assumed) <= set(without.rows[0].notes)
+    assert set(assumed) <= set(without.rows[0].notes)
 
 
 def test_floor_that_is_not_known_proves_nothing(solved):
@@ -179,7 +186,7 @@ def find_member_force(member, ends, width, *, has_floor=True):
         standard=SWISS,
         effects=find_effects(ROW, SWISS, RANGES),
         largest={member: solved},
-        floor=record_floor(a_floor(), ROW) if has_floor else None,
+        floor=record_floor(a_floor()) if has_floor else None,
         held=None,
         tilt=0.0,
     )

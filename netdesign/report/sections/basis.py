@@ -301,7 +301,6 @@ def list_notes(study: Study, words: Words) -> list[str]:
 
 # Notes that ask nothing of anyone: no number of them decides.
 _BESIDE = ("row.loaded_net", "row.guys_in_snow")
-_IN_SCHEDULE = ("row.weak_tendon",)  # that marks what is weak
 
 
 # Notes of which the largest number is said for all rows.
@@ -309,8 +308,8 @@ _LARGEST = {"row.one_anchor": "both"}
 
 
 def is_of_row(note: Message) -> bool:
-    """A note for the page of its row: not in the schedule, nor beside the verdict."""
-    return note.key not in (*_IN_SCHEDULE, *_BESIDE)
+    """A note for the page of its row, which is more than information."""
+    return note.key not in _BESIDE
 
 
 def list_row_notes(row: RowStudy, study: Study, words: Words) -> Iterator[str]:

@@ -128,9 +128,17 @@ def _find_proof(pulled: Sequence[Check], factor: float | None) -> float | None:
 
 
 def _find_weak(row: RowStudy) -> set[str]:
-    """Types whose tendon bears less than the ground holds."""
-    weak = (note for note in row.notes if note.key == "row.weak_tendon")
-    return {str(note.arguments["type"]) for note in weak}
+    """Types whose tendon bears less than the ground holds: EN 1997-1, 8.5.4."""
+    borne: dict[str, dict[str, float]] = {}
+    for check in row.checks:
+        design = check.read("R_d")
+        if check.mode in ("tendon", "pull_out") and design is not None:
+            borne.setdefault(check.resistance_type, {})[check.mode] = design
+    return {
+        kind
+        for kind, of in borne.items()
+        if of.get("tendon", math.inf) < of.get("pull_out", 0.0)
+    }
 
 
 def _list_notes(
