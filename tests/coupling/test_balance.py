@@ -76,10 +76,10 @@ def state(a_mesh, a_flow_problem):
     return law, mesh, forces, cable
 
 
-def measure(state, **changes):
+def measure(state, friction=0.5, **changes):
     law, mesh, forces, cable = state
     held = cable.foot_pull + cable.head_pull
-    changed = replace(forces, **changes)
+    law, changed = replace(law, friction=friction), replace(forces, **changes)
     return measure_balance(law, mesh, changed, held, cable.tension, SCALE)
 
 
@@ -112,21 +112,18 @@ def test_force_left_on_a_free_node(state):
 def test_shear_beyond_friction(state):
     """A straight upright net: normal along X, shear along Y."""
     _, mesh, forces, _ = state
-    on_net = forces.on_net.copy()
-    on_net[1, 3] = 0.5 * on_net[0, 3] + 2e-4 * mesh.area
-    found = measure(state, on_net=on_net).friction_excess
-    assert found == pytest.approx(2e-4, rel=1e-9)
-    on_net[1, 3] = 0.5 * on_net[0, 3]
-    assert measure(state, on_net=on_net).friction_excess <= 1e-17
-
-
-def test_shear_where_the_net_does_not_press(state):
-    """Friction is not adhesion: all of it is in excess."""
-    _, mesh, forces, _ = state
-    on_net = forces.on_net.copy()
-    on_net[:, 3] = -1e-3, -1e-4
-    found = measure(state, on_net=on_net).friction_excess
-    assert found == pytest.approx(1e-4 / mesh.area, rel=1e-12)
+    pressure = forces.on_net[0, 3]
+    for normal, shear, excess in (
+        (pressure, 0.5 * pressure + 2e-4 * mesh.area, 2e-4),
+        (pressure, 0.5 * pressure, 0.0),
+        (-1e-3, -1e-4, 1e-4 / mesh.area),  # friction is no adhesion
+    ):
+        on_net = forces.on_net.copy()
+        on_net[:, 3] = normal, shear
+        found = measure(state, on_net=on_net)
+        assert found.friction_excess == pytest.approx(excess, rel=1e-9, abs=1e-17)
+        adheres = measure(state, friction=math.inf, on_net=on_net)
+        assert adheres.friction_excess == 0.0
 
 
 def test_shares_of_suction_and_of_pulling_ground(state):
@@ -137,11 +134,7 @@ def test_shares_of_suction_and_of_pulling_ground(state):
     balance = measure(state, on_net=on_net, ground_normal=np.array([3.0, -1.0, 1.0]))
     assert balance.suction_share == pytest.approx(0.1, rel=1e-12)
     assert balance.ground_tension_share == pytest.approx(1 / 4, rel=1e-15)
-
-
-def test_ground_that_only_pulls(state):
-    balance = measure(state, ground_normal=np.array([-1.0]))
-    assert balance.ground_tension_share == 1.0
+    assert measure(state, ground_normal=np.array([-1.0])).ground_tension_share == 1.0
 
 
 @given(st.lists(st.integers(-1000, 1000), max_size=6))
@@ -151,22 +144,6 @@ def test_share_that_pulls_is_a_number_from_0_to_1(forces):
     assert 0.0 <= share <= 1.0
     assert (share == 0.0) == (pulling == 0)
     assert (share == 1.0) == (pulling > 0 and sum(forces) <= 0)
-
-
-def test_snow_that_adheres_has_no_friction_limit(state):
-    law, mesh, forces, cable = state
-    on_net = forces.on_net.copy()
-    on_net[1, 3] = 10.0 * on_net[0, 3]
-    held = cable.foot_pull + cable.head_pull
-    balance = measure_balance(
-        replace(law, friction=math.inf),
-        mesh,
-        replace(forces, on_net=on_net),
-        held,
-        None,
-        SCALE,
-    )
-    assert balance.friction_excess == 0.0
 
 
 @pytest.mark.parametrize("share", [math.nextafter(0.05, 1.0), 0.99, math.inf, math.nan])

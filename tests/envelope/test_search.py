@@ -47,6 +47,8 @@ def grid():
 
 def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
     assert found.gap is None
+    assert not found.lifted  # the net hangs below its head, between the cases too
+    assert found.extremes[POST_PULLS[0]].widened.high == 0.0
     for result in grid:
         for member, band in result.member_forces.items():
             assert band.value <= found.extremes[member].widened.high
@@ -62,13 +64,6 @@ def test_the_maximum_is_that_of_its_governing_case_with_all_coincident_forces(fo
         governing = found.extremes[member].governing
         assert governing.member_forces[member].value == found.maxima.maximum[place]
         assert set(governing.member_forces) == {*found.members, POST_PULLS[0]}
-
-
-def test_no_post_pulls_and_it_is_known(found):
-    """The net hangs below its head, between the cases too."""
-    assert not found.lifted
-    foot = found.extremes[POST_PULLS[0]]
-    assert foot.widened.high == 0.0
 
 
 def test_what_may_lift_a_post_between_the_cases_is_in_the_band(found):
