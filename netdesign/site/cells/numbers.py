@@ -117,12 +117,11 @@ def _list_readings(text: str) -> list[_Reading]:
     return readings
 
 
-# A format in pieces: quoted and escaped text, blanks of a sign's width and fillers,
-# conditions, colours and currencies in brackets, placeholders of digits, the rest.
+# A format in pieces: quoted and escaped text, currencies in brackets, blanks of a sign
+# wide, fillers, conditions and colours, placeholders of digits; the rest is signs.
 _PIECE = re.compile(
-    r'"(?P<quoted>[^"]*)"|\\(?P<escaped>.)|(?P<filler>[_*].)'
-    r"|\[(?P<bracket>[^\]]*)\]|(?P<general>General)|(?P<digits>E[+-]|[0-9#?.,/@])"
-    r"|(?P<sign>.)",
+    r'"(?P<quoted>[^"]*)"|\\(?P<escaped>.)|\[\$(?P<currency>[^\]-]*)[^\]]*\]'
+    r"|[_*].|\[[^\]]*\]|(?P<digits>General|E[+-]|[0-9#?.,/@])",
     re.DOTALL,
 )
 _SECTION = re.compile(r'(?:"[^"]*"|\\.|\[[^\]]*\]|[^;"\\\[]|.)*?(?:;|$)', re.DOTALL)
@@ -160,11 +159,7 @@ def find_format_unit(number_format: str, value: float) -> str:
     >>> find_format_unit('0.0" m"', 3.5)
     'm'
     """
-    shown = "".join(
-        "0" if piece["digits"] or piece["general"] else _show(piece)
-        for piece in _PIECE.finditer(_choose_section(number_format, value))
-    )
-    return find_text_unit(shown)
+    return find_text_unit(_PIECE.sub(_show, _choose_section(number_format, value)))
 
 
 def find_text_unit(shown: str) -> str:
@@ -185,18 +180,14 @@ def find_text_unit(shown: str) -> str:
 
 
 def _show(piece: re.Match[str]) -> str:
-    if piece["bracket"] is not None:  # of [$€-407] the euro, of [Red] nothing
-        bracket = piece["bracket"]
-        return bracket[1:].partition("-")[0] if bracket.startswith("$") else ""
-    return piece["quoted"] or piece["escaped"] or piece["sign"] or ""
+    if piece["digits"]:
+        return "0"
+    return piece["quoted"] or piece["escaped"] or piece["currency"] or ""
 
 
 def _keep_signs(number_format: str) -> str:
     """Format without its texts: what is left steers how digits are shown."""
-    return "".join(
-        piece["digits"] or piece["sign"] or " "
-        for piece in _PIECE.finditer(number_format)
-    )
+    return _PIECE.sub(lambda piece: piece["digits"] or " ", number_format)
 
 
 def _choose_section(number_format: str, value: float) -> str:

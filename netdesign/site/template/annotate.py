@@ -102,13 +102,7 @@ def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
     copy = workbook.create_sheet(sheet.name)
     for cells in sheet.rows.values():
         for cell in cells.values():
-            place = copy.cell(cell.row, cell.column)
-            _write(place, cell.value if cell.value is not None else cell.text)
-            if cell.is_percent:
-                place.number_format = "0.##%"
-            elif cell.shown_unit:  # or the copy would lose what the finding is about
-                unit = cell.shown_unit.replace('"', "")
-                place.number_format = f'General" {unit}"'
+            _write(copy.cell(cell.row, cell.column), cell.value)
 
 
 def _write(cell: Any, value: object) -> None:

@@ -19,6 +19,7 @@ from netdesign.site.columns.office import (
     load_text,
     name_measure,
 )
+from netdesign.site.template.empty import say_accepted, say_empty, say_why
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
@@ -28,10 +29,8 @@ if TYPE_CHECKING:  # slow to import and only needed to write a workbook
 
 Tables = Mapping[str, Sequence[Mapping[str, object]]]  # lines by table and key
 
-_YELLOW, _GREY, _INK, _PALE, _LINE = (
-    *("#FFF2B3", "#7A7A7A", "#1F2A36"),
-    *("#EEF1F4", "#C9CFD6"),
-)
+_YELLOW, _GREY, _INK = "#FFF2B3", "#7A7A7A", "#1F2A36"
+_PALE, _LINE = "#EEF1F4", "#C9CFD6"
 _SIGNS = {"deg": "°", "degC": "°C", "kg/m3": "kg/m³", "kN/m3": "kN/m³"} | {
     f"cm{n}": f"cm{sign}" for n, sign in ((2, "²"), (3, "³"), (4, "⁴"))
 }
@@ -65,10 +64,10 @@ class Form:
         """Text of the template."""
         return load_text(key, self.language, area)
 
-    def style(self, name: str, **more: object) -> Format:
+    def style(self, name: str) -> Format:
         """Format of a name; made once."""
         if name not in self.formats:
-            made = {"font_color": _INK, "valign": "vcenter", **_STYLES[name], **more}
+            made = {"font_color": _INK, "valign": "vcenter", **_STYLES[name]}
             self.formats[name] = self.workbook.add_format(made)
         return self.formats[name]
 
@@ -175,3 +174,35 @@ def say_unit(form: Form, column: Column) -> str:
         measure = form.measures.get(key) or first
         return name_measure(column.choice, measure, form.language)
     return _SIGNS.get(column.unit, column.unit) if column.field.units else ""
+
+
+def write_about(
+    form: Form,
+    sheet: Worksheet,
+    place: tuple[int, int],
+    keys: Sequence[str],
+    column: Column,
+) -> list[str]:
+    """Write what is said of a column, from a cell to the right, and return it.
+
+    Parameters
+    ----------
+    place : tuple of int
+        Row and column of the first cell, from 0.
+    keys : sequence of str
+        Of the headings below which it stands.
+    """
+    said = {
+        "item": name_column(form, column),
+        "unit": say_unit(form, column),
+        "accepted": say_accepted(column, form.language),
+        "empty": say_empty(column, form.language),
+        "source": say_why(column, form.language),
+        "has": form.text(column.has, "who"),
+        "meaning": column.texts["note"][form.language],
+    }
+    row, first = place
+    for number, key in enumerate(keys, start=first):
+        style = "grey" if key in ("empty", "source") else "cell"
+        sheet.write_string(row, number, said[key], form.style(style))
+    return [said[key] for key in keys]

@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING
 
 from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.office import PARTS, load_plan
-from netdesign.site.template.empty import say_accepted, say_empty
 from netdesign.site.template.form import (
     Form,
     add_sheet,
     count_lines,
     is_further,
     list_shown,
-    name_column,
-    say_unit,
+    write_about,
 )
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
@@ -24,6 +22,7 @@ from netdesign.words.message import say
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from xlsxwriter.worksheet import Worksheet
 
+_KEYS = ("item", "unit", "accepted", "empty", "has", "meaning")
 _NOTE_WIDTHS = (13, 25, 12, 16, 27, 15, 62)
 _PICTURE_ROW, _PICTURE_ROWS = 6, 22
 
@@ -57,30 +56,16 @@ def _write_columns(form: Form, sheet: Worksheet, row: int, table: str) -> int:
     if table in PARTS:
         about = load_file("office")["sheets"][table]["about"][form.language]
         title = f"{title}: {about}"
-    for number in range(len(_NOTE_WIDTHS)):
-        sheet.write_blank(row, number, None, form.style("group"))
-    sheet.write_string(row, 0, title, form.style("group"))
-    keys = ("item", "unit", "accepted", "empty", "has", "meaning")
-    sheet.write_blank(row + 1, 0, None, form.style("head"))
-    for number, key in enumerate(keys, start=1):
-        sheet.write_string(row + 1, number, form.text(key), form.style("head"))
-    row += 1
-    for column in list_shown(form, table):
-        row += 1
-        sheet.write_blank(row, 0, None, form.style("yes" if column.need else "cell"))
-        texts = (
-            *(name_column(form, column), say_unit(form, column)),
-            *(say_accepted(column, form.language), say_empty(column, form.language)),
-            form.text(column.has, "who"),
-            column.texts["note"][form.language],
-        )
-        for number, text in enumerate(texts, start=1):
-            sheet.write_string(
-                row, number, text, form.style("grey" if number == 4 else "cell")
-            )
+    titles = [title, *[""] * (len(_NOTE_WIDTHS) - 1)]
+    sheet.write_row(row, 0, titles, form.style("group"))
+    sheet.write_row(row + 1, 0, ["", *map(form.text, _KEYS)], form.style("head"))
+    columns = list_shown(form, table)
+    for line, column in enumerate(columns, start=row + 2):
+        sheet.write_blank(line, 0, None, form.style("yes" if column.need else "cell"))
+        texts = write_about(form, sheet, (line, 1), _KEYS, column)
         lines = max(map(count_lines, texts, _NOTE_WIDTHS[1:]))
-        sheet.set_row(row, 13.0 * lines)
-    return row + 1
+        sheet.set_row(line, 13.0 * lines)
+    return row + 2 + len(columns)
 
 
 def name_section(language: Language) -> str:

@@ -33,6 +33,7 @@ from netdesign.site.template.form import (
     name_column,
     say_unit,
     start_workbook,
+    write_about,
 )
 from netdesign.site.template.office_notes import write_notes
 from netdesign.words.catalogue import Language, render
@@ -149,9 +150,8 @@ def _write_parts(form: Form, sheet: Worksheet) -> None:
     for table in PARTS:
         about = load_file("office")["sheets"][table]["about"][form.language]
         columns = list_shown(form, table)
-        for number in range(len(columns)):
-            sheet.write_blank(row, number, None, form.style("group"))
-        sheet.write_string(row, 0, about, form.style("group"))
+        heads = [about, *[""] * (len(columns) - 1)]
+        sheet.write_row(row, 0, heads, form.style("group"))
         _write_block(form, sheet, row + 1, columns, table)
         row += 5 + _count_lines(form, table)
     sheet.set_column(0, 0, 15)
@@ -336,13 +336,6 @@ def _write_project(form: Form, sheet: Worksheet) -> None:
             sheet.conditional_format(row, 1, row, 1, rule)
         if (rule_of_cell := _say_rule(form, column)) is not None:
             sheet.data_validation(row, 1, row, 1, rule_of_cell)
-        texts = (
-            *(say_unit(form, column), say_empty(column, form.language)),
-            *(say_why(column, form.language), form.text(column.has, "who")),
-            column.texts["note"][form.language],
-        )
-        for number, text in enumerate(texts, start=2):
-            style = "grey" if number in (3, 4) else "cell"
-            sheet.write_string(row, number, text, form.style(style))
+        write_about(form, sheet, (row, 2), PROJECT_HEADS[2:], column)
     sheet.freeze_panes(3, 1)
     sheet.repeat_rows(0, 2)
