@@ -84,12 +84,7 @@ class Operation(NamedTuple):
 
     def way(self, place: int) -> int:
         """Way of the operand at a place."""
-        return self.ways[min(place, len(self.ways) - 1)]
-
-    @property
-    def turns(self) -> bool:
-        """It goes another way somewhere."""
-        return self.least > -math.inf or self.most < math.inf
+        return self.ways[place] if place < len(self.ways) else self.ways[-1]
 
 
 def _divide(above: Dimension, below: Dimension) -> Dimension:
@@ -317,26 +312,30 @@ def apply(operation: str, *operands: Operand) -> Quantity:
     rule = OPERATIONS[operation]
     of = tuple([x if isinstance(x, Quantity) else constant(x) for x in operands])
     low = value = high = None
-    lacks = _list_lacks(operation, of)
+    lacks = _list_lacks(operation, rule, of)
     if not lacks:
         bands = [x.order(rule.way(place)) for place, x in enumerate(of)]
-        low, value, high = [rule.of(*ends) for ends in zip(*bands, strict=True)]
+        lows, values, highs = zip(*bands, strict=True)
+        low = value = high = rule.of(*values)
+        if not lows == values == highs:
+            low, high = rule.of(*lows), rule.of(*highs)
     return Quantity(
         low=low,
         value=value,
         high=high,
-        dimension=_find_dimension(operation, of),
+        dimension=_find_dimension(operation, rule, of),
         operation=operation,
         of=of,
         lacks=lacks,
     )
 
 
-def _find_dimension(operation: str, of: Sequence[Quantity]) -> Dimension:
-    rule = OPERATIONS[operation].dimension
-    # zero has any unit
-    counted = [x.dimension for x in of if rule is not _keep or not _is_zero(x)]
-    dimension = rule(*counted)
+def _find_dimension(
+    operation: str, rule: Operation, of: Sequence[Quantity]
+) -> Dimension:
+    dimension = rule.dimension(*[x.dimension for x in of])
+    if dimension is None and rule.dimension is _keep:  # zero has any unit
+        dimension = _keep(*[x.dimension for x in of if not _is_zero(x)])
     if dimension is None:
         units = ", ".join(name_dimension(x.dimension) for x in of)
         raise ModelError(say("calculation.units", operation=operation, units=units))
@@ -349,7 +348,9 @@ def _name(quantity: Quantity) -> str:
     return quantity.symbol or f" {quantity.operation} ".join(parts)
 
 
-def _list_lacks(operation: str, of: Sequence[Quantity]) -> tuple[Message, ...]:
+def _list_lacks(
+    operation: str, rule: Operation, of: Sequence[Quantity]
+) -> tuple[Message, ...]:
     """Lacks of the operands, or that of a result which does not follow from their ends.
 
     That is where an end lies beyond the turn of the operation.
@@ -357,10 +358,8 @@ def _list_lacks(operation: str, of: Sequence[Quantity]) -> tuple[Message, ...]:
     lacks = [lack for x in of for lack in x.lacks]
     if lacks:
         return tuple(dict.fromkeys(lacks))
-    rule = OPERATIONS[operation]
-    for x in of if rule.turns else ():
-        low, _, high = x.order(1)
-        if low < rule.least or high > rule.most:
+    for x in of:
+        if rule.least > (x.low or 0.0) or rule.most < (x.high or 0.0):
             lack = say("calculation.outside", operation=operation, symbol=_name(x))
             return (lack,)
     if operation == "/" and of[1].low == 0.0:
