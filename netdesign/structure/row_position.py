@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from itertools import combinations, product
 from typing import Literal
 
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import require_positive, require_within
 from netdesign.structure.members import EndMember, Member
 from netdesign.structure.splay import Place
@@ -247,45 +248,79 @@ class Bore:
     length: float | None
 
 
-def find_least_distance(bores: Sequence[Bore]) -> float:
-    """Least distance between any two anchors [m]; infinite of a single one.
+def measure_distances(first: Sequence[Bore], second: Sequence[Bore]) -> Floats:
+    """Least distances of anchors, each a straight line of its length [m].
 
+    Of a pair it lies between two points inside both, or at an end of one of them.
     Theory: structure/THEORY.md, eq. (S21).
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        Of each of the ``n`` first anchors from each of the ``m`` second ones.
 
     Verified by
     -----------
     tests/verification/test_anchor_distance.py
     """
-    pairs = combinations(bores, 2)
-    return min((measure_distance(*pair) for pair in pairs), default=math.inf)
+    (start, way, length), (other, turned, reach) = map(_stack, (first, second))
+    apart, length = start[:, None] - other, length[:, None]
+    cosine = way @ turned.T
+    along = np.einsum("ijk,ik->ij", apart, way)
+    beside = np.einsum("ijk,jk->ij", apart, turned)
+    sine = 1.0 - cosine**2
+    is_skew = sine > 1e-12
+    inside = (cosine * beside - along) / np.where(is_skew, sine, np.inf)
+    least = np.full(cosine.shape, np.inf)
+    for on_first, on_second in (
+        (inside, beside + inside * cosine),
+        (0.0, beside),
+        (length, beside + length * cosine),
+        (-along, 0.0),
+        (reach * cosine - along, reach),
+    ):
+        s = np.clip(on_first, 0.0, length)[..., None]
+        t = np.clip(on_second, 0.0, reach)[..., None]
+        gap = apart + s * way[:, None] - t * turned
+        least = np.minimum(least, np.linalg.norm(gap, axis=-1))
+    return least
 
 
-def find_distance_to_row_above(
-    bores: Sequence[Bore], alike: Sequence[Bore], upslope: float
-) -> float:
-    """Least distance to anchors of a row above that is built alike [m].
+def _stack(bores: Sequence[Bore]) -> tuple[Floats, Floats, Floats]:
+    """Starts and directions, shape (n, 3), and lengths of anchors [m]."""
+    starts = np.array([bore.start for bore in bores])
+    directions = np.array([bore.direction for bore in bores])
+    lengths = [_LONG if bore.length is None else bore.length for bore in bores]
+    return starts, directions, np.array(lengths)
+
+
+def measure_to_row_above(bores: Sequence[Bore], upslope: float) -> Floats:
+    """Least distances to the anchors of a row above that is built alike [m].
 
     Nobody knows how the two rows stand along each other: seen along the row, where
     distances are least. Theory: structure/THEORY.md, eq. (S21).
 
     Parameters
     ----------
-    bores, alike : sequence of Bore
-        Anchors of the row; and those that the row above has as well.
+    bores : sequence of Bore
+        Anchors of the row; the row above has them as well.
     upslope : float
         Distance of the row above, along the slope [m].
+
+    Returns
+    -------
+    ndarray, shape (n, n)
+        Of each anchor of the row from each one of the row above.
 
     Verified by
     -----------
     tests/verification/test_anchor_distance.py
     """
-    here, above = (set(map(_flatten, anchors)) for anchors in (bores, alike))
-    moved = [
-        replace(bore, start=(bore.start[0] - upslope, *bore.start[1:]))
-        for bore in above
+    here = list(map(_flatten, bores))
+    above = [
+        replace(bore, start=(bore.start[0] - upslope, *bore.start[1:])) for bore in here
     ]
-    pairs = product(here, moved)
-    return min((measure_distance(*pair) for pair in pairs), default=math.inf)
+    return measure_distances(here, above)
 
 
 def _flatten(bore: Bore) -> Bore:
@@ -295,36 +330,6 @@ def _flatten(bore: Bore) -> Bore:
     direction = (along / seen, out / seen, 0.0) if seen else (0.0, -1.0, 0.0)
     length = None if bore.length is None else bore.length * seen
     return Bore(start=(x, y, 0.0), direction=direction, length=length)
-
-
-@lru_cache(maxsize=4096)
-def measure_distance(first: Bore, second: Bore) -> float:
-    """Least distance of two anchors, each a straight line of its length [m].
-
-    It lies between two points inside both, or at an end of one of them.
-
-    Verified by
-    -----------
-    tests/verification/test_anchor_distance.py
-    """
-    (a, b, c), (d, e, f) = first.direction, second.direction
-    x, y, z = (u - v for u, v in zip(first.start, second.start, strict=True))
-    ends = [_LONG if bore.length is None else bore.length for bore in (first, second)]
-    cosine = a * d + b * e + c * f
-    along, beside = a * x + b * y + c * z, d * x + e * y + f * z
-    tried = [(end, beside + end * cosine) for end in (0.0, ends[0])]
-    tried += [(end * cosine - along, end) for end in (0.0, ends[1])]
-    sine = 1.0 - cosine**2
-    if sine > 1e-12:
-        nearest = (cosine * beside - along) / sine
-        tried.append((nearest, beside + nearest * cosine))
-    least = math.inf
-    for on_first, on_second in tried:
-        s = min(max(on_first, 0.0), ends[0])
-        t = min(max(on_second, 0.0), ends[1])
-        gap = (x + s * a - t * d, y + s * b - t * e, z + s * c - t * f)
-        least = min(least, math.hypot(*gap))
-    return least
 
 
 def find_dip(axis: float, slope: float, anchor: str) -> float:

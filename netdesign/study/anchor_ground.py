@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, product
 
+import numpy as np
+
 from netdesign.checks import Check, OpenKind
 from netdesign.checks.comparison import compare, lack_factor, leave_open
 from netdesign.checks.schema import ANCHOR_DISTANCE, SOIL_COHESION, SOIL_FRICTION
@@ -27,9 +29,8 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Bore,
-    find_distance_to_row_above,
-    find_least_distance,
-    measure_distance,
+    measure_distances,
+    measure_to_row_above,
 )
 from netdesign.study.anchor_pulls import ANCHORS, GUY_ANCHORS, find_pull
 from netdesign.study.case_records import PullRecord
@@ -90,19 +91,18 @@ def _list_nearest(
     upslope = row.upslope_length
     if "upslope_length" in ranges.further:
         upslope = ranges["upslope_length"].low
-    of_row: dict[str, list[Bore]] = {}
-    for anchor, bore in _list_beside(row, points, pulls):
-        of_row.setdefault(anchor, []).append(bore)
-    for (member, bores), (other, others) in product(of_row.items(), repeat=2):
-        named = (name_member(member), name_member(other))
-        if member == other:
-            yield find_least_distance(bores), named
-        elif member < other:
-            distances = (measure_distance(*pair) for pair in product(bores, others))
-            yield min(distances), named
-        if row.has_row_above:
-            there = say("bores.of_row_above", anchor=named[1])
-            yield find_distance_to_row_above(bores, others, upslope), (named[0], there)
+    members, bores = zip(*_list_beside(row, points, pulls), strict=True)
+    places: dict[str, list[int]] = {}
+    for place, member in enumerate(members):
+        places.setdefault(member, []).append(place)
+    apart, above = measure_distances(bores, bores), measure_to_row_above(bores, upslope)
+    np.fill_diagonal(apart, np.inf)
+    for (member, own), (other, others) in product(places.items(), repeat=2):
+        named, pairs = (name_member(member), name_member(other)), np.ix_(own, others)
+        if member <= other:
+            yield float(apart[pairs].min()), named
+        there = say("bores.of_row_above", anchor=named[1])
+        yield float(above[pairs].min()), (named[0], there)
 
 
 def _list_beside(

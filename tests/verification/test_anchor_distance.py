@@ -8,9 +8,8 @@ from scipy.optimize import minimize
 
 from netdesign.structure.row_position import (
     Bore,
-    find_distance_to_row_above,
-    find_least_distance,
-    measure_distance,
+    measure_distances,
+    measure_to_row_above,
 )
 from tests.each import each
 
@@ -20,6 +19,10 @@ def a_bore(start, direction, length=5.0):
     return Bore(
         start=start, direction=tuple(one / size for one in direction), length=length
     )
+
+
+def measure_distance(one, other):
+    return float(measure_distances([one], [other])[0, 0])
 
 
 def test_parallel_anchors_are_as_far_as_their_axes():
@@ -63,11 +66,8 @@ def test_drawn_anchors_are_as_far_as_a_minimiser_finds(seed):
     found = measure_distance(one, other)
     assert found == pytest.approx(math.sqrt(max(least, 0.0)), abs=2e-4)
     assert measure_distance(other, one) == pytest.approx(found)
-    assert find_least_distance([one, other]) == found
-
-
-def test_one_anchor_is_far_from_every_other():
-    assert find_least_distance([a_bore((0, 0, 0), (1, 0, 0))]) == math.inf
+    of_all = measure_distances([one, other], [other, one])
+    assert of_all == pytest.approx(np.array([[found, 0.0], [0.0, found]]))
 
 
 def test_anchors_of_a_row_above_come_towards_those_of_the_row():
@@ -76,11 +76,12 @@ def test_anchors_of_a_row_above_come_towards_those_of_the_row():
     downhill = a_bore((4.9, 0.0, 1.1), (1.0, -1.0, 0.0))
     apart = 17.3 - 3.7 - 4.9 - 2.0 * 5.0 / math.sqrt(2.0)
     both = [uphill, downhill]
-    found = find_distance_to_row_above(both, both, 17.3)
-    assert found == pytest.approx(apart)
+    found = measure_to_row_above(both, 17.3)
+    assert found.min() == pytest.approx(apart)
     # 10 m apart they cross, wherever they stand along the row
     beside = a_bore((-3.7, 0.0, 9.2), (-1.0, -1.0, 0.0))
-    assert find_distance_to_row_above([beside], [downhill], 10.0) == pytest.approx(0.0)
+    least = measure_to_row_above([beside, downhill], 10.0)[0, 1]
+    assert least == pytest.approx(0.0, abs=1e-9)
 
 
 @each("seed", range(20))
@@ -90,10 +91,10 @@ def test_seen_along_the_row_no_drawn_anchors_are_nearer(seed):
         a_bore(tuple(draw.uniform(-5, 5, 3)), tuple(draw.normal(size=3)))
         for _ in range(4)
     ]
-    least = find_distance_to_row_above(bores, bores, 9.0)
-    for one in bores:
-        for other in bores:
+    least = measure_to_row_above(bores, 9.0)
+    for row, one in enumerate(bores):
+        for column, other in enumerate(bores):
             x, y, z = other.start
             moved = (x - 9.0, y, z + float(draw.uniform(-4, 4)))
             above = Bore(start=moved, direction=other.direction, length=other.length)
-            assert measure_distance(one, above) >= least - 1e-9
+            assert measure_distance(one, above) >= least[row, column] - 1e-9
