@@ -148,10 +148,14 @@ def test_rows_with_the_same_net_share_a_net_type(slope, tmp_path, call):
     for number, height in enumerate((3.0, 2.5, 3.0)):
         rows["features"][number]["properties"]["net height [m]"] = height
     rows["features"][2]["properties"]["slack"] = 0.06
+    rows["features"][0]["properties"]["paint"] = "red"
+    rows["features"].pop()  # no zone, whose cover would be told
     (tmp_path / "rows.json").write_text(json.dumps(rows))
     out = tmp_path / "site.xlsx"
     ended = call("terrain", slope / "slope.asc", tmp_path / "rows.json", "--out", out)
     assert ended.code == 0, ended.err
+    assert "left out: 'paint'" in ended.err
+    assert call("check", out, "--dry-run").code in (0, 4)  # a workbook as any other
     assert list_nets(out) == {"D_K 3": 3.0, "D_K 2.5": 2.5, "D_K 3 2": 3.0}
     site = read_site(out)
     assert [(row.net_height, row.slack) for row in site.rows] == [
