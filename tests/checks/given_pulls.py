@@ -3,8 +3,11 @@
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import Balance, EndPull, SolvedState
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.columns.office import load_columns
@@ -180,6 +183,7 @@ def give_pulls(site, foot, head) -> CaseResult:
     return CaseResult(
         case=case,
         outcome=Outcome.CONVERGED,
+        solution=hang_net(point, foot, head),
         member_forces={
             member: Band(low=force, value=force, high=force)
             for member, force in {
@@ -188,4 +192,34 @@ def give_pulls(site, foot, head) -> CaseResult:
             }.items()
         },
         anchors=anchors,
+    )
+
+
+def hang_net(point, foot, head):
+    """State of a net that leaves both ends along these pulls [kN/m]."""
+    ends = [EndPull(x=1e3 * x, y=1e3 * y, error=0.0) for x, y in (foot, head)]
+    sizes = [end.size for end in ends]
+    ways = [np.array([end.x, end.y]) / end.size for end in ends]
+    starts = [step * ways[0] for step in (0.0, 0.05, 0.1)]
+    stops = [point + step * ways[1] for step in (0.1, 0.05, 0.0)]
+    middle = (starts[-1] + stops[0]) / 2.0
+    curve = np.array([*starts, middle, *stops]).T
+    pressed = np.zeros_like(curve)
+    return SolvedState(
+        method="steady",
+        foot=ends[0],
+        head=ends[1],
+        tension_max=max(sizes),
+        net_curve=curve,
+        net_forces=pressed,
+        net_slides=np.zeros(curve.shape[1], dtype=bool),
+        balance=Balance(
+            weight_along_slope=1.0,
+            relative_residual=0.0,
+            friction_excess=0.0,
+            smallest_tension=min(sizes),
+            suction_share=0.0,
+            ground_tension_share=0.0,
+        ),
+        cost=None,
     )
