@@ -118,14 +118,17 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
         except (ValueError, TypeError):
             span = GivenRange(math.nan, math.nan)
         faults = {
-            "range_form": not (math.isfinite(span.low) and math.isfinite(span.high)),
-            "range_reversed": span.low > span.high,
-            "range_empty": span.low == span.high,
-            "range_samples": span.count is not None and not 2 <= span.count <= 1000,
+            "usage.range_form": not (
+                math.isfinite(span.low) and math.isfinite(span.high)
+            ),
+            "usage.range_reversed": span.low > span.high,
+            "usage.range_empty": span.low == span.high,
+            "usage.range_samples": span.count is not None
+            and not 2 <= span.count <= 1000,
         }
         for key, is_fault in faults.items():
             if is_fault:
-                raise ValueRefusal(say(f"usage.{key}", text=text), ctx, param)
+                raise ValueRefusal(say(key, text=text), ctx, param)
         return span
 
 

@@ -388,8 +388,11 @@ def _add_unit(what: Message, unit: str) -> Message:
 def _list_profile(study: Study) -> Pairs:
     profile = study.profile
     yield say("diff.profile"), profile.id
-    for key in ("edition", "version", "choice", "floor", "shared_sum"):
-        yield say(f"diff.{key}"), getattr(profile, key)
+    yield say("diff.edition"), profile.edition
+    yield say("diff.version"), profile.version
+    yield say("diff.choice"), profile.choice
+    yield say("diff.floor"), profile.floor
+    yield say("diff.shared_sum"), profile.shared_sum
     for value in profile.values:
         yield say("diff.with_unit", what=value.id, unit=value.unit), value.value
 
