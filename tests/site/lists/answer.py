@@ -12,6 +12,7 @@ from netdesign.site.titles import name_map
 ALWAYS = {"de": "kleinster Versuch", "fr": "minimum d'essais", "en": "least of tests"}
 WORDS = {"câble": "ancrage à câble"}  # as the input workbook says it
 _OPEN = re.compile(r'("(?:[^"\\]|\\.)*") = "[^"]*\?[^"]*"')
+_ANSWERED = {}  # by list
 _UNIT = re.compile(r"\[(cm)\]")
 
 
@@ -31,9 +32,11 @@ def answer_list(office, path):
 
     Words of cells are asked about once it is known what their column is.
     """
-    for _ in range(2):
-        text = _answer_once(office, path)
+    known = repr(office)
+    for _ in range(1 if known in _ANSWERED else 2):
+        text = _ANSWERED.get(known) or _answer_once(office, path)
         name_map(path).write_text(text, encoding="utf-8")
+    _ANSWERED[known] = text
     return name_map(path)
 
 
