@@ -2,8 +2,8 @@
 
 What a quantity is: ``columns.toml``. The input workbook (`office`) takes its columns
 from there; sheets of add-ons are read as they stand there. Names of sheets and columns,
-and words of cells, stand in ``netdesign/words``. How
-offices write headings stands in ``headings/``, for guesses of ``netdesign map``.
+and words of cells, stand in ``netdesign/words``. How offices write headings stands in
+``headings/``, for guesses of ``netdesign map``.
 A heading is known by its whole name, in which case, accents and punctuation do not
 count.
 """
@@ -30,8 +30,6 @@ Data = Mapping[str, Any]
 
 READ_LANGUAGES = (*LANGUAGES, "it")  # Italian is read, though not spoken
 
-_OF_COLUMN = ("units", "bounds", "usual", "zero_says_none")  # a range has them too
-
 
 @lru_cache
 def load_file(name: str) -> Data:
@@ -56,14 +54,7 @@ def _read_plan(name: str) -> SheetPlan:
 def _read_fields(table: str) -> tuple[Field, ...]:
     """Columns of a sheet, or what its lines may name, in the order of the file."""
     entries: Data = load_file("columns")[table]
-    return tuple(_read_field(table, key, entry) for key, entry in entries.items())
-
-
-def _read_field(table: str, key: str, entry: Data) -> Field:
-    if "column" in entry:
-        column = load_file("columns")["Nets"][entry["column"]]
-        entry = {**{one: column[one] for one in _OF_COLUMN if one in column}, **entry}
-    return build_field(table, key, entry)
+    return tuple(build_field(table, key, entry) for key, entry in entries.items())
 
 
 def build_field(table: str, key: str, entry: Data) -> Field:
@@ -76,11 +67,7 @@ def build_field(table: str, key: str, entry: Data) -> Field:
     entry : mapping
         Its keys, as the file says.
     """
-    values = {
-        one: _READ.get(one, _freeze)(value)
-        for one, value in entry.items()
-        if one != "column"
-    }
+    values = {one: _READ.get(one, _freeze)(value) for one, value in entry.items()}
     return Field(
         key=key,
         table=table,

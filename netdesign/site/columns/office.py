@@ -29,10 +29,8 @@ from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
 
 # Keys of a column that only the template needs.
-_OF_TEMPLATE = (
-    *("like", "unit", "choice", "group", "need", "has", "assumed", "said", "why"),
-    *("width", "divided", "note"),
-)
+_PLAIN = ("need", "has", "choice", "group", "assumed", "said", "width")
+_TEXTS = ("why", "note", "divided")
 PROJECT_HEADS = ("item", "value", "unit", "empty", "source", "has", "meaning")
 
 
@@ -89,25 +87,17 @@ def _read_column(table: str, key: str, of: str) -> Column:
     own = load_file("office")[table][key]
     stands_for = own.get("like", f"{of}.{key}")
     place, _, name = stands_for.rpartition(".")
-    like = dict(load_file("columns").get(place, {}).get(name, {}))
-    entry = {key: own[key] for key in own if key not in _OF_TEMPLATE}
-    if "unit" in own and not like.get("units") and own["unit"] in ("m", "-", "kN"):
-        entry["units"] = {"m": "length", "-": "factor", "kN": "force"}[own["unit"]]
-    like.pop("required", None)
-    field = build_field(
-        table, key, {**like, **entry, "required": own.get("need") == "yes"}
-    )
-    texts = {one: own.get(one, {}) for one in ("why", "note", "divided")}
+    like = load_file("columns").get(place, {}).get(name, {})
+    shown = {"like", "unit", *_PLAIN, *_TEXTS}
+    entry = like | {one: own[one] for one in own if one not in shown}
+    field = build_field(table, key, entry | {"required": own.get("need") == "yes"})
     return Column(
         field=field,
         like=stands_for,
         unit=own.get("unit", field.unit),
-        texts=texts,
+        texts={one: own.get(one, {}) for one in _TEXTS},
         **{one: own[one] for one in _PLAIN if one in own},
     )
-
-
-_PLAIN = ("need", "has", "choice", "group", "assumed", "said", "width")
 
 
 @cache
