@@ -142,6 +142,7 @@ def build_row(name, **changes):
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
         "guys": Guys(count=2, splay=math.radians(29.0), are_shared=True),
+        "has_row_above": False,
         "design_life": 50,
         "resistances": resist(),
         "net_parts": list_net_parts(has_ropes=bool(changes.get("panels"))),

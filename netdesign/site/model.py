@@ -87,6 +87,7 @@ class NetRow:
     design_life: int = 100  # [years]
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
+    has_row_above: bool = True  # built alike, the upslope length away
     # of anchors, where given [rad]; others are drilled along the pull
     axes: tuple[tuple[Member, float], ...] = ()
     # those that have a type

@@ -101,8 +101,9 @@ def _list_nearest(
         named, pairs = (name_member(member), name_member(other)), np.ix_(own, others)
         if member <= other:
             yield float(apart[pairs].min()), named
-        there = say("bores.of_row_above", anchor=named[1])
-        yield float(above[pairs].min()), (named[0], there)
+        if row.has_row_above:
+            there = say("bores.of_row_above", anchor=named[1])
+            yield float(above[pairs].min()), (named[0], there)
 
 
 def _list_beside(

@@ -177,7 +177,7 @@ def _list_of_bores(forces: RowForces) -> Iterator[Condition]:
     apart, gap = standard.find(ANCHOR_DISTANCE), standard.find(MAX_GAP)
     if apart is not None and row.row_end is not None:
         yield _state("apart", apart.value)
-    is_open = row.find_assumed("upslope_length") is not None
+    is_open = row.has_row_above and row.find_assumed("upslope_length") is not None
     if apart is not None and is_open:
         yield _state("row_above", apart.value)
     if gap is not None and math.isinf(row.gap):
