@@ -106,7 +106,7 @@ THIRD_PARTY = {
     "distributed": ("solving.workers",),
     "hatchling": ("core.build",),  # it runs before the package is installed
     "skfem": ("snow.forms",),
-    "openpyxl": ("site.cells.xlsx", "site.cells.cells", "site.template.annotate"),
+    "openpyxl": ("site.cells.*", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.cells"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import zipfile
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from io import BytesIO
@@ -138,6 +138,11 @@ class Sheet:
         blank = Cell(file=self.file, sheet=self.name, row=row, column=column)
         return self.rows.get(row, {}).get(column, blank)
 
+    @property
+    def cells(self) -> Iterator[Cell]:
+        """Filled cells, row by row."""
+        return (cell for row in self.rows.values() for cell in row.values())
+
     def row(self, number: int) -> tuple[Cell, ...]:
         """Cells of one row that hold more than spaces, from left to right."""
         cells = self.rows.get(number, {}).values()
@@ -191,44 +196,36 @@ def doubt_results(workbook: Workbook) -> Workbook:
     the cells it names. Where that cannot be found, a workbook that is calculated by
     hand is in doubt.
     """
-    cells = {
-        (sheet.name.casefold(), cell.address): cell
+    places = {
+        sheet.name.casefold(): {cell.address: cell for cell in sheet.cells}
         for sheet in workbook.sheets
-        for row in sheet.rows.values()
-        for cell in row.values()
     }
+
+    def find(sheet: str, place: str) -> object:
+        of_sheet = places.get(sheet.casefold())
+        if of_sheet is None:
+            return None
+        value = of_sheet[place].value if place in of_sheet else 0.0
+        if not isinstance(value, str):
+            return value
+        number = parse_number(value, of_sheet[place].decimal_mark)
+        return number if isinstance(number, float) else value
 
     def mark(cell: Cell) -> Cell:
         if not cell.formula or cell.doubt or not isinstance(cell.value, int | float):
             return cell
         number = compute_formula(
-            cell.formula, lambda sheet, place: find(cell, sheet, place)
+            cell.formula, lambda sheet, place: find(sheet or cell.sheet, place)
         )
         if number is None:
             return replace(cell, doubt=_BY_HAND) if workbook.is_by_hand else cell
         if math.isclose(number, cell.value, rel_tol=1e-6, abs_tol=1e-9):
             return cell
-        told = say("cell.stale", stored=float(cell.value), number=number)
-        return replace(cell, doubt=told)
-
-    def find(cell: Cell, sheet: str, place: str) -> object:
-        known = sheet or cell.sheet
-        if all(one.name.casefold() != known.casefold() for one in workbook.sheets):
-            return None
-        found = cells.get((known.casefold(), place))
-        if found is None or not isinstance(found.value, str):
-            return 0.0 if found is None else found.value
-        number = parse_number(found.value, found.decimal_mark)
-        return number if isinstance(number, float) else found.value
+        stale = say("cell.stale", stored=float(cell.value), number=number)
+        return replace(cell, doubt=stale)
 
     sheets = tuple(
-        replace(
-            sheet,
-            rows={
-                number: {column: mark(cell) for column, cell in row.items()}
-                for number, row in sheet.rows.items()
-            },
-        )
+        replace(sheet, rows=group_by_row(map(mark, sheet.cells)))
         for sheet in workbook.sheets
     )
     return replace(workbook, sheets=sheets)

@@ -289,7 +289,7 @@ def is_moment(text: str) -> bool:
 
 _ONE = r"\$?[A-Z]{1,3}\$?[1-9]\d{0,6}"
 _REFERENCE = re.compile(
-    rf"(?:(?:'((?:[^']|'')+)'|([^\W\d][\w.]*))!)?({_ONE})(?::({_ONE}))?(?![\w(.!])"
+    rf"(?:(?:'((?:[^']|'')+)'|([^\W\d][\w.]*))!)?({_ONE}(?::{_ONE})?)(?![\w(.!])"
 )
 _LONGEST_FORMULA, _MOST_SUMMED = 300, 1000
 _OPERATORS = {
@@ -334,8 +334,7 @@ def compute_formula(formula: str, find: Callable[[str, str], object]) -> float |
     def name(match: re.Match[str]) -> str:
         sheet = (match[1] or match[2] or "").replace("''", "'")
         key = f"cell_{len(cells)}"
-        places = _list_places(match[3], match[4] or match[3])
-        cells[key] = [find(sheet, place) for place in places]
+        cells[key] = [find(sheet, place) for place in _list_places(match[3])]
         return key
 
     with suppress(ArithmeticError, LookupError, SyntaxError, TypeError, ValueError):
@@ -345,16 +344,16 @@ def compute_formula(formula: str, find: Callable[[str, str], object]) -> float |
     return None
 
 
-def _list_places(first: str, last: str) -> list[str]:
-    """Addresses of a range within one column; an error of any other."""
-    ends = [
-        re.fullmatch(r"([A-Z]+)(\d+)", one.replace("$", "")) for one in (first, last)
-    ]
-    (column, start), (other, end) = (one.groups() for one in ends if one)
-    rows = range(int(start), int(end) + 1)
-    if column != other or not 0 < len(rows) <= _MOST_SUMMED:
-        raise ValueError(first)
-    return [f"{column}{row}" for row in rows]
+def _list_places(text: str) -> list[str]:
+    """Addresses of a cell, or of a range within one column; an error of any other."""
+    from openpyxl.utils import get_column_letter  # slow to import
+    from openpyxl.worksheet.cell_range import CellRange
+
+    span = CellRange(text)
+    if span.size["columns"] > 1 or span.size["rows"] > _MOST_SUMMED:
+        raise ValueError(text)
+    column = get_column_letter(span.min_col)
+    return [f"{column}{row}" for row in range(span.min_row, span.max_row + 1)]
 
 
 def _evaluate(node: ast.AST, cells: dict[str, Sequence[object]]) -> list[float]:

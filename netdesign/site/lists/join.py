@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
@@ -16,11 +16,15 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.lists.list_map import ListMap, ListTable
 from netdesign.site.lists.targets import GROUPS, Target, list_targets, read_answer
-from netdesign.site.titles import find_heading_unit, is_unit, read_unit
+from netdesign.site.titles import (
+    find_heading_unit,
+    is_unit,
+    name_net_type,
+    read_unit,
+)
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
-_LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 # Columns of a sheet that is made: heading, and cells by line of the list, by number.
 Columns = dict[int, tuple[str, Mapping[int, Cell]]]
@@ -224,7 +228,7 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
     names = {line: cell for line, cell in typed.items() if not cell.is_blank}
     height = mapped.find("net_types", "net_height")
     nets = [n for n, (x, _) in mapped.columns.items() if x.table == "net_types"]
-    named: dict[tuple[str, ...], str] = {}
+    named: dict[Hashable, str] = {}
     for line, cell in mapped.cells(height).items() if height else ():
         values = tuple(mapped.sheet.cell(line, n).text.strip() for n in nets)
         # neither a line of sums nor an empty one has a net whose height is missing
@@ -234,11 +238,8 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
         if cell.is_blank and is_sum:
             names[line] = cell
             continue
-        if values not in named:
-            stem = f"D_K {cell.text.strip()}"
-            count = sum(name.startswith(stem) for name in named.values())
-            named[values] = f"{stem} {_LETTERS[count]}" if count else stem
-        names[line] = replace(cell, value=named[values], formula="")
+        name = name_net_type(cell.text.strip(), values, named)
+        names[line] = replace(cell, value=name, formula="")
     return names
 
 

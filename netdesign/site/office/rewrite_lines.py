@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 
 from netdesign.site.columns.fields import from_si
 from netdesign.site.office.told import Line, Told, copy_line, is_typed, show
 from netdesign.site.readings import Reading, Row
+from netdesign.site.titles import name_net_type
 from netdesign.site.type_resistances import compute_tendon
 from netdesign.structure.row_position import find_dip
 from netdesign.words.message import say
@@ -45,6 +46,7 @@ def rewrite_rows(
     measure = _choose_measure(lines["Nets"], ranged)
     ends = {one["row"].word: one for one in lines["Ends"]}
     types: dict[str, Line] = {}
+    named: dict[Hashable, str] = {}
     rows: list[Line] = []
     for line in lines["Nets"]:
         end = ends.get(line["id"].word, ends.get("all"))
@@ -58,26 +60,15 @@ def rewrite_rows(
         if end is not None:
             row |= _rewrite_end(end, told)
             net |= copy_line("net_types", end, "Ends", told)
-        row["net_type"] = _name_type(net, types)
-        rows.append(row)
-    nets = [{"id": name, **net} for name, net in types.items()]
+        height = net.get("net_height", "")
+        shown = f"{height:g}" if isinstance(height, float) else str(height)
+        name = name_net_type(shown, repr(sorted(net.items())), named)
+        types.setdefault(name, {"id": name, **net})
+        rows.append({**row, "net_type": name})
     measures = {("rows", "snow"): measure, ("net_types", "slack"): "slack"}
     has_heights = any(is_typed(one["height"]) for one in lines["Snow"])
     measures["layers", "thickness"] = "vertical" if has_heights else "normal"
-    return {"rows": rows, "net_types": nets}, measures
-
-
-def _name_type(net: Line, types: dict[str, Line]) -> str:
-    """Id of the net type with these values; rows with the same share one."""
-    for name, known in types.items():
-        if net == known:
-            return name
-    height = net.get("net_height", "")
-    stem = f"D_K {height:g}" if isinstance(height, float) else f"D_K {height}"
-    count = sum(one.get("net_height", "") == height for one in types.values())
-    name = f"{stem} {chr(ord('a') + count)}" if count else stem
-    types[name] = net
-    return name
+    return {"rows": rows, "net_types": list(types.values())}, measures
 
 
 def _choose_measure(nets: Sequence[Row], ranged: Mapping[str, str]) -> str:

@@ -100,9 +100,8 @@ def _open(path: Path) -> OpenWorkbook:
 
 def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
     copy = workbook.create_sheet(sheet.name)
-    for cells in sheet.rows.values():
-        for cell in cells.values():
-            _write(copy.cell(cell.row, cell.column), cell.value)
+    for cell in sheet.cells:
+        _write(copy.cell(cell.row, cell.column), cell.value)
 
 
 def _write(cell: Any, value: object) -> None:
