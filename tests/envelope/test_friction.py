@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
 from netdesign.envelope.search import FrictionSkip
 from netdesign.outcome import Outcome
-from netdesign.solving.workers import solve_job
+from netdesign.solving.workers import Job, solve_job
 from netdesign.words.message import say
+from tests.solving.test_store import solve_one
 
 AXES = ("density", "friction_angle")
 LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
@@ -18,8 +20,6 @@ LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
 @pytest.fixture(scope="module")
 def end():
     """One real end; what matters of it is changed by ``sticking``."""
-    from tests.solving.test_store import solve_one
-
     return solve_one()
 
 
@@ -109,23 +109,17 @@ def test_a_line_is_solved_upwards_until_its_snow_sticks(end):
 
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
     """What the skip relies on, on the real thing: rough ground, an upright net."""
-    from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-    from netdesign.solving.workers import Job
-
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
     ends = [
         solve_job(Job(scene=a_scene(friction_deg=phi, slack=0.05), settings=settings))
         for phi in (30.0, 45.0)
     ]
     assert all(end.sticks for end in ends)
-    low, high = (end for end in ends)
+    low, high = ends
     assert (low.foot, low.head) == (high.foot, high.head)
 
 
 def test_friction_hardly_matters_where_snow_slips_by_the_foot_only(a_scene):
-    from netdesign.coupling.scene import SolverSettings
-    from netdesign.solving.workers import Job
-
     scenes = [a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (36.0, 45.0)]
     low, high = (
         solve_job(Job(scene=scene, settings=SolverSettings())) for scene in scenes

@@ -12,7 +12,6 @@ from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.envelope.signed_forces import read_signed
 from netdesign.panel.inputs import list_panels
-from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
 from tests.envelope.tasks import build_row, draw_case
 from tests.solving.small_scene import COARSE, PANEL, build_scene
@@ -70,11 +69,6 @@ def test_signed_forces_are_the_largest_on_any_layout(panels):
     alone = [read_signed([solve(case, [one], panels)], [one]) for one in LAYOUTS]
     assert np.isfinite(together).all()
     np.testing.assert_allclose(together, np.max(alone, axis=0), rtol=1e-9)
-
-
-@pytest.fixture(scope="module")
-def runner():
-    return Runner()
 
 
 @pytest.mark.parametrize("panels", [(), PANELS[:2]])

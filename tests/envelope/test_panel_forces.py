@@ -42,11 +42,6 @@ def solve(case, panel=PANEL, settings=COARSE):
 
 
 @pytest.fixture(scope="module")
-def runner():
-    return Runner()
-
-
-@pytest.fixture(scope="module")
 def found(runner):
     finer = refine_settings(replace(COARSE, levels=MESH_LEVELS[:4]))
     (one,) = search_rows([replace(TASK, confirmed_by=finer)], runner)

@@ -29,11 +29,6 @@ RANGES = TASK.ranges
 
 
 @pytest.fixture(scope="module")
-def runner():
-    return Runner()
-
-
-@pytest.fixture(scope="module")
 def found(runner):
     finer = refine_settings(replace(COARSE, levels=MESH_LEVELS[:4]))
     (one,) = search_rows([replace(TASK, confirmed_by=finer)], runner)
