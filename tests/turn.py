@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from netdesign.checks import Proof
-from netdesign.checks.check import Open, OpenKind, rate_utilisation
+from netdesign.checks.rating import Open, OpenKind, rate_utilisation
 from netdesign.outcome import Verdict
 from netdesign.words.message import Message, say
 

@@ -1,9 +1,6 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
 from netdesign.checks.check import Check as Check
-from netdesign.checks.check import Open as Open
-from netdesign.checks.check import OpenKind as OpenKind
-from netdesign.checks.check import Rating as Rating
 from netdesign.checks.comparison import RatedForce as RatedForce
 from netdesign.checks.comparison import check_member as check_member
 from netdesign.checks.comparison import find_resistance as find_resistance
@@ -20,4 +17,7 @@ from netdesign.checks.loader import Standard as Standard
 from netdesign.checks.loader import list_standards as list_standards
 from netdesign.checks.loader import load_default as load_default
 from netdesign.checks.loader import load_standard as load_standard
+from netdesign.checks.rating import Open as Open
+from netdesign.checks.rating import OpenKind as OpenKind
+from netdesign.checks.rating import Rating as Rating
 from netdesign.checks.schema import StandardValue as StandardValue

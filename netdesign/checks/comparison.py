@@ -12,10 +12,11 @@ from dataclasses import dataclass, replace
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
-from netdesign.checks.check import Check, Open, OpenKind, Rating
+from netdesign.checks.check import Check
 from netdesign.checks.forces import rate, resist_by_tests
 from netdesign.checks.inputs import GivenResistance
 from netdesign.checks.loader import Standard
+from netdesign.checks.rating import Open, OpenKind, Rating
 from netdesign.checks.schema import (
     ACCEPTANCE_TEST,
     ACTION_FACTOR,

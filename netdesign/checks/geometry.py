@@ -6,10 +6,11 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from netdesign.checks.check import Check, OpenKind, judge
+from netdesign.checks.check import Check
 from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.inputs import Proof
 from netdesign.checks.loader import Standard
+from netdesign.checks.rating import OpenKind, judge
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from netdesign.checks.check import CasePoint, Check, OpenKind
+from netdesign.checks.check import CasePoint, Check
+from netdesign.checks.rating import OpenKind
 from netdesign.checks.schema import StandardValue
 from netdesign.edge.json_text import (
     Items,

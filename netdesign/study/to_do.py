@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from netdesign.checks.check import Check, Open, OpenKind
+from netdesign.checks.check import Check
+from netdesign.checks.rating import Open, OpenKind
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.study.conditions import Who
 from netdesign.study.records import RowStudy, Study

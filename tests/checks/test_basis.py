@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Check, Open, OpenKind, Proof, check_member, load_standard
-from netdesign.checks.check import judge
 from netdesign.checks.geometry import check_height
+from netdesign.checks.rating import judge
 from netdesign.outcome import Verdict
 from tests.checks.entries import a_force, a_resistance, a_value
 from tests.each import each

@@ -13,9 +13,9 @@ from netdesign.checks import (
     check_member,
     load_standard,
 )
-from netdesign.checks.check import judge
 from netdesign.checks.comparison import find_proof_factor, find_resistance
 from netdesign.checks.geometry import check_inclination
+from netdesign.checks.rating import judge
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.ground import PullOutTests
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES

@@ -13,8 +13,8 @@ from netdesign.checks import (
     list_standards,
     load_standard,
 )
-from netdesign.checks.check import OpenKind
 from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
+from netdesign.checks.rating import OpenKind
 from netdesign.checks.schema import SPACING_CAP
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Verdict

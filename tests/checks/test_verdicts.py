@@ -19,7 +19,7 @@ from netdesign.checks import (
     check_member,
     load_standard,
 )
-from netdesign.checks.check import Open, OpenKind, judge, merge_open
+from netdesign.checks.rating import Open, OpenKind, judge, merge_open
 from netdesign.outcome import Verdict
 from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved

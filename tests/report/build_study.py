@@ -8,7 +8,7 @@ from itertools import product
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
-from netdesign.checks.check import CasePoint, Change, Check, Open, OpenKind
+from netdesign.checks.check import CasePoint, Change, Check
 from netdesign.checks.forces import (
     MemberLoad,
     bring_to_support,
@@ -16,6 +16,7 @@ from netdesign.checks.forces import (
     rate,
     take_largest,
 )
+from netdesign.checks.rating import Open, OpenKind
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import (

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks.check import OpenKind
+from netdesign.checks.rating import OpenKind
 from netdesign.outcome import Verdict
 from netdesign.study.conditions import Condition, merge_conditions
 from netdesign.words.message import say

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks.check import Open, OpenKind
+from netdesign.checks.rating import Open, OpenKind
 from netdesign.outcome import Verdict
 from netdesign.study.to_do import MOST_LINES, WHO, list_to_do
 from netdesign.words.message import say
