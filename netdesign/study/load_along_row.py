@@ -177,11 +177,9 @@ def find_end_guy(
         return None
     places = place_over(row, span)
     held = [hold_end_guy(place) for place in places]
-    failed = next(
-        (support for support in held if isinstance(support, FailedSupport)), None
-    )
-    if failed is not None:
-        return failed.reason
+    failed = [support for support in held if isinstance(support, FailedSupport)]
+    if failed:
+        return failed[0].reason
     forces = [support for support in held if isinstance(support, HeadForces)]
     posts = [head.post_compression for head in forces]
     upright = [place.head[1] / place.post_length for place in places]

@@ -223,19 +223,13 @@ def list_one_anchor_notes(checks: Sequence[Check]) -> list[Message]:
 
     The two act across each other: the section's force, and a rope's along the row.
     """
-    foot, along = (
-        max(
-            (
-                force
-                for check in checks
-                if check.member == member
-                and check.position == "edge"
-                and (force := check.read("E_k")) is not None
-            ),
-            default=None,
-        )
-        for member in (Member.FOOT_ANCHOR, EndMember.LATERAL_ANCHOR)
-    )
+    forces: dict[str, float] = {}
+    for check in checks:
+        force = check.read("E_k") if check.position == "edge" else None
+        if force is not None:
+            forces[check.member] = max(force, forces.get(check.member, force))
+    foot = forces.get(Member.FOOT_ANCHOR)
+    along = forces.get(EndMember.LATERAL_ANCHOR)
     if foot is None or along is None:
         return []
     return [say("row.one_anchor", both=math.hypot(foot, along))]

@@ -8,7 +8,7 @@ gives a number".
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
@@ -32,18 +32,14 @@ from netdesign.units import given_degree_from_radian
 
 _OF_LAYOUT = ("post_tilt", "uphill_anchor_distance", "downhill_anchor_distance")
 _COUNT, _SPLAY, _END = "guy_count", "guy_splay", "end_guy_angle"
-_UNITS = {"deg": "_deg"}
+_ANGLES = ("post_tilt", _SPLAY, _END)
 _OF_STATICS = (*_OF_LAYOUT, _COUNT, _SPLAY, _END)
 
 
 def list_layouts(row: NetRow) -> tuple[SupportLayout, ...]:
     """Layouts of a row's support at all corners of what is assumed of them."""
-    ends = {key: _list_ends(row, key) for key in _OF_LAYOUT}
-    assumed = {key: values for key, values in ends.items() if values}
-    return tuple(
-        replace(row.layout, **dict(zip(assumed, corner, strict=True)))
-        for corner in product(*assumed.values())
-    )
+    corners = _list_corners(row, _OF_LAYOUT)
+    return tuple(replace(row.layout, **values) for values in corners)
 
 
 def list_variants(row: NetRow) -> tuple[NetRow, ...]:
@@ -52,17 +48,12 @@ def list_variants(row: NetRow) -> tuple[NetRow, ...]:
     What is assumed of a variant has one value, at which it is. Those of one layout
     stand together, the layouts in the order of ``list_layouts``.
     """
-    ends = {key: _list_ends(row, key) for key in _OF_STATICS}
-    assumed = {key: values for key, values in ends.items() if values}
-    variants: dict[tuple[tuple[str, float], ...], NetRow] = {}
-    for corner in product(*assumed.values()):
-        values = dict(zip(assumed, corner, strict=True))
+    apart: dict[tuple[tuple[str, float], ...], dict[str, float]] = {}
+    for values in _list_corners(row, _OF_STATICS):
         if values.get(_COUNT, row.guys.count) < 2:
             values.pop(_SPLAY, None)  # a single guy has none
-        key = tuple(values.items())
-        if key not in variants:
-            variants[key] = place_variant(row, values)
-    return tuple(variants.values())
+        apart.setdefault(tuple(values.items()), values)
+    return tuple(place_variant(row, values) for values in apart.values())
 
 
 def place_variant(row: NetRow, values: Mapping[str, float]) -> NetRow:
@@ -101,17 +92,12 @@ def read_values(row: NetRow) -> dict[str, float]:
 
 def describe_variant(row: NetRow) -> AssumedPoint | None:
     """What is assumed of a variant, at which it is; None of a row that is given."""
-    shown = {
-        f"{assumed.key}{_UNITS.get(assumed.unit, '_m')}"
-        if assumed.key != _COUNT
-        else _COUNT: (
-            given_degree_from_radian(assumed.low)
-            if assumed.unit == "deg"
-            else assumed.low
-        )
-        for assumed in row.assumed
-        if assumed.key in _OF_STATICS and not assumed.is_range
-    }
+    shown = {}
+    for key, value in read_values(row).items():
+        if key in _ANGLES:
+            shown[f"{key}_deg"] = given_degree_from_radian(value)
+        else:
+            shown[key if key == _COUNT else f"{key}_m"] = value
     return AssumedPoint(**shown) if shown else None
 
 
@@ -120,12 +106,15 @@ def is_layout_assumed(row: NetRow) -> bool:
     return any(row.find_assumed(key) is not None for key in _OF_LAYOUT)
 
 
-def _list_ends(row: NetRow, key: str) -> tuple[float, ...]:
-    """Ends of what is assumed of a column; none where it is given."""
-    assumed = row.find_assumed(key)
-    if assumed is None or (key == _END and row.row_end is None):
-        return ()
-    return tuple(dict.fromkeys((assumed.low, assumed.high)))
+def _list_corners(row: NetRow, keys: Sequence[str]) -> Iterator[dict[str, float]]:
+    """Values at all corners of what is assumed of some columns, by their keys."""
+    ends = {}
+    for key in keys:
+        assumed = row.find_assumed(key)
+        if assumed is not None and (key != _END or row.row_end is not None):
+            ends[key] = dict.fromkeys((assumed.low, assumed.high))
+    for corner in product(*ends.values()):
+        yield dict(zip(ends, corner, strict=True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
