@@ -280,11 +280,10 @@ def find_ground_resistance(
     Theory: resistance/THEORY.md, (R18) to (R20) and (R30).
     """
     row, standard = basis.row, basis.standard
-    factors = [standard.find(key) for key in (SOIL_COHESION, SOIL_FRICTION)]
-    for key, factor in zip((SOIL_COHESION, SOIL_FRICTION), factors, strict=True):
-        if factor is None:
-            return replace(resistance, lack=lack_factor(key))
-    on_cohesion, on_friction = (factor.value for factor in factors if factor)
+    on_cohesion, on_friction = map(standard.find, (SOIL_COHESION, SOIL_FRICTION))
+    if on_cohesion is None or on_friction is None:
+        key = SOIL_FRICTION if on_cohesion else SOIL_COHESION
+        return replace(resistance, lack=lack_factor(key))
     if pull is None:
         return resistance
     depths = [x for axis in _list_axes(row, pull) for x in anchor.list_depths(axis)]
@@ -293,13 +292,13 @@ def find_ground_resistance(
         return replace(resistance, lack=say("check.unsaid", names=names))
     if not min(depths) > 0.0:
         return replace(resistance, lack=say("wedge.no_depth"))
-    reduced = soil.reduce(on_cohesion, on_friction)
+    reduced = soil.reduce(on_cohesion.value, on_friction.value)
     numbers: dict[str, float | Message] = {
         "cohesion": soil.cohesion / 1e3,
         "friction": degree_from_radian(soil.friction),
         "weight": soil.weight / 1e3,
-        "on_cohesion": on_cohesion,
-        "on_friction": on_friction,
+        "on_cohesion": on_cohesion.value,
+        "on_friction": on_friction.value,
         "water": say("wedge.drained" if soil.is_drained else "wedge.seepage"),
     }
     stability = compute_slab_stability(reduced, max(depths), row.slope_angle)

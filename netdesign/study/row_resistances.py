@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 from netdesign.calculation.quantity import Quantity, leaf
 from netdesign.checks import Standard
@@ -317,20 +318,17 @@ def connect(
         return replace(weakest_link, basis="declared")
     on_resistance = factor.value
     pulled = None if pull is None else pull.angle
-    strengths = [
-        resist_link(
-            link, pulled=pulled, on_action=on_action, on_resistance=on_resistance
-        )
-        for link in links
-    ]
-    weakest = min(range(len(links)), key=strengths.__getitem__)
+    bear = partial(
+        resist_link, pulled=pulled, on_action=on_action, on_resistance=on_resistance
+    )
+    weakest = min(links, key=bear)
     weakest_link = replace(
         weakest_link,
-        value=strengths[weakest],
+        value=bear(weakest),
         basis="declared",
-        source=links[weakest].source,
-        derivation=_describe_link(links[weakest], pulled, (on_action, on_resistance)),
-        dimensions=links[weakest],
+        source=weakest.source,
+        derivation=_describe_link(weakest, pulled, (on_action, on_resistance)),
+        dimensions=weakest,
     )
     is_whole = any(link.is_of_whole for link in links)
     return weakest_link if is_whole else _add_usual_link(weakest_link, resistance.value)
