@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -26,8 +26,6 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
-
-_MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 
 
 def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
@@ -113,8 +111,9 @@ def choose_rows(site: Site, ids: Sequence[str]) -> Site:
 def build_text_format(asked: Mapping[str, Any]) -> TextFormat:
     """Declared form of a file's text, by the options of a command."""
     from netdesign.site.cells.cells import TextFormat
+    from netdesign.site.titles import MARKS
 
-    mark = _MARKS[asked.get("decimal_mark") or ""]
+    mark = MARKS[asked.get("decimal_mark") or ""]
     return TextFormat(delimiter=asked.get("delimiter") or "", decimal_mark=mark)
 
 
