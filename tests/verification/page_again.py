@@ -55,7 +55,7 @@ def read_ratios(page):
                 continue
             member, mode, _, _, demand, resistance, _ = map(clean, cells)
             found = re.search(r'class="ratio">([^<]*)<', cells[6])
-            used = found[1] if found else "-"
+            used = found[1].rpartition("–")[2] if found else "-"  # at the worst ends
             yield f"{member}, {mode}", demand, resistance, used
 
 
