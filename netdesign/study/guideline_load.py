@@ -278,6 +278,7 @@ def record_floor(
         reason=floor.reason,
         lower_rope=factors[0],
         ridge_rope=factors[1],
+        heads=factors[2],  # without it nobody could redo the truss of a row's end
     )
 
 
