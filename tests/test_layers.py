@@ -81,6 +81,7 @@ THIRD_PARTY = {
             "envelope.*",
             "guideline.*",
             "resistance.ground",
+            "structure.row_position",
             "structure.splay",
             "search.*",
             "addons.reliability.*",

@@ -294,6 +294,13 @@ def _stack(bores: Sequence[Bore]) -> tuple[Floats, Floats, Floats]:
     return starts, directions, np.array(lengths)
 
 
+def measure_in_row(bores: Sequence[Bore]) -> Floats:
+    """Least distances of the anchors of a row, shape (n, n); infinite of itself [m]."""
+    apart = measure_distances(bores, bores)
+    np.fill_diagonal(apart, np.inf)
+    return apart
+
+
 def measure_to_row_above(bores: Sequence[Bore], upslope: float) -> Floats:
     """Least distances to the anchors of a row above that is built alike [m].
 

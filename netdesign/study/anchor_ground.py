@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, product
 
-import numpy as np
-
 from netdesign.checks import Check, OpenKind
 from netdesign.checks.comparison import compare, lack_factor, leave_open
 from netdesign.checks.schema import ANCHOR_DISTANCE, SOIL_COHESION, SOIL_FRICTION
@@ -29,7 +27,7 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Bore,
-    measure_distances,
+    measure_in_row,
     measure_to_row_above,
 )
 from netdesign.study.anchor_pulls import ANCHORS, GUY_ANCHORS, find_pull
@@ -95,8 +93,7 @@ def _list_nearest(
     places: dict[str, list[int]] = {}
     for place, member in enumerate(members):
         places.setdefault(member, []).append(place)
-    apart, above = measure_distances(bores, bores), measure_to_row_above(bores, upslope)
-    np.fill_diagonal(apart, np.inf)
+    apart, above = measure_in_row(bores), measure_to_row_above(bores, upslope)
     for (member, own), (other, others) in product(places.items(), repeat=2):
         named, pairs = (name_member(member), name_member(other)), np.ix_(own, others)
         if member <= other:
