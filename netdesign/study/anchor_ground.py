@@ -95,12 +95,12 @@ def _list_nearest(
         places.setdefault(member, []).append(place)
     apart, above = measure_in_row(bores), measure_to_row_above(bores, upslope)
     for (member, own), (other, others) in product(places.items(), repeat=2):
-        named, pairs = (name_member(member), name_member(other)), np.ix_(own, others)
+        named = (name_member(member), name_member(other))
         if member <= other:
-            yield float(apart[pairs].min()), named
+            yield float(apart[own][:, others].min()), named
         if row.has_row_above:
             there = say("bores.of_row_above", anchor=named[1])
-            yield float(above[pairs].min()), (named[0], there)
+            yield float(above[own][:, others].min()), (named[0], there)
 
 
 def _list_beside(
