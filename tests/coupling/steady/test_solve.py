@@ -166,6 +166,15 @@ def test_pulls_are_along_the_net(solved):
         np.testing.assert_allclose(pull(end) / end.size, direction, atol=5e-3)
 
 
+def test_node_forces_add_up_to_the_pulls(solved):
+    for ground in ("free", "no-slip"):
+        solution = solved(ground=ground, friction_deg=10.0)
+        total = solution.net_forces.sum(axis=1)
+        np.testing.assert_allclose(
+            pull(solution.foot) + pull(solution.head), total, rtol=1e-10
+        )
+
+
 # --- freeboard ---------------------------------------------------------------
 
 
