@@ -11,6 +11,7 @@ from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.office.rows import join_rows
 from netdesign.site.reader import read_site
 from netdesign.site.readings import read_nothing
+from netdesign.structure.members import NetPart
 from tests.each import each
 from tests.make import find_cell, lay_out, read_tables, write_sheets, write_site
 from tests.site.office.drawn import draw_tables
@@ -55,6 +56,10 @@ def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
         assert row.guys.are_shared is (net["guy_anchors"] == "shared")
         assert row.net_stiffness_per_m == 1e3 * net["net_stiffness"]
         assert row.post_count == line["post_count"]
+        length = (line["post_count"] - 1) * line["post_spacing"]
+        assert row.length == pytest.approx(length)
+        strength = row.find_net_part(NetPart.MESH).value
+        assert strength == 1e3 * net["mesh_strength"]
         assert row.design_life == tables["project"][0]["design_life"]
         assert row.ground_type == "till"
         assert row.approval.foot_force.value == 1e3 * net["maker_foot"]
