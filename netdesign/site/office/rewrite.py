@@ -23,8 +23,8 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.office import is_heading, load_columns, load_text
 from netdesign.site.declared_sheet import split_replacement
 from netdesign.site.office.rewrite_lines import Lines, rewrite_rows, rewrite_types
+from netdesign.site.office.rewrite_log import Line, RewriteLog, is_typed, show
 from netdesign.site.office.sheets import is_old
-from netdesign.site.office.told import Line, Told, is_typed, show
 from netdesign.site.readings import Reading, Row, read_cell
 from netdesign.site.tables import find_table, read_rows
 from netdesign.words.catalogue import Language
@@ -35,7 +35,7 @@ _DOCUMENTS = {
     **dict.fromkeys(("density", "thickness", "snow_height"), "snow_document"),
     "glide_factor": "glide_document",
 }
-_UNHEARD = ("heading.unknown", "heading.close_to_missing", "table.no_heading_unread")
+_UNREAD = ("heading.unknown", "heading.close_to_missing", "table.no_heading_unread")
 _Ranged = dict[str, tuple[str, Reading]]  # text of the new cell, justification
 
 
@@ -79,56 +79,56 @@ def rewrite(workbook: Workbook, language: Language) -> Rewritten:
     language : str
         Of the workbook that is written, also of the words in its ranges.
     """
-    told, unheard = Told(), list[Finding]()
+    log, findings = RewriteLog(), list[Finding]()
     lines = {
-        name: read_rows(find_table(workbook, _free_all(plan), unheard), unheard)
+        name: read_rows(find_table(workbook, _free_all(plan), findings), findings)
         for name, plan in load_old_plans().items()
     }
-    ranged = _read_ranges(lines["Ranges"], language, told)
+    ranged = _read_ranges(lines["Ranges"], language, log)
     texts = {key: text for key, (text, _) in ranged.items()}
-    tables, measures = rewrite_rows(lines, texts, told)
-    tables |= rewrite_types(lines, told)
-    tables["project"] = [_rewrite_project(lines, ranged, told)]
-    tables["declared"] = list(_rewrite_declared(lines["Declared"], told))
-    for name in (one.name for one in FURTHER):
+    tables, measures = rewrite_rows(lines, texts, log)
+    tables |= rewrite_types(lines, log)
+    tables["project"] = [_rewrite_project(lines, ranged, log)]
+    tables["declared"] = list(_rewrite_declared(lines["Declared"], log))
+    for name in (plan.name for plan in FURTHER):
         tables[name] = [_copy_all(line) for line in lines.pop(name)]
     for of_sheet in lines.values():
-        told.leave_rest(of_sheet)
-    left = (one.message for one in unheard if one.rule.key in _UNHEARD)
-    done = (*told.list_done(), *left)
+        log.leave_rest(of_sheet)
+    unread = (finding.message for finding in findings if finding.rule.key in _UNREAD)
+    done = (*log.list_done(), *unread)
     return Rewritten(tables=tables, measures=measures, done=done)
 
 
 def _free_all(plan: SheetPlan) -> SheetPlan:
     """Plan that needs no column: what is not there is left empty."""
-    fields = tuple(replace(one, required=False) for one in plan.fields)
+    fields = tuple(replace(field, required=False) for field in plan.fields)
     return replace(plan, fields=fields, required=False)
 
 
 def _copy_all(line: Row) -> Line:
-    return {key: show(one) for key, one in line.items() if is_typed(one)}
+    return {key: show(cell) for key, cell in line.items() if is_typed(cell)}
 
 
-def _read_ranges(lines: Sequence[Row], language: Language, told: Told) -> _Ranged:
+def _read_ranges(lines: Sequence[Row], language: Language, log: RewriteLog) -> _Ranged:
     """Ranges as texts of cells in the first unit of their column."""
     items = load_old_plans()["Ranges"].items
     to, mark = f" {load_text('to', language)} ", load_text("comma", language)
     ranged: _Ranged = {}
     for line in lines:
         if not any(is_typed(line[key]) for key in ("low", "high", "span")):
-            told.take(*line.values())
+            log.tick(*line.values())
             continue
         field = find_item(line["quantity"].word, items)
         ends = _read_ends(line, field) if field else ()
         if field is None or len(ends) < 2:
-            told.leave("rewrite.of_range", line["quantity"])
-            told.take(*line.values())
+            log.leave("rewrite.of_range", line["quantity"])
+            log.tick(*line.values())
             continue
         share = 100.0 if field.key == "slack" else 1.0
         texts = (f"{round(share * end, 6):g}".replace(".", mark) for end in ends)
         ranged[field.key] = (to.join(texts), line["justification"])
-        told.do(say("rewrite.range"), line["quantity"])
-        told.take(*(one for key, one in line.items() if key != "justification"))
+        log.change(say("rewrite.range"), line["quantity"])
+        log.tick(*(cell for key, cell in line.items() if key != "justification"))
     return ranged
 
 
@@ -138,53 +138,53 @@ def _read_ends(line: Row, field: Field) -> Sequence[float]:
     unit = typed or split_heading(line["quantity"].word)[1] or field.unit
     cells = (line[key].cell for key in ("low", "high") if unit in field.units)
     ends = [read_cell(cell, field, unit, []) for cell in cells if cell is not None]
-    return [one.number for one in ends if one.state == "given"]
+    return [end.number for end in ends if end.state == "given"]
 
 
-def _rewrite_project(lines: Lines, ranged: _Ranged, told: Told) -> Line:
+def _rewrite_project(lines: Lines, ranged: _Ranged, log: RewriteLog) -> Line:
     """Lines of sheet Project: what identifies the study, and holds for the site."""
     items = load_old_plans()["Project"].items
     project: Line = {}
     for line in lines["Project"]:
         field, value = find_item(line["item"].word, items), line["value"]
         if field is None or field.key == "accepted_law":
-            told.leave("rewrite.creep_law" if field else "rewrite.left", line["item"])
+            log.leave("rewrite.creep_law" if field else "rewrite.left", line["item"])
         elif is_typed(value):
             project[field.key] = value.word
-        told.take(line["item"], value)
+        log.tick(line["item"], value)
     numbers = (project.get("number", ""), project.pop("revision", ""))
     project["number"] = ", ".join(filter(None, map(str, numbers)))
-    project |= _find_common(lines, told)
-    for key, (text, why) in ranged.items():
+    project |= _find_common(lines, log)
+    for key, (text, reason) in ranged.items():
         if key in _OF_PROJECT:
             project[key] = text
         document = _DOCUMENTS.get(key, "")
-        if document and document not in project and is_typed(why):
-            project[document] = why.word
-            told.do(say("rewrite.document"), why)
+        if document and document not in project and is_typed(reason):
+            project[document] = reason.word
+            log.change(say("rewrite.document"), reason)
         else:
-            told.leave("rewrite.of_reason", why)
+            log.leave("rewrite.of_reason", reason)
     return project
 
 
-def _find_common(lines: Lines, told: Told) -> Line:
+def _find_common(lines: Lines, log: RewriteLog) -> Line:
     """What sheet Project says once, where all lines say the same."""
     common: Line = {}
     for column in load_columns("project"):
         sheet, _, key = column.like.rpartition(".")
-        cells = [one[key] for one in lines.get(sheet, ()) if is_typed(one[key])]
-        if len({one.value for one in cells}) == 1:
+        cells = [line[key] for line in lines.get(sheet, ()) if is_typed(line[key])]
+        if len({cell.value for cell in cells}) == 1:
             common[column.field.key] = show(cells[0])
-            told.do(say("rewrite.once", name=column.field.name), *cells)
+            log.change(say("rewrite.once", name=column.field.name), *cells)
         else:
-            told.leave("rewrite.several", *cells)
+            log.leave("rewrite.several", *cells)
     return common
 
 
-def _rewrite_declared(lines: Sequence[Row], told: Told) -> Iterator[Line]:
+def _rewrite_declared(lines: Sequence[Row], log: RewriteLog) -> Iterator[Line]:
     for line in lines:
         is_confirmed = split_replacement(line["check"].word)
-        told.leave("rewrite.confirmed", *([line["check"]] if is_confirmed else []))
-        told.take(*line.values())
+        log.leave("rewrite.confirmed", *([line["check"]] if is_confirmed else []))
+        log.tick(*line.values())
         if not is_confirmed:
             yield _copy_all(line)

@@ -15,42 +15,54 @@ Line = dict[str, object]  # of the new workbook, by key
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
-    """Cells that have a place, by their own; what was done with others, by kind."""
+class RewriteLog:
+    """Log of a rewriting: which cells are ticked off, and what was done with them.
 
-    placed: set[str] = field(default_factory=set)
+    Attributes
+    ----------
+    ticked : set of str
+        Places of the cells that need no further word.
+    done : dict of Message to list of str
+        Places of the cells that were changed or left out, by what was done.
+    """
+
+    ticked: set[str] = field(default_factory=set)
     done: dict[Message, list[str]] = field(default_factory=dict)
 
-    def take(self, *readings: Reading) -> None:
-        """Cells that stand in the new workbook as they are."""
-        self.placed.update(one.place for one in readings)
+    def tick(self, *readings: Reading) -> None:
+        """Tick off cells that stand in the new workbook as they are."""
+        self.ticked.update(reading.place for reading in readings)
 
-    def do(self, how: Message, *readings: Reading) -> None:
-        """Cells that stand there in another form."""
-        given = [one for one in readings if is_typed(one)]
-        self.take(*given)
-        if given:
-            self.done.setdefault(how, []).extend(one.place for one in given)
+    def change(self, change: Message, *readings: Reading) -> None:
+        """Tick off cells that stand there in another form, and note how."""
+        typed = [reading for reading in readings if is_typed(reading)]
+        self.tick(*typed)
+        if typed:
+            self.done.setdefault(change, []).extend(reading.place for reading in typed)
 
     def leave(self, key: str, *readings: Reading) -> None:
-        """Cells that are not copied, for a reason."""
-        for one in filter(is_typed, readings):
-            self.take(one)
-            how = say(key, name=one.field.name)
-            text = quote(one.cell.text) if one.cell else ""
-            self.done.setdefault(how, []).append(f"{one.place} = {text}")
+        """Tick off cells that are not copied, and note why."""
+        for reading in filter(is_typed, readings):
+            self.tick(reading)
+            reason = say(key, name=reading.field.name)
+            text = quote(reading.cell.text) if reading.cell else ""
+            self.done.setdefault(reason, []).append(f"{reading.place} = {text}")
 
     def leave_rest(self, lines: Iterable[Row]) -> None:
-        """Cells of a sheet that have no place."""
+        """Note all cells of a sheet that are not ticked off."""
         for line in lines:
-            rest = (one for one in line.values() if one.place not in self.placed)
+            rest = (
+                reading for reading in line.values() if reading.place not in self.ticked
+            )
             self.leave("rewrite.left", *rest)
 
     def list_done(self) -> Iterator[Message]:
         """What was done, each kind once, with its first cells."""
-        for how, places in self.done.items():
-            some = list(dict.fromkeys(places))
-            yield say("rewrite.done", how=how, places=shorten(some, _MOST_PLACES))
+        for change, places in self.done.items():
+            distinct = list(dict.fromkeys(places))
+            yield say(
+                "rewrite.done", how=change, places=shorten(distinct, _MOST_PLACES)
+            )
 
 
 def is_typed(reading: Reading) -> bool:
@@ -64,7 +76,7 @@ def show(reading: Reading) -> object:
 
 
 def copy_line(
-    table: str, line: Row, sheet: str, told: Told, skip: Collection[str] = ()
+    table: str, line: Row, sheet: str, log: RewriteLog, skip: Collection[str] = ()
 ) -> Line:
     """Cells of a line that a table of the new workbook has, too.
 
@@ -74,8 +86,8 @@ def copy_line(
         Of the new workbook.
     line, sheet : Row, str
         Of the old one.
-    told : Told
-        Takes the cells.
+    log : RewriteLog
+        The cells are ticked off in it.
     skip : collection of str
         Keys of the columns that are left out.
     """
@@ -85,7 +97,7 @@ def copy_line(
         is_other = place != sheet or old not in line or key in skip
         if is_other or not is_typed(line[old]):
             continue
-        told.take(line[old])
+        log.tick(line[old])
         value = show(line[old])
         is_share = column.unit == "%" or column.choice == "sag_unit"
         if is_share and isinstance(value, float):
