@@ -9,6 +9,7 @@ from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import FURTHER
 from netdesign.site.columns.office import load_plan
+from netdesign.site.headings import Table
 from netdesign.site.lines import (
     TYPES,
     Lines,
@@ -56,13 +57,14 @@ def read_office(
     elsewhere = ("net_types",) if library else ()
     tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
     typed = _read_typed(tables, findings)
-    found = dict(tables.tables)
+    by_key = dict(tables.tables)
     if library:
-        typed = add_lines(typed, _read_typed(library.found, findings), findings)
-        found |= {x: of or library.found.tables.get(x) for x, of in found.items()}
-        tables = replace(tables, tables=found)
+        typed = add_lines(typed, _read_typed(library.tables, findings), findings)
+        others = library.tables.tables
+        by_key |= {key: table or others.get(key) for key, table in by_key.items()}
+        tables = replace(tables, tables=by_key)
     typed = _settle_all(typed)
-    project = read_lines(found["project"], typed["project"], findings)
+    project = read_lines(by_key["project"], typed["project"], findings)
     lines = _join(workbook, tables, typed, project, findings)
     return replace(
         lines, library=(library.file, library.sha256) if library else ("", "")
@@ -70,11 +72,11 @@ def read_office(
 
 
 def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
-    """Lines by table, those of net types with the slack that their sag makes."""
-    lines = {key: list(of) for key, of in tables.lines.items()}
+    """Lines by table; a sag of a net type becomes its slack."""
+    lines = {key: list(rows) for key, rows in tables.lines.items()}
     measure = tables.measures.get(("net_types", "slack"), "")
     lines["net_types"] = [
-        measure_slack(one, measure, findings) for one in lines["net_types"]
+        measure_slack(net, measure, findings) for net in lines["net_types"]
     ]
     return lines
 
@@ -88,10 +90,10 @@ def _settle_all(lines: Mapping[str, list[Row]]) -> dict[str, list[Row]]:
     }
     for table in lines:
         for field in load_plan(table).fields:
-            known = ids.get(field.refers_to, ())
-            settled[table] = settle_ids(settled[table], known, field.key)
-    either = [*ids["anchor_types"], *ids["ropes"]]  # at whose end a link is
-    settled["links"] = settle_ids(settled["links"], either, "type")
+            spellings = ids.get(field.refers_to, ())
+            settled[table] = settle_ids(settled[table], spellings, field.key)
+    anchors_and_ropes = [*ids["anchor_types"], *ids["ropes"]]  # at whose end a link is
+    settled["links"] = settle_ids(settled["links"], anchors_and_ropes, "type")
     return settled
 
 
@@ -103,7 +105,7 @@ def _join(
     findings: list[Finding],
 ) -> Lines:
     """Lines of net rows and their types, of the lines of all sheets."""
-    found, tests = tables.tables, typed["tests"]
+    by_key, tests = tables.tables, typed["tests"]
     rows = _join_net_types(tables, typed, project, findings)
     measure = tables.measures.get(("layers", "thickness"), "")
     layers = order_layers(measure_layers(typed["layers"], measure, findings), findings)
@@ -124,23 +126,29 @@ def _join(
         workbook=workbook,
         project=named,
         project_cells=cells,
-        table=found["rows"],
+        table=by_key["rows"],
         rows=placed,
         ends={row["id"].word: end for row, end in zip(rows, ends, strict=True)},
         snow=layers,
-        types={x: _index(of, findings) if found[x] else {} for x, of in types.items()},
-        absent=[x for x in TYPES if not found[x] and x not in tables.unread],
-        unreadable=[x for x in TYPES if not (of := found[x]) or "id" not in of.columns],
+        types={
+            key: _index(types[key], findings) if by_key[key] else {} for key in types
+        },
+        absent=[key for key in TYPES if not by_key[key] and key not in tables.unread],
+        unreadable=[key for key in TYPES if not _has_ids(by_key[key])],
         ranges=build_ranges(project),
         links=join_links(typed["links"]),
         tests=tests,
         declared=typed["declared"],
-        further={x.name: find_table(workbook, x, findings) for x in FURTHER},
-        typed={one: typed[one] for one in typed if one not in _NOT_OF_ROWS},
+        further={plan.name: find_table(workbook, plan, findings) for plan in FURTHER},
+        typed={key: typed[key] for key in typed if key not in _NOT_OF_ROWS},
     )
     named_rows = (of_row[0]["row"] for of_row in layers.values())
     refuse_unknown_ids(named_rows, lines.places, findings)
     return lines
+
+
+def _has_ids(table: Table | None) -> bool:
+    return table is not None and "id" in table.columns
 
 
 def _join_net_types(
@@ -149,9 +157,9 @@ def _join_net_types(
     project: Row,
     findings: list[Finding],
 ) -> list[Row]:
-    """Rows with their net types; one that is not there is refused."""
+    """Rows with their net types; a net type without a line is refused."""
     nets = _index(typed["net_types"], findings)
-    places = {name: one["id"].place for name, one in nets.items()}
+    places = {name: net["id"].place for name, net in nets.items()}
     refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
     measure = tables.measures.get(("rows", "snow"), "")
     return join_rows(typed["rows"], nets, project, measure, findings)
@@ -164,7 +172,7 @@ def _index(lines: Sequence[Row], findings: list[Finding]) -> dict[str, Row]:
 def _find_end_types(
     rows: Sequence[Row], typed: Mapping[str, Sequence[Row]]
 ) -> list[Row]:
-    """Cells that name other types of each row's end, with its ground."""
+    """Cells that name the types at the end of each row, with the row's ground."""
     at_end = {
         name: other
         for table in TYPES

@@ -1,4 +1,4 @@
-"""Net types and parts of another workbook: an office's own library."""
+"""Net types and parts that stand in another workbook: an office's own library."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class Library:
     ----------
     file, sha256 : str
         Of the workbook.
-    found : OfficeTables
+    tables : OfficeTables
         Its sheets Net types and Parts.
     """
 
     file: str
     sha256: str
-    found: OfficeTables
+    tables: OfficeTables
 
 
 def read_library(
@@ -45,23 +45,25 @@ def read_library(
         return any(plan.matches(name) for plan in plans)
 
     workbook = read_workbook(path, is_wanted, is_heading, text_format)
-    found = find_office_tables(workbook, findings, ("net_types",))
+    tables = find_office_tables(workbook, findings, ("net_types",))
     lines = {
-        name: [_place(line, workbook.file) for line in found.lines[name]]
+        name: [_place(line, workbook.file) for line in tables.lines[name]]
         for name in _TABLES
     }
     return Library(
-        file=workbook.file, sha256=workbook.sha256, found=replace(found, lines=lines)
+        file=workbook.file, sha256=workbook.sha256, tables=replace(tables, lines=lines)
     )
 
 
 def _place(line: Row, file: str) -> dict[str, Reading]:
-    """Line whose cells are those of another file."""
+    """Line whose cells name the file that they stand in."""
     return {
         key: replace(
-            one, cell=one.cell and replace(one.cell, sheet=f"[{file}]{one.cell.sheet}")
+            reading,
+            cell=reading.cell
+            and replace(reading.cell, sheet=f"[{file}]{reading.cell.sheet}"),
         )
-        for key, one in line.items()
+        for key, reading in line.items()
     }
 
 
@@ -70,7 +72,7 @@ def add_lines(
     others: Mapping[str, Sequence[Row]],
     findings: list[Finding],
 ) -> dict[str, list[Row]]:
-    """Lines by table, with those of a library that are not there yet.
+    """Lines by table, with the lines of a library whose ids are new.
 
     Parameters
     ----------
@@ -79,29 +81,31 @@ def add_lines(
     findings : list of Finding
         Appended to: an id that means one thing here and another there.
     """
-    joined = {name: list(lines) for name, lines in own.items()}
-    for name in _TABLES:
-        key = _KEYS.get(name, "id")
-        here, there = _group(own[name], key), _group(others[name], key)
-        for one, lines in there.items():
-            if one not in here:
-                joined[name] += lines
-            elif list(map(_bare, here[one])) != list(map(_bare, lines)):
+    joined = {table: list(lines) for table, lines in own.items()}
+    for table in _TABLES:
+        key = _KEYS.get(table, "id")
+        here, there = _group(own[table], key), _group(others[table], key)
+        for name, lines in there.items():
+            if name not in here:
+                joined[table] += lines
+            elif list(map(_bare, here[name])) != list(map(_bare, lines)):
                 rule = say("nets.used_twice", place=lines[0][key].place)
-                refuse(here[one][0][key], rule, say("office.once"), findings)
+                refuse(here[name][0][key], rule, say("office.once"), findings)
     return joined
 
 
 def _group(lines: Sequence[Row], key: str) -> dict[str, list[Row]]:
-    found: dict[str, list[Row]] = {}
+    by_name: dict[str, list[Row]] = {}
     for line in lines:
         if line[key].word:
-            found.setdefault(line[key].word, []).append(line)
-    return found
+            by_name.setdefault(line[key].word, []).append(line)
+    return by_name
 
 
 def _bare(line: Row) -> dict[str, object]:
-    """What a line says, wherever it stands."""
+    """Values and ranges of a line by key, without its place."""
     return {
-        key: (one.value, one.span) for key, one in line.items() if one.state == "given"
+        key: (reading.value, reading.span)
+        for key, reading in line.items()
+        if reading.state == "given"
     }

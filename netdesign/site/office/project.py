@@ -19,7 +19,7 @@ _TEXTS = ("name", "number", "author", "checker", "standard")
 
 
 def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -> Row:
-    """Lines of sheet Project by their key, each read as what it is.
+    """Lines of sheet Project by key, each read as its item asks.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
     findings : list of Finding
         Appended to: a line that is no item, or that stands twice.
     """
-    found: dict[str, Reading] = {}
+    by_key: dict[str, Reading] = {}
     for line in lines if table else ():
         assert table is not None
         item = line["item"]
@@ -41,18 +41,20 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
         field = match_item(item, table.plan.items, findings)
         if field is None:
             continue
-        if field.key in found:
-            rule = say("item.twice", place=found[field.key].place)
+        if field.key in by_key:
+            rule = say("item.twice", place=by_key[field.key].place)
             refuse(item, rule, say("item.one_line"), findings)
             continue
         cell = line["value"].cell
-        found[field.key] = (
+        by_key[field.key] = (
             read_nothing(field, None)
             if cell is None
             else _read_value(table, cell, field, line["unit"], findings)
         )
     items = load_plan("project").items
-    return {one.key: found.get(one.key) or read_nothing(one, None) for one in items}
+    return {
+        field.key: by_key.get(field.key) or read_nothing(field, None) for field in items
+    }
 
 
 def _read_value(
@@ -68,8 +70,8 @@ def _read_value(
 
 def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:
     """Project of the site, and the cells of its lines."""
-    given = {
+    filled_in = {
         key: lines[key] for key in (*_TEXTS, *DOCUMENTS) if lines[key].state == "given"
     }
-    values = {key: one.word for key, one in given.items()}
-    return Project(**values), {key: one.place for key, one in given.items()}
+    values = {key: reading.word for key, reading in filled_in.items()}
+    return Project(**values), {key: reading.place for key, reading in filled_in.items()}

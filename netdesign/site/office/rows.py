@@ -42,7 +42,9 @@ def measure_slack(line: Row, measure: str, findings: list[Finding]) -> Row:
 
 def _refuse_unit(reading: Reading, choice: str, findings: list[Finding]) -> Reading:
     """Refuse a number whose unit cell does not say what it measures."""
-    texts = tuple(say(f"choice.{choice}.{one}") for one in list_measures(choice))
+    texts = tuple(
+        say(f"choice.{choice}.{measure}") for measure in list_measures(choice)
+    )
     accepted = say("accepted.words", words=texts)
     refuse(reading, say("office.no_measure"), accepted, findings)
     return replace(reading, state="faulty")
@@ -65,7 +67,7 @@ def join_rows(
     measure: str,
     findings: list[Finding],
 ) -> list[Row]:
-    """Rows, each with the columns of its net type, and what the site says of all.
+    """Rows, each with the columns of its net type and of sheet Project.
 
     Parameters
     ----------
@@ -80,7 +82,9 @@ def join_rows(
     findings : list of Finding
         Appended to.
     """
-    unknown = {x.key: read_nothing(x, None) for x in load_plan("net_types").fields}
+    unknown = {
+        field.key: read_nothing(field, None) for field in load_plan("net_types").fields
+    }
     height = replace(unknown["net_height"], state="faulty")
     rows: list[Row] = []
     for line in lines:
@@ -112,7 +116,7 @@ _STATED = {
 
 
 def read_approval(net: Row) -> Approval | None:
-    """Type approval of a net type, with the maker's forces; None of neither."""
+    """Type approval of a net type with the maker's forces; None without either."""
     document, height = net["approval"], net["net_height"]
     stated = {
         name: StatedValue(value=net[key].si, cell=net[key].place)

@@ -1,4 +1,4 @@
-"""Sheets of the input workbook: which they are, and their tables."""
+"""Finds the sheets of the input workbook, and their tables."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from netdesign.site.titles import list_meant
 
 _FIRST_ROWS = 25  # in which headings and their units stand
 _IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
-SHEETS_ALONE = tuple(one for one in TABLES if one not in PARTS)
+SHEETS_ALONE = tuple(table for table in TABLES if table not in PARTS)
 _LEAST_OLD = 4  # headings of a sheet Nets
 
 
@@ -50,26 +50,30 @@ def is_read(name: str) -> bool:
 def is_old(workbook: Workbook) -> bool:
     """A workbook is of version 0.1: its sheet Nets has headings of the template.
 
-    An office's own list has others: those that the columns are read by besides.
+    An office's own list has other headings, by which columns are read, too.
     """
     rows, nets = load_plan("rows"), load_old_plans()["Nets"]
-    own = next(one.names for one in rows.fields if one.key == "net_type")
-    named = (names[:1] for one in nets.fields for names in one.headings.values())
-    template = {split_heading(name)[0] for names in named for name in names}
+    own = next(field.names for field in rows.fields if field.key == "net_type")
+    first_names = (
+        names[:1] for field in nets.fields for names in field.headings.values()
+    )
+    template = {split_heading(name)[0] for names in first_names for name in names}
     is_found = False
     for sheet in workbook.sheets:
         headings = _list_headings(sheet, find_best_row(sheet, nets, sheet.rows)[0])
         if rows.matches(sheet.name) and not own.isdisjoint(headings):
             return False
-        known = sum(one in template for one in headings)
-        is_template = _LEAST_OLD <= known >= len(headings) / 2
+        count = sum(heading in template for heading in headings)
+        is_template = _LEAST_OLD <= count >= len(headings) / 2
         is_found = is_found or (nets.matches(sheet.name) and is_template)
     return is_found
 
 
 def _list_headings(sheet: Sheet, number: int) -> list[str]:
     cells = sheet.row(number)
-    return [split_heading(one.value)[0] for one in cells if isinstance(one.value, str)]
+    return [
+        split_heading(cell.value)[0] for cell in cells if isinstance(cell.value, str)
+    ]
 
 
 def find_office_tables(
@@ -106,7 +110,7 @@ def find_office_tables(
         unread=frozenset(
             x for x in plans if not tables[x] and list_meant(plain, plans[x])
         ),
-        lines={name: read_rows(one, findings) for name, one in tables.items()},
+        lines={name: read_rows(table, findings) for name, table in tables.items()},
         measures={
             (name, key): named[table.sheet.name].get(column.number, "")
             for name, table in tables.items()
@@ -117,13 +121,13 @@ def find_office_tables(
 
 
 def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
-    """Sheet whose unit cells hold units alone, and what they measure by column."""
+    """Sheet whose unit cells hold units alone, and the measures by column."""
     measures: dict[int, str] = {}
     rows = dict(sheet.rows)
     for number in range(1, _FIRST_ROWS + 1):
         cells = sheet.row(number)
-        first = normalise(str(cells[0].value)) if cells else ""
-        is_units = first in list_texts("unit")
+        label = normalise(str(cells[0].value)) if cells else ""
+        is_units = label in list_texts("unit")
         changed = {
             cell.column: plain
             for cell in cells
@@ -135,16 +139,16 @@ def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
 
 
 def _settle(cell: Cell, measures: dict[int, str], *, is_unit: bool) -> Cell | None:
-    """Cell with the unit alone; None where it does not say what it measures."""
+    """Cell with its unit alone; None where its text names no measure."""
     if not isinstance(cell.value, str):
         return None
-    found = _IN_BRACKETS.fullmatch(cell.value)
-    before, text, behind = found.groups() if found else ("", cell.value, "")
-    known = list_choices().get(normalise(text)) if found or is_unit else None
-    if known is None:
+    match = _IN_BRACKETS.fullmatch(cell.value)
+    before, text, behind = match.groups() if match else ("", cell.value, "")
+    choice = list_choices().get(normalise(text)) if match or is_unit else None
+    if choice is None:
         return None
-    measures[cell.column] = known[1]
-    return replace(cell, value=f"{before}{known[0]}{behind}")
+    measures[cell.column] = choice[1]
+    return replace(cell, value=f"{before}{choice[0]}{behind}")
 
 
 def _find_parts(
@@ -152,19 +156,19 @@ def _find_parts(
 ) -> Iterator[tuple[str, Table | None]]:
     """Blocks of sheet Parts, one below the other, each with headings of its own."""
     plan = load_plan(PARTS[0])
-    sheet = next((one for one in workbook.sheets if plan.matches(one.name)), None)
+    sheet = next((sheet for sheet in workbook.sheets if plan.matches(sheet.name)), None)
     best = {
         name: find_best_row(sheet, load_plan(name), sheet.rows)
         for name in PARTS
         if sheet
     }
-    starts = {name: row for name, (row, known) in best.items() if known > 1}
+    starts = {name: row for name, (row, count) in best.items() if count > 1}
     ends = sorted(starts.values())[1:]
     for name in PARTS:
         if sheet is None or name not in starts:
             yield name, None
             continue
-        end = next((one for one in ends if one > starts[name]), 0)
+        end = next((start for start in ends if start > starts[name]), 0)
         block = _cut(sheet, starts[name], end)
         yield (
             name,
@@ -178,5 +182,5 @@ def _cut(sheet: Sheet, start: int, end: int) -> Sheet:
     if end and len(sheet.row(end - 1)) == 1:
         last = end - 1
     rows = {row: cells for row, cells in sheet.rows.items() if start <= row < last}
-    merged = tuple(one for one in sheet.merged if start <= one.min_row < last)
+    merged = tuple(cells for cells in sheet.merged if start <= cells.min_row < last)
     return replace(sheet, rows=rows, merged=merged)

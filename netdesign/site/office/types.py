@@ -29,13 +29,13 @@ from netdesign.words.message import Message, say
 
 _GRADE = 235.0  # least grade of rolled sections [MPa]
 _ABOVE_NET = 0.3  # of a post beyond the net's head, our judgement [m]
-_STEEPEST = 20.0  # tilt of a post that nobody gives, at most [deg]
+_STEEPEST = 20.0  # largest tilt of a post whose cell is empty [deg]
 _STEEL = ("bar_diameter", "bar_strength", "inner_diameter")
 
 
 def _add_derived(line: Row, table: str) -> dict[str, Reading]:
-    """Line with the quantities that may follow from it, none of them known yet."""
-    unknown = {one.key: read_nothing(one, None) for one in list_derived(table)}
+    """Line with empty readings of the quantities that are computed from it later."""
+    unknown = {field.key: read_nothing(field, None) for field in list_derived(table)}
     return {**unknown, **line}
 
 
@@ -46,7 +46,7 @@ def join_anchors(
     project: Row,
     findings: list[Finding],
 ) -> list[Row]:
-    """Anchor types with their tests, and what is said of their ground.
+    """Anchor types with the results of their tests and the strengths of their ground.
 
     Parameters
     ----------
@@ -57,14 +57,14 @@ def join_anchors(
     findings : list of Finding
         Appended to.
     """
-    by_ground = {one["ground"].word: one for one in soils if one["ground"].word}
-    tested = {(one["type"].word, one["ground"].word) for one in tests}
+    by_ground = {soil["ground"].word: soil for soil in soils if soil["ground"].word}
+    tested = {(test["type"].word, test["ground"].word) for test in tests}
     anchors: list[Row] = []
     for line in lines:
         name, ground = line["id"].word, line["ground"].word
         soil = by_ground.get(ground, {})
         row = _add_derived(line, "anchor_types") | {
-            key: one for key, one in soil.items() if key != "ground"
+            key: reading for key, reading in soil.items() if key != "ground"
         }
         row["soil"] = project["soil"]
         is_tested = not tested.isdisjoint({(name, ground), (name, "")})
@@ -73,7 +73,7 @@ def join_anchors(
 
 
 def _read_proof(line: Row) -> dict[str, Reading]:
-    """Pull-out resistance by how it is proven: by tests, or as one number."""
+    """Pull-out resistance by its proof: the least of tests, or a single number."""
     force, count, mean = (line[key] for key in ("pull_out", "test_count", "test_mean"))
     least = rename(force, line["test_least"].field)
     if force.state != "given":
@@ -109,7 +109,7 @@ def complete_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]
 def _fill_in_steel(row: Row, findings: list[Finding]) -> Row:
     """Line of an anchor with the steel of a bar, and the tendon that it makes.
 
-    The steel is that of its name, or has the strength that force and diameter say.
+    The steel follows from the name, or its strength from force and diameter.
     """
     force, diameter = row["tendon"], row["bar_diameter"]
     if row["kind"].word == "rope anchor" or "faulty" in (force.state, diameter.state):
@@ -157,7 +157,7 @@ def _assume(row: Row, key: str, value: float, how: Message) -> Reading:
 
 
 def _find_length(post: str, nets: Sequence[Row]) -> float | None:
-    """Longest post of that type: D_K / cos of the tilt, and what stands above [m]."""
+    """Longest post of a type [m]: D_K / cos(tilt), and its head above the net."""
     lengths = []
     for net in nets:
         height, tilt = net["net_height"], net["post_tilt"]
@@ -171,7 +171,7 @@ def _find_length(post: str, nets: Sequence[Row]) -> float | None:
 
 
 def join_links(lines: Iterable[Row]) -> list[Row]:
-    """Links; what is usual of a force hangs on what it is."""
+    """Links; bounds and usual values of a force are those of its kind."""
     limit = find_quantity("Links", "working_limit")
     return [
         {**line, "force": rename(line["force"], limit)}
@@ -182,9 +182,9 @@ def join_links(lines: Iterable[Row]) -> list[Row]:
 
 
 def list_end_types(lines: Iterable[Row]) -> Mapping[str, Reading]:
-    """Types that stand at the row's end in the place of others, by these."""
-    found: dict[str, Reading] = {}
+    """Types at the row's end, by the types that they replace there."""
+    end_types: dict[str, Reading] = {}
     for line in lines:
         if line["at_end"].word:
-            found.setdefault(line["id"].word, line["at_end"])
-    return found
+            end_types.setdefault(line["id"].word, line["at_end"])
+    return end_types
