@@ -1,7 +1,7 @@
 """Writes ``LIST.map.toml`` beside an office's own list: what each heading may mean.
 
-A guess stands where a name is known, whole or but for accents and signs, or is so like
-one that no other comes near; else a question mark, with the likeliest behind it.
+A guess stands where a heading is a known name, apart from accents and signs, or where
+a single name is alike. Else a question mark stands there, with the likeliest names.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ from netdesign.words.message import Message, say
 
 _FIRST_LINES = 20  # in which headings stand
 _LEAST_TEXTS = 3  # in a line of headings
-_LEAST_KNOWN = 2  # of them, in a sheet that is read
+_LEAST_KNOWN = 2  # headings that a sheet needs, to be read
 _EXAMPLES = 3
 _OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
     ("rows", "net_types"), "Nets"
@@ -119,26 +119,26 @@ def write_list_map(
         If the list cannot be read at all, or a file of answers beside it; if no sheet
         has headings that are known.
     """
-    given = read_list_map(path)
-    if given:
-        text_format = declare_mark(text_format, given)
+    answers = read_list_map(path)
+    if answers:
+        text_format = declare_mark(text_format, answers)
     workbook = read_list(path, text_format)
-    lines = [*_begin(path, given, language)]
+    lines = [*_begin(path, answers, language)]
     count, is_known = 0, False
     for sheet in workbook.sheets:
-        known = given.tables.get(sheet.name) if given else None
-        line = known.headings_in_line if known else find_heading_line(sheet)
-        becomes = known.becomes if known else _find_kind(sheet, line)
+        answered = answers.tables.get(sheet.name) if answers else None
+        line = answered.headings_in_line if answered else find_heading_line(sheet)
+        becomes = answered.becomes if answered else _find_kind(sheet, line)
         lines.append(f"[tables.{_quote(sheet.name)}]")
         if not becomes or not line:
             lines += [f'becomes = "{IGNORE}"', ""]
             continue
-        table = known or ListTable(becomes=becomes, headings_in_line=line)
+        table = answered or ListTable(becomes=becomes, headings_in_line=line)
         more, missing = _write_table(sheet, table, language)
         lines += more
         count, is_known = count + missing, True
     if not is_known:
-        names = (one.field.name for one in load_columns("rows")[:3])
+        names = (column.field.name for column in load_columns("rows")[:3])
         accepted = say("list_map.headings", names=tuple(names))
         raise refuse_file(path.name, say("list_map.no_list"), accepted)
     return "\n".join(lines) + "\n", count
@@ -152,8 +152,8 @@ def is_own_list(path: Path, text_format: TextFormat) -> bool:
             return True
     cells = (cell for sheet in sheets for cell in sheet.row(find_heading_line(sheet)))
     names = [split_heading(str(cell.value))[0] for cell in cells]
-    known = sum(name in _list_template_names() for name in names)
-    return 2 * known < len(names)
+    count = sum(name in _list_template_names() for name in names)
+    return 2 * count < len(names)
 
 
 def _list_template_names() -> frozenset[str]:
@@ -167,11 +167,13 @@ def _list_template_names() -> frozenset[str]:
 
 
 def find_heading_line(sheet: Sheet) -> int:
-    """Line of the headings: that with the most known, else with the most texts."""
+    """Line of the headings: the one with the most known names, else the most texts."""
     lines = list(islice((n for n in sorted(sheet.rows) if sheet.row(n)), _FIRST_LINES))
 
     def rank(number: int) -> tuple[int, int]:
-        texts = [one.value for one in sheet.row(number) if isinstance(one.value, str)]
+        texts = [
+            cell.value for cell in sheet.row(number) if isinstance(cell.value, str)
+        ]
         return sum(map(_is_name, texts)), len(texts)
 
     best = max(lines, key=rank, default=0)
@@ -184,17 +186,17 @@ def _is_name(text: str) -> bool:
 
 @cache
 def _list_names() -> frozenset[str]:
-    targets = (one for table in GROUPS for one in list_targets(table))
-    return frozenset[str]().union(*(one.field.names for one in targets))
+    targets = (target for table in GROUPS for target in list_targets(table))
+    return frozenset[str]().union(*(target.field.names for target in targets))
 
 
-def _begin(path: Path, given: ListMap | None, language: Language) -> Iterator[str]:
+def _begin(path: Path, answers: ListMap | None, language: Language) -> Iterator[str]:
     for line in render(say("list_map.head", file=path.name), language).splitlines():
         yield f"# {line}".rstrip()
     yield f'schema = "{SCHEMA}"'
     yield f"list = {_quote(path.name)}"
-    if given and given.decimal_mark:
-        yield f'decimal_mark = "{given.decimal_mark}"'
+    if answers and answers.decimal_mark:
+        yield f'decimal_mark = "{answers.decimal_mark}"'
     yield ""
 
 
@@ -203,10 +205,10 @@ def _write_table(
 ) -> tuple[list[str], int]:
     """Answers to a sheet that is read, and how many of them are missing."""
     guesses = [
-        replace(one, answer=given, how=None, ranked="")
-        if not is_unanswered(given := table.headings.get(one.name, ""))
-        else one
-        for one in guess_headings(sheet, table, language)
+        replace(heading, answer=answer, how=None, ranked="")
+        if not is_unanswered(answer := table.headings.get(heading.name, ""))
+        else heading
+        for heading in guess_headings(sheet, table, language)
     ]
     becomes = load_plan(table.becomes).name_in(language)
     lines = [
@@ -214,24 +216,25 @@ def _write_table(
         f"headings_in_line = {table.headings_in_line}",
     ]
     missing = 0
-    for part, asked in (
-        ("headings", {x.name: (x.answer, _explain(x, language)) for x in guesses}),
+    for part, questions in (
+        ("headings", _ask_headings(guesses, language)),
         ("words", _ask_words(sheet, table, guesses, language)),
         ("always", _ask_always(table, guesses, language)),
     ):
-        if not asked and part != "headings":
+        if not questions and part != "headings":
             continue
         about = f"  # {render(say('list_map.always'), language)}"
         title = f"[tables.{_quote(sheet.name)}.{part}]"
         lines += ["", title + about if part == "always" else title]
-        for key, (answer, comment) in asked.items():
+        for key, (answer, comment) in questions.items():
             shown = f"  # {comment}" if comment else ""
             lines.append(f"{_quote(key)} = {_quote(answer)}{shown}")
             missing += is_unanswered(answer)
-    answered = [read_answer(one.answer, table.becomes).target for one in guesses]
-    own = {one.place for one in answered if one is not None}
-    for one in list_lacking(table.becomes, own):
-        about = render(say("list_map.lacks", column=one.label(language)), language)
+    answers = (read_answer(heading.answer, table.becomes) for heading in guesses)
+    targets = [answer.target for answer in answers]
+    own = {target.place for target in targets if target is not None}
+    for target in list_lacking(table.becomes, own):
+        about = render(say("list_map.lacks", column=target.label(language)), language)
         lines.append(f"# {about}")
     return [*lines, ""], missing
 
@@ -243,18 +246,19 @@ def _find_kind(sheet: Sheet, line: int) -> str:
         return own
     counts = {}
     for table in GROUPS:
-        of = ListTable(becomes=table, headings_in_line=line)
+        list_table = ListTable(becomes=table, headings_in_line=line)
         counts[table] = sum(
-            x.target is not None for x in guess_headings(sheet, of, "en")
+            heading.target is not None
+            for heading in guess_headings(sheet, list_table, "en")
         )
-    best = max(counts, key=lambda one: counts[one])
+    best = max(counts, key=lambda table: counts[table])
     return best if line and counts[best] >= _LEAST_KNOWN else ""
 
 
 def guess_headings(
     sheet: Sheet, table: ListTable, language: Language
 ) -> Iterator[HeadingGuess]:
-    """Guesses at all headings of a sheet; two of one column are questions.
+    """Guesses at all headings of a sheet; two that mean the same column are asked.
 
     Parameters
     ----------
@@ -269,19 +273,21 @@ def guess_headings(
     guesses = []
     for name, cell in name_headings(sheet, line):
         cells = (sheet.cell(row, cell.column) for row in rows)
-        below = list(islice((x for x in cells if not x.is_blank), _EXAMPLES))
+        below = list(islice((cell for cell in cells if not cell.is_blank), _EXAMPLES))
         unit = find_list_unit(cell, units)
-        guessed = _guess(str(cell.value), unit, table.becomes, below, language)
-        shown = "; ".join(make_printable(x.text) for x in below)
-        guesses.append(replace(guessed, name=name, cells=shown))
-    counts = Counter(x.target.place for x in guesses if x.target is not None)
-    for guessed in guesses:
-        count = counts[guessed.target.place] if guessed.target else 0
+        heading = _guess(str(cell.value), unit, table.becomes, below, language)
+        shown = "; ".join(make_printable(cell.text) for cell in below)
+        guesses.append(replace(heading, name=name, cells=shown))
+    counts = Counter(
+        heading.target.place for heading in guesses if heading.target is not None
+    )
+    for heading in guesses:
+        count = counts[heading.target.place] if heading.target else 0
         if count > 1:
-            how = say("list_map.twice", count=count, column=guessed.answer)
-            yield replace(guessed, answer=UNANSWERED, target=None, how=how)
+            how = say("list_map.twice", count=count, column=heading.answer)
+            yield replace(heading, answer=UNANSWERED, target=None, how=how)
         else:
-            yield guessed
+            yield heading
 
 
 def _guess(
@@ -290,24 +296,26 @@ def _guess(
     """First answer to one heading."""
     if has_no_part(text):
         return HeadingGuess(answer=IGNORE, how=say("list_map.no_part"))
-    targets = [one for one in list_targets(becomes) if one.has_unit(unit)]
+    targets = [target for target in list_targets(becomes) if target.has_unit(unit)]
     ranked, alike = guess(text, unit, targets)
-    shown = (f"{one.title(language, unit)} {score:.0f}" for one, score in ranked)
+    shown = (f"{target.title(language, unit)} {score:.0f}" for target, score in ranked)
     question = HeadingGuess(
         answer=UNANSWERED, how=say("list_map.unknown"), ranked=" · ".join(shown)
     )
     if is_allowable(text):
         return replace(question, how=say("list_map.allowable"))
     names = {split_heading(text)[0], normalise(text)}
-    known = [one for one in targets if not names.isdisjoint(one.field.names)]
+    possible = [
+        target for target in targets if not names.isdisjoint(target.field.names)
+    ]
     how = say("list_map.known")
-    if not known and alike is not None:
-        known = [alike]
+    if not possible and alike is not None:
+        possible = [alike]
         how = say("list_map.alike", score=ranked[0][1])
-    if len(known) != 1 or _is_unclear(text, becomes):
+    if len(possible) != 1 or _is_unclear(text, becomes):
         return question
-    answer = _complete(known[0], unit, below, language)
-    return replace(question, answer=answer, target=known[0], how=how)
+    answer = _complete(possible[0], unit, below, language)
+    return replace(question, answer=answer, target=possible[0], how=how)
 
 
 # "N°" numbers the lines of a list, and is no glide factor N.
@@ -315,15 +323,17 @@ _NUMBER = re.compile(r"\w\s*[°º]")
 
 
 def _is_unclear(text: str, becomes: str) -> bool:
-    """A heading is known to mean several things."""
+    """Whether a heading may mean several columns."""
     if _NUMBER.fullmatch(text.strip()):
         return True
     own, bracket = split_heading(text)
     if not list_unclear(_OLD[becomes]).isdisjoint((normalise(text), own)):
         return True
     # behind a number a bracket is a unit, behind a word part of the name
-    named = [x.field for x in list_targets(becomes) if own in x.field.names]
-    is_word = bool(named) and not any(one.units for one in named)
+    fields = [
+        target.field for target in list_targets(becomes) if own in target.field.names
+    ]
+    is_word = bool(fields) and not any(field.units for field in fields)
     return is_word and bracket not in ("", *KNOWN_UNITS)
 
 
@@ -343,21 +353,28 @@ def _complete(
 _Asked = dict[str, tuple[str, str]]  # answers with a comment, by what they answer
 
 
+def _ask_headings(guesses: Sequence[HeadingGuess], language: Language) -> _Asked:
+    return {
+        heading.name: (heading.answer, _explain(heading, language))
+        for heading in guesses
+    }
+
+
 def _ask_words(
     sheet: Sheet, table: ListTable, guesses: Sequence[HeadingGuess], language: Language
 ) -> _Asked:
-    """Texts of cells that a column of words does not know, or that are answered."""
+    """Texts of cells with their answers, or where a column of words lacks them."""
     asked = {text: (word, "") for text, word in table.words.items()}
     line = table.headings_in_line
     cells = dict(name_headings(sheet, line))
-    for one in guesses:
-        target = read_answer(one.answer, table.becomes).target
+    for heading in guesses:
+        target = read_answer(heading.answer, table.becomes).target
         if target is None or target.field.kind != "word":
             continue
-        field, column = target.field, cells[one.name].column
+        field, column = target.field, cells[heading.name].column
         accepted = render(field.accepted, language)
         below = (sheet.cell(row, column) for row in sheet.rows if row > line)
-        for text in (x.text.strip() for x in below if not x.is_blank):
+        for text in (cell.text.strip() for cell in below if not cell.is_blank):
             if text not in asked and not knows_word(field, text):
                 asked[text] = UNANSWERED, f"{field.label_in(language)}: {accepted}"
     return asked
@@ -366,20 +383,24 @@ def _ask_words(
 def _ask_always(
     table: ListTable, guesses: Sequence[HeadingGuess], language: Language
 ) -> _Asked:
-    """What stands in every line though no heading says it: how a pull-out is proven."""
-    keys = {one.target.key for one in guesses if one.target}
+    """Answers for columns that a list lacks: how pull-out resistances are proven."""
+    keys = {heading.target.key for heading in guesses if heading.target}
     if table.always or "pull_out" not in keys or "proven" in keys:
         return {column: (text, "") for column, text in table.always.items()}
-    target = next(x for x in list_targets(table.becomes) if x.key == "proven")
+    target = next(
+        target for target in list_targets(table.becomes) if target.key == "proven"
+    )
     accepted = render(target.field.accepted, language)
     return {target.label(language): (UNANSWERED, accepted)}
 
 
-def _explain(one: HeadingGuess, language: Language) -> str:
+def _explain(heading: HeadingGuess, language: Language) -> str:
     """How an answer was found, what else the heading may mean, and its first cells."""
-    how = render(one.how, language) if one.how else ""
-    ranked = one.ranked if UNANSWERED in one.answer else ""
-    cells = render(say("map.cells", cells=one.cells), language) if one.cells else ""
+    how = render(heading.how, language) if heading.how else ""
+    ranked = heading.ranked if UNANSWERED in heading.answer else ""
+    cells = (
+        render(say("map.cells", cells=heading.cells), language) if heading.cells else ""
+    )
     return " ".join(" | ".join(filter(None, (how, ranked, cells))).split())
 
 

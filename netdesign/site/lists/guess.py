@@ -54,7 +54,7 @@ def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
     """
     plain = _list_words(_BRACKET.sub("", text) or text)
     scores = [
-        (target, max(token_sort_ratio(plain, _list_words(x)) for x in names))
+        (target, max(token_sort_ratio(plain, _list_words(name)) for name in names))
         for target in targets
         if target.has_unit(unit) and (names := target.field.raw_names)
     ]
@@ -68,5 +68,5 @@ def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
 def _list_words(text: str) -> str:
     """Words without case and accents."""
     decomposed = unicodedata.normalize("NFKD", text.casefold())
-    letters = "".join(one for one in decomposed if not unicodedata.combining(one))
+    letters = "".join(sign for sign in decomposed if not unicodedata.combining(sign))
     return " ".join(_WORD.findall(letters))

@@ -1,4 +1,4 @@
-"""From sheets of a list to those of the input workbook; each cell keeps its place."""
+"""Joins sheets of a list to those of the input workbook; cells keep their places."""
 
 from __future__ import annotations
 
@@ -55,43 +55,49 @@ class MappedSheet:
     file: str
 
     def find(self, table: str, key: str) -> int | None:
-        """Number of the column that becomes one of a sheet."""
-        names = (table, key)
+        """Number of the column that becomes a column of the input workbook."""
+        place = (table, key)
         columns = self.columns.items()
-        return next((n for n, (x, _) in columns if (x.table, x.key) == names), None)
+        return next((n for n, (target, _) in columns if target.place == place), None)
 
     def cells(self, number: int) -> dict[int, Cell]:
         """Cells of a column by line."""
         return {line: self.sheet.cell(line, number) for line in self.lines}
 
 
-def join_list(workbook: Workbook, found: ListMap, findings: list[Finding]) -> Workbook:
+def join_list(
+    workbook: Workbook, answers: ListMap, findings: list[Finding]
+) -> Workbook:
     """Input workbook that an office's list makes.
 
     Every cell keeps its place in the list. Rows whose net is the same by all its
-    columns share a net type; anchor types that nothing is said of have a line each.
+    columns share a net type. Anchor types that only the rows name get a line each.
 
     Parameters
     ----------
     workbook : Workbook
         Every sheet of the list.
-    found : ListMap
-        Answers to it, none of them missing.
+    answers : ListMap
+        Answers to all headings of the list.
     findings : list of Finding
-        Appended to: what of the answers does not fit.
+        Appended to: answers that do not fit the list.
     """
     sheets = {sheet.name: sheet for sheet in workbook.sheets}
     mapped: list[MappedSheet] = []
-    for name, table in found.tables.items():
+    for name, table in answers.tables.items():
         if name not in sheets:
             rule = say("map.sheet_absent")
-            findings.append(Finding(file=found.file, sheet=name, rule=rule))
+            findings.append(Finding(file=answers.file, sheet=name, rule=rule))
         elif table.becomes:
-            mapped.append(map_sheet(sheets[name], table, found.file, findings))
-    made = [_make_sheet(x, of) for x in mapped for of in GROUPS[x.table.becomes]]
-    if not any(one.table.becomes == "anchor_types" for one in mapped):
+            mapped.append(map_sheet(sheets[name], table, answers.file, findings))
+    made = [
+        _make_sheet(source, table)
+        for source in mapped
+        for table in GROUPS[source.table.becomes]
+    ]
+    if not any(source.table.becomes == "anchor_types" for source in mapped):
         made += map(_name_anchors, mapped)
-    read = {one.sheet.name for one in mapped}
+    read = {source.sheet.name for source in mapped}
     return replace(
         workbook,
         sheets=tuple(filter(None, made)),
@@ -113,7 +119,7 @@ def map_sheet(
             rule = say("list_map.new_heading", file=file)
             findings.append(cell.finding(rule, say("list_map.again")))
             continue
-        asked = {key: one for key, one in asked.items() if one != heading}
+        asked = {key: other for key, other in asked.items() if other != heading}
         answer = read_answer(table.headings[heading], table.becomes)
         if answer.target is None:
             continue
@@ -132,7 +138,7 @@ def map_sheet(
 
 
 def name_headings(sheet: Sheet, line: int) -> list[tuple[str, Cell]]:
-    """Headings as a file of answers names them: alike ones with their column."""
+    """Headings as a file of answers names them: with the column where two are equal."""
     cells = sheet.row(line)
     names = [" ".join(str(cell.value).split()) for cell in cells]
     return [
@@ -150,13 +156,13 @@ def list_below(sheet: Sheet, line: int) -> list[int]:
 
 
 def find_list_unit(cell: Cell, units: Mapping[int, str]) -> str:
-    """Unit that a list says of a column; empty where it says none that is known."""
+    """Unit that a list gives for a column; empty without a known unit."""
     unit = find_heading_unit(cell) or units.get(cell.column, "")
     return unit if unit in KNOWN_UNITS else ""
 
 
 def find_units(sheet: Sheet, line: int) -> Mapping[int, str]:
-    """Units by column, where the row below the headings has them and nothing else."""
+    """Units by column, where the row below the headings holds units alone."""
     below = list_below(sheet, line)
     cells = sheet.row(below[0]) if below else ()
     plain = Field(key="", units=("-",))
@@ -175,7 +181,7 @@ def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
     if table == "net_types" and mapped.table.becomes == "rows" and not columns:
         return None
     widths = [max(row, default=0) for row in mapped.sheet.rows.values()]
-    last = max((*widths, *(one.max_col for one in mapped.sheet.merged)), default=0)
+    last = max((*widths, *(cells.max_col for cells in mapped.sheet.merged)), default=0)
     for number, (name, text) in enumerate(mapped.table.always.items(), last + 1):
         target = read_answer(name, mapped.table.becomes).target
         if target is not None and target.table == table:
@@ -195,7 +201,7 @@ def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
 
 def _name_column(table: str, key: str) -> str:
     fields = load_plan(table).fields
-    return next(one.label_in("en") for one in fields if one.key == key)
+    return next(field.label_in("en") for field in fields if field.key == key)
 
 
 def _build(
@@ -215,23 +221,25 @@ def _build(
         mapped.sheet,
         name=load_plan(table).name_in("en"),
         rows={head: headings, **below},
-        merged=tuple(one for one in mapped.sheet.merged if one.min_row > head),
+        merged=tuple(cells for cells in mapped.sheet.merged if cells.min_row > head),
         words=mapped.table.words,
         answered_in=mapped.file,
     )
 
 
 def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
-    """Name of the net of each line: as typed, or made of what is said of the net."""
+    """Name of the net of each line: as typed, or made of the height of the net."""
     own, slope = (mapped.find("rows", key) for key in ("net_type", "slope_angle"))
     typed = mapped.cells(own) if own else {}
     names = {line: cell for line, cell in typed.items() if not cell.is_blank}
     height = mapped.find("net_types", "net_height")
-    nets = [n for n, (x, _) in mapped.columns.items() if x.table == "net_types"]
+    nets = [
+        n for n, (target, _) in mapped.columns.items() if target.table == "net_types"
+    ]
     named: dict[Hashable, str] = {}
     for line, cell in mapped.cells(height).items() if height else ():
         values = tuple(mapped.sheet.cell(line, n).text.strip() for n in nets)
-        # neither a line of sums nor an empty one has a net whose height is missing
+        # a line of sums and an empty line have no net whose height could be missing
         is_sum = not slope or mapped.sheet.cell(line, slope).is_blank
         if line in names:
             continue
@@ -244,7 +252,7 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
 
 
 def _list_different(columns: Columns, names: Mapping[int, Cell]) -> list[int]:
-    """First lines of those that say the same of the net with a name."""
+    """First line of each net, of the lines with equal cells of the net."""
     first: dict[tuple[str, ...], int] = {}
     for line in sorted(names):
         if not names[line].is_blank:
@@ -274,7 +282,7 @@ def _name_anchors(mapped: MappedSheet) -> Sheet | None:
 
 
 def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]:
-    """Columns that the input workbook cannot do without, and that a sheet has not.
+    """Columns that the input workbook needs, and that a sheet lacks.
 
     Parameters
     ----------
@@ -284,15 +292,15 @@ def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]
         Table and key of the columns that it has.
     """
     needed = {
-        (table, one.field.key)
+        (table, column.field.key)
         for table in GROUPS[becomes]
-        for one in load_columns(table)
-        if one.need == "yes"
+        for column in load_columns(table)
+        if column.need == "yes"
     }
     if ("net_types", "net_height") in own:
         needed.discard(("rows", "net_type"))
     elif ("rows", "net_type") in own:
         needed.discard(("net_types", "net_height"))
     lacking = needed.difference(own)
-    targets = {(x.table, x.key): x for x in reversed(list_targets(becomes))}
+    targets = {target.place: target for target in reversed(list_targets(becomes))}
     return [target for name, target in reversed(targets.items()) if name in lacking]

@@ -1,4 +1,4 @@
-"""Columns of the input workbook that a heading of an office's own list may mean."""
+"""Lists the columns that a heading of an office's own list may mean."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _MEASURED: Mapping[tuple[str, str], Mapping[str, str]] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
-    """A column that a heading may mean; of one with several measures, one of them.
+    """A column that a heading may mean, with one of its measures.
 
     Attributes
     ----------
@@ -68,18 +68,18 @@ class Target:
         return f"{sheet}: {self.field.label_in(language)}"
 
     def title(self, language: Language, unit: str = "") -> str:
-        """The same, with what it measures in brackets, in a unit of the list's."""
+        """Label with the measure in brackets, in a unit of the list."""
         label = self.label(language)
         return f"{label} [{self.measure_in(language, unit)}]" if self.measure else label
 
     def measure_in(self, language: Language, unit: str = "") -> str:
-        """What it measures in a language, in a unit: "cm vertical"."""
+        """Measure with its unit, in a language: "cm vertical"."""
         shown = name_measure(self.choice, self.measure, language)
         first, _, word = shown.partition(" ")
         return f"{unit or first} {word}"
 
     def has_unit(self, unit: str) -> bool:
-        """A unit fits its numbers; the lack of one does."""
+        """Whether a unit, or its absence, fits the numbers of the column."""
         return not unit or unit in (self.field.units or ("-",))
 
     def heading(self, unit: str) -> str:
@@ -105,7 +105,7 @@ def list_targets(becomes: str) -> tuple[Target, ...]:
 
 
 def _split(table: str, column: Column) -> Iterator[Target]:
-    """Target of a column; of one with several measures, one each."""
+    """Target of a column; a column with several measures has a target for each."""
     key = column.field.key
     if not column.choice:
         field = _add_names(column.field, _find_old(*column.like.rsplit(".", 1)))
@@ -130,25 +130,25 @@ _SYMBOLS = (
 
 
 def _add_symbol(field: Field) -> Field:
-    """Column that is known by its symbol, too: N of "glide factor N"."""
+    """Field that is known by its symbol, too: N of "glide factor N"."""
     symbol = field.label_in("en").split()[-1]
-    named = {one: (*names, symbol) for one, names in field.headings.items()}
+    named = {language: (*names, symbol) for language, names in field.headings.items()}
     return replace(field, headings=named)
 
 
 def _find_old(sheet: str, key: str) -> Field | None:
     plan = load_old_plans().get(sheet)
     fields = plan.fields if plan else ()
-    return next((one for one in fields if one.key == key), None)
+    return next((field for field in fields if field.key == key), None)
 
 
 def _add_names(field: Field, old: Field | None) -> Field:
-    """Column that is known by the names of an earlier one, too."""
+    """Field that is known by the names of an earlier field, too."""
     if old is None:
         return field
     names = {
-        one: tuple(dict.fromkeys((*field.headings.get(one, ()), *them)))
-        for one, them in old.headings.items()
+        language: tuple(dict.fromkeys((*field.headings.get(language, ()), *old_names)))
+        for language, old_names in old.headings.items()
     }
     return replace(field, headings={**field.headings, **names})
 
@@ -164,7 +164,7 @@ class Answer:
     unit : str
         Of its numbers, where the answer gives it.
     fault : bool
-        It names no column, or not which of several measures.
+        The answer names no column, or leaves its measure open.
     """
 
     target: Target | None = None
@@ -187,13 +187,14 @@ def read_answer(text: str, becomes: str) -> Answer:
         return Answer()
     label, _, bracket = plain.partition("[")
     bracket = bracket.rstrip("] ")
-    named = [one for one in list_targets(becomes) if _is_named(one, label)]
+    named = [target for target in list_targets(becomes) if _is_named(target, label)]
     for target in named:
         if not target.measure:
             return Answer(target=target, unit=normalise_unit(bracket))
         unit, _, word = bracket.partition(" ")
         words = {
-            normalise(target.measure_in(one).partition(" ")[2]) for one in LANGUAGES
+            normalise(target.measure_in(language).partition(" ")[2])
+            for language in LANGUAGES
         }
         if normalise(word) in words:
             return Answer(target=target, unit=normalise_unit(unit))
@@ -206,11 +207,13 @@ def is_unanswered(text: str) -> bool:
 
 
 def _is_named(target: Target, label: str) -> bool:
-    return any(normalise(target.label(one)) == normalise(label) for one in LANGUAGES)
+    return any(
+        normalise(target.label(language)) == normalise(label) for language in LANGUAGES
+    )
 
 
 def find_table(text: str) -> str | None:
     """Table that a sheet becomes, by its name in any language; "" of none."""
     if text.strip().casefold() == IGNORE:
         return ""
-    return next((one for one in GROUPS if load_plan(one).matches(text)), None)
+    return next((table for table in GROUPS if load_plan(table).matches(text)), None)
