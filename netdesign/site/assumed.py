@@ -115,7 +115,7 @@ def load_assumed() -> Mapping[str, Assumed]:
     """What may be assumed, by key, in the order of the file."""
     file = find_resource("standards") / "assumed.toml"
     tables = tomllib.loads(file.read_text(encoding="utf-8"))
-    return MappingProxyType({key: _build(key, one) for key, one in tables.items()})
+    return MappingProxyType({key: _build(key, entry) for key, entry in tables.items()})
 
 
 def assume(key: str, factor: float = 1.0) -> Assumed:

@@ -28,10 +28,10 @@ class Resistance(GivenResistance):
     drilled_length: float | None = None  # of an anchor, where given [m]
     ground: str = ""  # of an anchor type: where it was tested or computed; "" unknown
     wear: Wear | None = None  # of steel that corrodes
-    # told where what is assumed decides: between value and best, or without a best
+    # said where an assumption decides: between value and best, or without a best
     open: Message | None = None
     proof_limit: float | None = None  # of a test, by the tendon that it pulls [N]
-    is_basis_assumed: bool = False  # nobody says how it is known: as computed
+    is_basis_assumed: bool = False  # how it is known is not given: as computed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,4 +71,4 @@ class RowEnd:
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """What one of its anchors is; None where its type is not given."""
-        return next((kind for one, kind in self.anchors if one == anchor), None)
+        return next((kind for member, kind in self.anchors if member == anchor), None)

@@ -43,13 +43,13 @@ _PLACE = re.compile(r"(?P<sheet>.+?)[!.](?P<column>[A-Za-z]{1,3})(?P<row>[1-9]\d
 
 
 def split_replacement(text: str) -> tuple[str, str] | None:
-    """Place and text of ``Rows.P8=A40``, the place as ``Rows!P8``; None of others."""
+    """Place and text of ``Rows.P8=A40``, the place as ``Rows!P8``; else None."""
     place, sign, value = text.partition("=")
-    found = _PLACE.fullmatch(place.strip())
-    if not sign or found is None or not value.strip():
+    match = _PLACE.fullmatch(place.strip())
+    if not sign or match is None or not value.strip():
         return None
-    address = f"{found['column'].upper()}{found['row']}"
-    return f"{found['sheet']}!{address}", value.strip()
+    address = f"{match['column'].upper()}{match['row']}"
+    return f"{match['sheet']}!{address}", value.strip()
 
 
 def replace_cells(
@@ -72,8 +72,8 @@ def replace_cells(
     """
     findings: list[Finding] = []
     values: list[tuple[str, Cell, object]] = []
-    # two of one name are refused where they are read; here the first counts
-    sheets = {one.name.casefold(): one for one in reversed(workbook.sheets)}
+    # two sheets of one name are refused where they are read; here the first counts
+    sheets = {sheet.name.casefold(): sheet for sheet in reversed(workbook.sheets)}
     for place, text in instead.items():
         typed, _, address = place.rpartition("!")
         sheet = sheets.get(typed.casefold())
@@ -114,7 +114,7 @@ def put_values(
         office's list makes, and its new value. The display format of the old is gone.
     """
     sheets, replaced = list(workbook.sheets), []
-    numbers = {one.name: n for n, one in reversed(list(enumerate(sheets)))}
+    numbers = {sheet.name: n for n, sheet in reversed(list(enumerate(sheets)))}
     for name, cell, value in values:
         plain = replace(
             cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
@@ -133,11 +133,11 @@ def put_values(
 
 def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
     """Net row whose inputs say what the workbook has in the place of a what-if."""
-    was = {one.cell: one.was for one in replaced}
+    was = {change.cell: change.was for change in replaced}
     if not was:
         return row
 
-    def tell(echo: InputEcho) -> InputEcho:
+    def mark(echo: InputEcho) -> InputEcho:
         if echo.cell not in was or echo.derivation is not None:
             return echo
         text = was[echo.cell]
@@ -146,11 +146,11 @@ def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
             echo, derivation=how if text else say("what_if.instead_of_nothing")
         )
 
-    return replace(row, inputs=tuple(map(tell, row.inputs)))
+    return replace(row, inputs=tuple(map(mark, row.inputs)))
 
 
-# Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
-# a net below its snow are no matter of proof.
+# Checks of geometry that may be proven elsewhere. An impossible slope and a net below
+# its snow are no matter of proof.
 _OF_GEOMETRY = tuple(
     ("net", mode)
     for mode in ("inclination", "spacing", "gap", "ends", "anchors", "cover")
@@ -187,7 +187,7 @@ GROUPS = ("structure", "anchors", "post base", "ground at the anchors")
 
 
 def _is_of_group(group: str, member: str, mode: str) -> bool:
-    """One word stands for a check, beside others."""
+    """The word of a group stands for a check, beside other checks."""
     is_anchor = member in _IN_GROUND and mode != "connection"
     of_groups = {
         "anchors": is_anchor or (member, mode) == ("net", "anchors"),
@@ -206,21 +206,23 @@ def name_group(group: str, language: Language) -> str:
 @lru_cache(maxsize=1)
 def _list_subjects() -> Mapping[str, tuple[_Subject, ...]]:
     """Checks by id, and by the words for them that reports and the template have."""
-    every = [
-        (*one, at)
-        for one in DECLARABLE
-        for at in (("",) if one in OF_ROWS else ("", "edge"))
+    subjects = [
+        (*check, at)
+        for check in DECLARABLE
+        for at in (("",) if check in OF_ROWS else ("", "edge"))
     ]
     names: dict[str, tuple[_Subject, ...]] = {}
-    for subject in every:
+    for subject in subjects:
         member, mode, position = subject
         spelt = f"{member}.{mode}{'.end' if position else ''}"
         title = name_check(*subject)
-        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
+        spellings = [spelt, *(render(title, language) for language in LANGUAGES)]
         names |= dict.fromkeys(map(normalise, spellings), (subject,))
     for group in GROUPS:
-        of_group = tuple(one for one in every if _is_of_group(group, *one[:2]))
-        spellings = [name_group(group, one) for one in LANGUAGES]
+        of_group = tuple(
+            subject for subject in subjects if _is_of_group(group, *subject[:2])
+        )
+        spellings = [name_group(group, language) for language in LANGUAGES]
         names |= dict.fromkeys(map(normalise, spellings), of_group)
     return names
 
@@ -257,13 +259,15 @@ def read_declared(
         if replacement is not None:
             confirmed |= _read_confirmation(line, replacement, workbook, findings)
             continue
-        for found in _read_line(line, rows, places, findings):
-            twice = next((one for one in declared if _meet(one, found)), None)
+        for declaration in _read_line(line, rows, places, findings):
+            twice = next(
+                (earlier for earlier in declared if _meet(earlier, declaration)), None
+            )
             if twice:
                 rule = say("declared.twice", place=twice.proof.cell)
                 refuse(line["check"], rule, say("declared.once"), findings)
             else:
-                declared.append(found)
+                declared.append(declaration)
     return tuple(declared), confirmed
 
 
@@ -274,10 +278,13 @@ def _list_rows(reading: Reading, places: Mapping[str, str]) -> list[Reading]:
     return [row["row"] for row in settle_ids(rows, places, "row")]
 
 
-def _meet(one: Declaration, other: Declaration) -> bool:
+def _meet(first: Declaration, second: Declaration) -> bool:
     """Two declarations concern the same check of some net row."""
-    same_row = one.row_id == other.row_id or "" in (one.row_id, other.row_id)
-    subjects = {(each.member, each.mode, each.position) for each in (one, other)}
+    same_row = first.row_id == second.row_id or "" in (first.row_id, second.row_id)
+    subjects = {
+        (declaration.member, declaration.mode, declaration.position)
+        for declaration in (first, second)
+    }
     return same_row and len(subjects) == 1
 
 
@@ -291,7 +298,7 @@ def _read_line(
     check = line["check"]
     subjects = _list_subjects().get(normalise(check.word), ())
     if check.word and not subjects:
-        shown = tuple(name_check(*one) for one in DECLARABLE)
+        shown = tuple(name_check(*subject) for subject in DECLARABLE)
         end = say("check.of_end", check="...")
         accepted = say("declared.accepted", checks=shown, end=end)
         refuse(check, say("declared.unknown"), accepted, findings)
@@ -314,7 +321,7 @@ def _read_line(
 
 
 def _is_of_all(row: Reading, places: Mapping[str, str]) -> bool:
-    """A line holds for all net rows, none of which has that name."""
+    """A line holds for all net rows, by a word that is the id of none."""
     return row.word not in places and normalise(row.word) in ALL_ROWS
 
 
@@ -324,7 +331,7 @@ def _read_confirmation(
     workbook: Workbook,
     findings: list[Finding],
 ) -> dict[str, Message]:
-    """Number that a line confirms, by its cell; nothing with a finding."""
+    """Sentence on the number that a line confirms, by its cell; else a finding."""
     place, text = replacement
     sheet_name, _, address = place.rpartition("!")
     sheets = {sheet.name.casefold(): sheet for sheet in workbook.sheets}
@@ -339,7 +346,7 @@ def _read_confirmation(
         day = line["date"]
         refuse(day, say("cell.empty"), day.field.accepted, findings)
         return {}
-    told = say(
+    sentence = say(
         "plausible.confirmed",
         cell=cell.place,
         value=show_value(cell),
@@ -347,7 +354,7 @@ def _read_confirmation(
         author=line["author"].word,
         date=line["date"].word,
     )
-    return {cell.place: told}
+    return {cell.place: sentence}
 
 
 def show_value(cell: Cell) -> str:

@@ -60,19 +60,19 @@ def fill_in(
         none is severe; what is assumed, and the ranges that cells hold.
     """
     is_open = _find_open(row, end, lines)
-    found = tuple(
+    assumed = tuple(
         _assume(key, row, snow)
         for key in load_assumed()
         if is_open.get(key, key in row and row[key].state == "blank")
     )
-    filled = {x.key: _place(row[x.key], x) for x in found if x.key in row}
-    return {**row, **filled}, (*found, *_list_typed(row))
+    filled = {x.key: _place(row[x.key], x) for x in assumed if x.key in row}
+    return {**row, **filled}, (*assumed, *_list_typed(row))
 
 
 def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
-    """What is open of a row by more than whether its cell is empty."""
+    """Whether each key is open, where an empty cell alone does not decide."""
     gap, count = row["gap"].given_si, row["guy_count"].given_count
-    site = {one.key for one in lines.ranges.assumed}
+    site = {assumed.key for assumed in lines.ranges.assumed}
     of_types = set(_list_of_types([*row.values(), *end.values()], lines.types))
     return {
         **dict.fromkeys(_ALWAYS, True),
@@ -104,7 +104,7 @@ def _list_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
             yield "anchor_kind"
         if kind != "rope anchor" and line["lever_arm"].state == "blank":
             yield "lever_arm"
-    if not posts or any(one["base_friction"].state == "blank" for one in posts):
+    if not posts or any(post["base_friction"].state == "blank" for post in posts):
         yield "base_friction"
 
 
@@ -138,7 +138,7 @@ _FROM, _MORE = 12.0, 16.5
 def assume_density(
     height: float, altitude: float | None, layers: Sequence[Layer]
 ) -> Assumed:
-    """Range of the mean density of a row for which nobody gives one.
+    """Range of the mean density of a row where it is not given.
 
     Parameters
     ----------
@@ -174,30 +174,30 @@ def _list_typed(row: Row) -> tuple[Assumed, ...]:
         keys.remove("end_guy_angle")
     return tuple(
         replace(
-            assume(one.field.key),
-            low=to_si(one.span[0], one.field.unit),
-            high=to_si(one.span[1], one.field.unit),
-            unit=one.field.unit,
+            assume(reading.field.key),
+            low=to_si(reading.span[0], reading.field.unit),
+            high=to_si(reading.span[1], reading.field.unit),
+            unit=reading.field.unit,
             times="",
             source="typed",
             is_typed=True,
         )
-        for one in (row[key] for key in keys)
-        if one.span is not None
+        for reading in (row[key] for key in keys)
+        if reading.span is not None
     )
 
 
 def find_own_ranges(assumed: Sequence[Assumed], row: Row) -> Ranges:
     """Ranges that are searched of a row: assumed ones, and those its cells hold."""
-    found = {
-        one.key: Interval(low=one.low, high=one.high)
-        for one in assumed
-        if one.kind == "searched"
+    intervals = {
+        entry.key: Interval(low=entry.low, high=entry.high)
+        for entry in assumed
+        if entry.kind == "searched"
     }
     for reading in (row[key] for key in _OF_CASES):
         if reading.span is not None:
             low, high = (to_si(end, reading.field.unit) for end in reading.span)
             key = reading.field.key
             name = "thickness" if key == "snow_thickness" else key
-            found[name] = Interval(low=low, high=high)
-    return Ranges.of(**found)
+            intervals[name] = Interval(low=low, high=high)
+    return Ranges.of(**intervals)

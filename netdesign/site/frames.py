@@ -67,7 +67,7 @@ def build_workbook(frames: Frames) -> Workbook:
             continue
         title = load_plan(table).name_in("en")
         cells = sheets.setdefault(title, [])
-        start = max((one.row for one in cells), default=-1) + 2
+        start = max((cell.row for cell in cells), default=-1) + 2
         lines = _list_lines(named[table])
         build = _list_items if table == "project" else _list_cells
         cells.extend(build(table, title, lines, start))
@@ -89,16 +89,16 @@ def _find_name(name: str, frames: Frames) -> str:
         is_sheet = table not in PARTS and load_plan(table).matches(name)
         if is_sheet or normalise(name) == normalise(table):
             return table
-    known = dict.fromkeys(
-        one if one in PARTS else load_plan(one).name_in("en") for one in TABLES
+    names = dict.fromkeys(
+        table if table in PARTS else load_plan(table).name_in("en") for table in TABLES
     )
-    accepted = say("accepted.words", words=tuple(known))
+    accepted = say("accepted.words", words=tuple(names))
     rule = say("frames.no_sheet", given=tuple(frames))
     raise SiteDataError([Finding(file=_FILE, sheet=name, rule=rule, accepted=accepted)])
 
 
 def _list_lines(frame: Any) -> list[Mapping[str, object]]:
-    """Lines of a frame, or the only one of a mapping."""
+    """Lines of a frame, or the only line of a mapping."""
     lines = frame.to_dict("records") if hasattr(frame, "to_dict") else [frame]
     return [
         {
@@ -111,7 +111,7 @@ def _list_lines(frame: Any) -> list[Mapping[str, object]]:
 
 
 def _take(value: Any) -> object:
-    """Value as a workbook holds it; "" of a missing one."""
+    """Value as a workbook holds it; "" of a missing value."""
     if value is None or value != value or str(value) in ("<NA>", "NaT"):
         return ""
     if isinstance(value, date):
@@ -123,7 +123,7 @@ def _list_cells(
     table: str, title: str, lines: Sequence[Mapping[str, object]], start: int
 ) -> Iterator[Cell]:
     """Headings, and the lines below them."""
-    columns = {one.field.key: one for one in load_columns(table)}
+    columns = {column.field.key: column for column in load_columns(table)}
     keys = list(dict.fromkeys(key for line in lines for key in line))
     first = load_columns(table)[0].field.key
     for number, key in enumerate(keys, 1):
@@ -146,8 +146,8 @@ def _list_items(
     table: str, title: str, lines: Sequence[Mapping[str, object]], start: int
 ) -> Iterator[Cell]:
     """Items of sheet Project, one below the other."""
-    heads = {one.key: one.label for one in load_plan(table).fields}
-    labels = {one.key: one.label for one in load_plan(table).items}
+    heads = {field.key: field.label for field in load_plan(table).fields}
+    labels = {field.key: field.label for field in load_plan(table).items}
     for number, key in enumerate(("item", "value"), 1):
         yield _build_cell(title, (start, number), heads[key], heads[key])
     items = [pair for line in lines for pair in line.items()]
@@ -189,11 +189,11 @@ def change_values(
         return workbook, ()
     if is_list:
         keys = {key for values in change.values() for key in values}
-        sheets = tuple(_add_columns(one, keys) for one in workbook.sheets)
+        sheets = tuple(_add_columns(sheet, keys) for sheet in workbook.sheets)
         workbook = replace(workbook, sheets=sheets)
     lines, nets = _read_lines(workbook)
     findings: list[Finding] = []
-    found: dict[str, tuple[Cell, object, str]] = {}
+    by_place: dict[str, tuple[Cell, object, str]] = {}
     for name, values in change.items():
         if name not in lines:
             fault = workbook.finding(say("frames.no_row"))
@@ -206,21 +206,21 @@ def change_values(
                 fault = workbook.finding(say("frames.no_column"))
                 findings.append(replace(fault, text=f"{name}: {key}"))
                 continue
-            others = tuple(
-                other
-                for other, line in lines.items()
-                if key not in change.get(other, {})
-                and (its := _find_cell(line, nets, key)[1])
-                and its.place == cell.place
+            sharing = tuple(
+                row_id
+                for row_id, line in lines.items()
+                if key not in change.get(row_id, {})
+                and (shared := _find_cell(line, nets, key)[1])
+                and shared.place == cell.place
             )
             sheet = load_plan(table).name_in("en") if is_list else cell.sheet
-            if others or found.get(cell.place, (cell, value))[1] != value:
-                rule = say("frames.shared", key=key, rows=others or (name,))
+            if sharing or by_place.get(cell.place, (cell, value))[1] != value:
+                rule = say("frames.shared", key=key, rows=sharing or (name,))
                 findings.append(cell.finding(rule))
-            found[cell.place] = (cell, value, sheet)
+            by_place[cell.place] = (cell, value, sheet)
     if findings:
         raise SiteDataError(findings)
-    changed = ((sheet, cell, _take(value)) for cell, value, sheet in found.values())
+    changed = ((sheet, cell, _take(value)) for cell, value, sheet in by_place.values())
     return put_values(workbook, changed)
 
 
@@ -228,10 +228,10 @@ def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
     """Sheet of rows or net types with the columns of some keys, empty if not there."""
     table = next((x for x in _CHANGED if load_plan(x).name_in("en") == sheet.name), "")
     head = min(sheet.rows)
-    known = {normalise(cell.text.partition("[")[0]) for cell in sheet.row(head)}
+    headings = {normalise(cell.text.partition("[")[0]) for cell in sheet.row(head)}
     rows, number = dict(sheet.rows), max(map(max, sheet.rows.values()))
     for column in load_columns(table) if table else ():
-        if column.field.key in keys and column.field.names.isdisjoint(known):
+        if column.field.key in keys and column.field.names.isdisjoint(headings):
             number += 1
             heading = _build_cell(
                 sheet.name, (head, number), _write_heading(column), sheet.name

@@ -49,14 +49,14 @@ Titles = Sequence[tuple[Cell, Field | None]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """A sheet whose headings were table.
+    """A sheet with its headings.
 
     Attributes
     ----------
     sheet, plan
         As read, and what it should hold.
     titles : sequence of Cell and Field
-        Its headings with what each is taken for; None of others.
+        Its headings with the field that each is taken for, or None.
     heading_row, first_data_row : int
         The row that names the fields; the first below headings and units.
     units_row : int or None
@@ -85,7 +85,7 @@ class Table:
         """Filled cells of a column below its heading."""
         rows = (row for row in self.sheet.rows if row >= self.first_data_row)
         cells = (self.sheet.cell(row, column) for row in rows)
-        return [one for one in cells if not one.is_blank]
+        return [cell for cell in cells if not cell.is_blank]
 
 
 def find_headings(
@@ -107,8 +107,8 @@ def find_headings(
     Table or None
         Without its lines; None if there is no row of headings, which is a finding.
     """
-    row, known = find_best_row(sheet, plan, _list_first_rows(sheet))
-    if known < _LEAST_KNOWN:
+    row, count = find_best_row(sheet, plan, _list_first_rows(sheet))
+    if count < _LEAST_KNOWN:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
         findings.append(sheet.finding(say("heading.no_row"), accepted))
@@ -136,8 +136,8 @@ def find_headings(
     return replace(table, columns=_find_columns(table, findings))
 
 
-def count_known(sheet: Sheet, plan: SheetPlan) -> int:
-    """Most headings of a plan that one row of a sheet holds, whatever its name."""
+def count_headings(sheet: Sheet, plan: SheetPlan) -> int:
+    """Largest number of headings of a plan in one row of a sheet, whatever its name."""
     return find_best_row(sheet, plan, _list_first_rows(sheet))[1]
 
 
@@ -166,10 +166,9 @@ def _find_units_row(
 ) -> int | None:
     """Row below the headings if it holds units; other texts in it are findings.
 
-    One unit that nobody knows does not make it a line of the table, which would have
-    a number somewhere.
+    An unknown unit does not make it a line of the table: that would hold a number.
     """
-    by_column = {cell.column: (cell, one) for cell, one in titles}
+    by_column = {cell.column: (cell, field) for cell, field in titles}
     below = sheet.row(heading_row + 1)
     cells = [
         (cell, field)
@@ -177,14 +176,14 @@ def _find_units_row(
         if (field := by_column.get(cell.column, (None, None))[1])
     ]
     measured = [(cell, field) for cell, field in cells if field.units]
-    others = [one for one in cells if one not in measured]
-    known = sum(is_unit(*one) for one in measured)
-    strangers = [cell for cell, field in others if not is_unit(cell, field)]
+    unmeasured = [pair for pair in cells if pair not in measured]
+    unit_count = sum(is_unit(*pair) for pair in measured)
+    strangers = [cell for cell, field in unmeasured if not is_unit(cell, field)]
     has_units_above = any(
         find_heading_unit(by_column[cell.column][0]) for cell, _ in measured
     )
-    is_row = 2 * known > len(measured) or not (strangers or has_units_above)
-    if not measured or not is_row or any(is_number(*one) for one in cells):
+    is_row = 2 * unit_count > len(measured) or not (strangers or has_units_above)
+    if not measured or not is_row or any(is_number(*pair) for pair in cells):
         return None
     for cell in strangers:
         if normalise(str(cell.value)) not in _UNITS_WORDS:
@@ -225,15 +224,15 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
     findings.extend(finding for finding, _ in judged)
     near = {field.key for _, field in judged if field}
     findings.extend(
-        table.sheet.finding(say("heading.lacks", heading=one.title))
-        for one in missing
-        if one.required and one.key not in near
+        table.sheet.finding(say("heading.lacks", heading=field.title))
+        for field in missing
+        if field.required and field.key not in near
     )
     return columns
 
 
 def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | None]:
-    """Note a column that is not read; refuse one that seems a missing one, misspelt."""
+    """Note a column that is not read; refuse a heading that seems misspelt."""
     if stored := refuse_stored(cell):
         return cell.finding(*stored), None
     near = find_near(str(cell.value), missing)

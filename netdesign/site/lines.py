@@ -88,7 +88,7 @@ def fold_id(text: str) -> str:
 def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
     """Lines whose column names an id as its sheet writes it, whatever the case.
 
-    Ids that differ by nothing else are told apart by their case.
+    Ids that differ by their case alone are kept apart.
     """
     by_fold: dict[str, list[str]] = {}
     for name in dict.fromkeys(ids):
@@ -96,9 +96,9 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
     settled: list[Row] = []
     for line in lines:
         reading = line[key]
-        known = by_fold.get(fold_id(reading.word), ())
-        if reading.word and len(known) == 1:
-            line = {**line, key: replace(reading, value=known[0])}
+        matches = by_fold.get(fold_id(reading.word), ())
+        if reading.word and len(matches) == 1:
+            line = {**line, key: replace(reading, value=matches[0])}
         settled.append(line)
     return settled
 
@@ -106,16 +106,16 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
 def index_lines(
     lines: Iterable[Row], key: str, accepted: Message, findings: list[Finding]
 ) -> dict[str, Row]:
-    """Lines by the id in a column; one used again is a finding that names the first."""
-    found: dict[str, Row] = {}
+    """Lines by the id in a column; an id used again is a finding."""
+    by_id: dict[str, Row] = {}
     for line in lines:
         reading = line[key]
-        if reading.word in found:
-            rule = say("nets.used_twice", place=found[reading.word][key].place)
+        if reading.word in by_id:
+            rule = say("nets.used_twice", place=by_id[reading.word][key].place)
             refuse(reading, rule, accepted, findings)
         elif reading.word:
-            found[reading.word] = line
-    return found
+            by_id[reading.word] = line
+    return by_id
 
 
 def refuse_unknown_ids(
@@ -137,12 +137,12 @@ def refuse_unknown_ids(
     key : str
         Text of what is accepted, which names the sheet.
     """
-    told = {"", *places}
+    seen = {"", *places}
     for reading in readings:
-        if reading.word in told:
+        if reading.word in seen:
             continue
-        told.add(reading.word)
-        typed = next((one.partition("!")[0] for one in places.values()), "")
+        seen.add(reading.word)
+        typed = next((place.partition("!")[0] for place in places.values()), "")
         sheet = typed or say(f"sheet.{reading.field.refers_to}")
         accepted = add_nearest(say(key, sheet=sheet), reading.word, places)
         refuse(reading, say("nets.no_id", sheet=sheet), accepted, findings)
@@ -153,7 +153,7 @@ def refuse_unknown_types(line: Row, lines: Lines, findings: list[Finding]) -> No
     for sheet, types in lines.types.items():
         if sheet in lines.unreadable:
             continue
-        places = {name: one["id"].place for name, one in types.items()}
+        places = {name: type_line["id"].place for name, type_line in types.items()}
         for reading in list_references([line], sheet):
             refuse_unknown_ids([reading], places, findings, "nets.id_or_empty")
 
@@ -175,7 +175,7 @@ def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
         if not named:
             continue
         sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
-        ids = [quote(one) for one in dict.fromkeys(reading.word for reading in named)]
+        ids = [quote(text) for text in dict.fromkeys(reading.word for reading in named)]
         rule = say(
             "nets.lacks_sheet",
             sheet=sheet,
@@ -183,7 +183,7 @@ def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
             ids=shorten(ids, _MOST_PLACES),
             nets=lines.table.sheet.name if lines.table else "",
         )
-        places = shorten([one.place for one in named], _MOST_PLACES)
+        places = shorten([reading.place for reading in named], _MOST_PLACES)
         accepted = say("nets.sheet_or_empty", sheet=sheet, places=places)
         findings.append(Finding(file=lines.workbook.file, rule=rule, accepted=accepted))
 
@@ -194,49 +194,49 @@ Neighbours = Mapping[str, tuple[str, ...]]  # rows into which each row's nets go
 def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     """Rows that go on at both ends, with those into which they do.
 
-    Whichever of two rows says so. Refused are neighbours that are no other net rows, a
-    third neighbour of a row, and rows that close a ring.
+    It is enough that one of two rows names the other. Refused are neighbours that are
+    no other net rows, a third neighbour of a row, and rows that close a ring.
     """
     joined = _join_rows(rows)
     lines = {row["id"].word: row for row in rows}
     for name, row in lines.items():
         into, at = joined[name], find_named(row)
-        for other in into:
-            if other == name or other not in lines:
-                rule = say("nets.no_neighbour", id=other)
+        for neighbour in into:
+            if neighbour == name or neighbour not in lines:
+                rule = say("nets.no_neighbour", id=neighbour)
                 refuse(at, rule, say("nets.other_ids"), findings)
         chained = _reach(name, joined)
         if len(into) > _ENDS:
             rule = say("nets.two_ends", id=name, ids=tuple(sorted(into)))
             refuse(at, rule, say("nets.free_or_both"), findings)
-        elif all(len(joined[one]) == _ENDS for one in chained):
+        elif all(len(joined[row_id]) == _ENDS for row_id in chained):
             rule = say("nets.ring", ids=tuple(sorted(chained)))
             refuse(at, rule, say("nets.free_or_both"), findings)
     return {name: joined[name] for name in lines if len(joined[name]) >= _ENDS}
 
 
 def find_named(row: Row) -> Reading:
-    """Cell of the neighbours; the id of a row on a sheet without one."""
+    """Cell that names the neighbours, or that of the id if there is no such column."""
     return row["gap"] if row["gap"].cell else row["id"]
 
 
 def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
-    """Rows into which each row's nets go on, whichever of the two says so."""
+    """Rows into which each row's nets go on, where either of the two says so."""
     ids = {fold_id(row["id"].word): row["id"].word for row in rows}
-    found: dict[str, dict[str, None]] = {row["id"].word: {} for row in rows}
+    joined: dict[str, dict[str, None]] = {row["id"].word: {} for row in rows}
     for row in rows:
         own = row["id"].word
         for typed in filter(None, map(str.strip, row["gap"].word.split(","))):
-            other = ids.get(fold_id(typed), typed)
-            found[own][other] = None
-            found.setdefault(other, {})[own] = None
-    return {own: tuple(others) for own, others in found.items()}
+            neighbour = ids.get(fold_id(typed), typed)
+            joined[own][neighbour] = None
+            joined.setdefault(neighbour, {})[own] = None
+    return {own: tuple(neighbours) for own, neighbours in joined.items()}
 
 
 def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
     """Rows into which the nets of a row go on, one after the other."""
-    found, new = {name}, {name}
+    reached, new = {name}, {name}
     while new:
-        new = {one for known in new for one in beside[known]} - found
-        found |= new
-    return found
+        new = {neighbour for row in new for neighbour in beside[row]} - reached
+        reached |= new
+    return reached

@@ -83,7 +83,7 @@ class NetRow:
     post_count: int | None = None
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
-    ground_type: str = ""  # where its anchors stand; "" where nobody says it
+    ground_type: str = ""  # where its anchors stand; "" where not given
     design_life: int = 100  # [years]
     glide_factor: float | None = None  # as typed, of sliding ground
     guys: Guys = field(default_factory=Guys)
@@ -123,13 +123,13 @@ class NetRow:
 
     def find_assumed(self, key: str) -> Assumed | None:
         """What is assumed of an empty column; None where it is given."""
-        return next((one for one in self.assumed if one.key == key), None)
+        return next((assumed for assumed in self.assumed if assumed.key == key), None)
 
     def find_axis(self, anchor: str) -> float | None:
         """Given inclination of an anchor's axis [rad]."""
         if anchor == EndMember.LATERAL_ANCHOR:
             return self.row_end.lateral_axis if self.row_end else None
-        return next((axis for one, axis in self.axes if one == anchor), None)
+        return next((axis for member, axis in self.axes if member == anchor), None)
 
     def find_anchor_type(
         self, anchor: str, position: Position = "intermediate"
@@ -138,11 +138,11 @@ class NetRow:
         if self.row_end is not None and anchor in tuple(EndMember):
             return self.row_end.find_anchor_type(anchor)
         at_end = position == "edge" and self.end_anchors is not None
-        known = self.end_anchors or () if at_end else self.anchors
-        return next((kind for one, kind in known if one == anchor), None)
+        types = self.end_anchors or () if at_end else self.anchors
+        return next((kind for member, kind in types if member == anchor), None)
 
     def list_unsaid_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
-        """Name of an anchor's drilled length, where nobody gives it."""
+        """Name of an anchor's drilled length, where it is not given."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None
         name = say("column.anchor_types.drilled_length")
@@ -151,17 +151,19 @@ class NetRow:
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """What the mesh or a border rope bears; of ropes only where there are some."""
-        return next(one for one in self.net_parts if one.member == part)
+        return next(
+            resistance for resistance in self.net_parts if resistance.member == part
+        )
 
     @property
     def length(self) -> float | None:
-        """From the first post to the last [m]; None where their number is not given."""
+        """Length from the first post to the last [m]; None without their number."""
         count = self.post_count
         return None if count is None else (count - 1.0) * self.layout.post_spacing
 
     @property
     def has_end(self) -> bool:
-        """End of the row: there is none where the next work goes on without a gap."""
+        """Whether the row has an end: not where the next work goes on without a gap."""
         return self.gap > 0.0
 
     def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
@@ -298,13 +300,15 @@ class Site:
     @property
     def questions(self) -> tuple[Message, ...]:
         """Numbers that can hardly be meant; their net rows are not proven."""
-        asked = (one for one in self.findings if one.severity == "question")
-        return tuple(one.message for one in asked)
+        questions = (
+            finding for finding in self.findings if finding.severity == "question"
+        )
+        return tuple(finding.message for finding in questions)
 
     @property
     def ranges_sheet(self) -> str:
         """Sheet of the ranges, by the name that the workbook has for it."""
-        cells = (one.cell for one in self.range_inputs if "!" in one.cell)
+        cells = (echo.cell for echo in self.range_inputs if "!" in echo.cell)
         return next(cells, "Ranges").rpartition("!")[0] or "Ranges"
 
     def find_declaration(
@@ -315,12 +319,13 @@ class Site:
         ``position`` is that of its support. What is declared of no support is not
         proven of an anchor of another type at the row's end.
         """
-        found = {
-            one.position: one
-            for one in self.declared
-            if one.row_id in ("", row.id) and (one.member, one.mode) == (member, mode)
+        by_position = {
+            declaration.position: declaration
+            for declaration in self.declared
+            if declaration.row_id in ("", row.id)
+            and (declaration.member, declaration.mode) == (member, mode)
         }
         if position != "edge":
-            return found.get("")
-        general = found.get("") if row.has_same_type_at_end(member) else None
-        return found.get("edge", general)
+            return by_position.get("")
+        general = by_position.get("") if row.has_same_type_at_end(member) else None
+        return by_position.get("edge", general)

@@ -57,7 +57,7 @@ from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member, NetPart
 from netdesign.words.message import Message, say
 
-_ROUNDING = 0.005  # between heights of snow and net that are one by their plan [m]
+_ROUNDING = 0.005  # between heights of snow and net that are equal on the plan [m]
 _ALIKE = 0.1  # numbers of rows that are alike differ by a tenth at most
 _OF_NET = (
     *(Member.POST, Member.UPHILL_GUY, Member.DOWNHILL_GUY),
@@ -95,10 +95,10 @@ def build_net_rows(lines: Lines, findings: list[Finding]) -> tuple[NetRow, ...]:
 
 
 def _say_joined(row: Row, beside: Neighbours) -> Row:
-    """Line whose gap is one of both ends: 0 where its nets go on at both."""
-    gap, others = row["gap"], beside.get(row["id"].word)
-    if others:
-        how = say("office.goes_on", ids=others)
+    """Line whose gap holds for both ends: 0 where its nets go on at both."""
+    gap, neighbours = row["gap"], beside.get(row["id"].word)
+    if neighbours:
+        how = say("office.goes_on", ids=neighbours)
         gap = replace(gap, state="given", value=0.0, derivation=how)
     elif gap.word:
         gap = replace(gap, state="blank", value=None)
@@ -111,16 +111,22 @@ def _separate_unlike(
     lines: Lines,
     findings: list[Finding],
 ) -> list[NetRow | None]:
-    """Rows of which those that go on into an unlike one have an end of their own."""
+    """Net rows; a row whose nets go on into an unlike row gets an end of its own."""
     by_id = {row.id: row for row in built if row}
     kept: list[NetRow | None] = []
     for line, row in zip(lines.rows, built, strict=True):
         if row and row.id in beside:
-            others = [by_id[one] for one in sorted(beside[row.id]) if one in by_id]
-            unlike = ((one.id, key) for one in others for key in list_unlike(row, one))
-            if found := next(unlike, None):
-                name = say(f"column.{found[1]}")
-                how = say("nets.unlike", id=found[0], name=name)
+            neighbours = [
+                by_id[row_id] for row_id in sorted(beside[row.id]) if row_id in by_id
+            ]
+            unlike = (
+                (other.id, key)
+                for other in neighbours
+                for key in list_unlike(row, other)
+            )
+            if difference := next(unlike, None):
+                name = say(f"column.{difference[1]}")
+                how = say("nets.unlike", id=difference[0], name=name)
                 refuse(find_named(line), how, "", findings, severity="note")
                 gap = replace(line["gap"], state="blank", value=None, derivation=how)
                 row = _build_net_row({**line, "gap": gap}, lines, [])
@@ -128,13 +134,13 @@ def _separate_unlike(
     return kept
 
 
-def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
+def list_unlike(row: NetRow, other: NetRow) -> Iterator[str]:
     """Columns by which two rows are not loaded and built alike.
 
     Only alike rows load each other's ends as if the nets went on.
     """
     others = _list_compared(other)
-    for key, mine in _list_compared(one).items():
+    for key, mine in _list_compared(row).items():
         its = others[key]
         if isinstance(mine, float) and isinstance(its, float):
             is_alike = math.isclose(mine, its, rel_tol=_ALIKE)
@@ -147,7 +153,10 @@ def list_unlike(one: NetRow, other: NetRow) -> Iterator[str]:
 def _list_compared(row: NetRow) -> dict[str, float | int | str]:
     """Values by which rows are alike or not, by their columns."""
     layout, ground = row.layout, row.ground
-    types = {one.member: one.type_id for one in (*row.resistances, *row.net_parts)}
+    types = {
+        resistance.member: resistance.type_id
+        for resistance in (*row.resistances, *row.net_parts)
+    }
     is_sliding = ground.kind == "sliding"
     glide = row.glide_factor or ground.slip_length
     return {
@@ -160,7 +169,7 @@ def _list_compared(row: NetRow) -> dict[str, float | int | str]:
         "net_types.slack": row.slack,
         "net_types.post_tilt": layout.post_tilt,
         "net_types.guy_count": row.guys.count,
-        **{f"net_types.{one}": types.get(one, "") for one in _OF_NET},
+        **{f"net_types.{member}": types.get(member, "") for member in _OF_NET},
     }
 
 
@@ -183,9 +192,9 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     thickness = _understand_thickness(line, snow, layers, findings)
     ground = _understand_ground(line["glide_factor"], thickness, findings)
     _ask_for_length(line, findings)
-    for one in (line, end):
-        refuse_unknown_types(one, lines, findings)
-    is_refused = any(one.severity == "error" for one in findings[count_before:])
+    for cells in (line, end):
+        refuse_unknown_types(cells, lines, findings)
+    is_refused = any(finding.severity == "error" for finding in findings[count_before:])
     if is_refused or _is_faulty((line, end), lines.unreadable):
         return None
     if thickness is None or ground is None:
@@ -196,7 +205,7 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     if is_overtopped(rounded.si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(rounded, rule, "", findings, severity="note")
-    line, row = ({**one, "net_height": rounded} for one in (line, row))
+    line, row = ({**readings, "net_height": rounded} for readings in (line, row))
     echoes = _echo_inputs(line, thickness, ground)
     at_end = (
         reading.echo(say(f"column.Ends.{key}"))
@@ -211,7 +220,7 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
 def _round_net_height(
     height: Reading, thickness: float, findings: list[Finding]
 ) -> Reading:
-    """Height of a net as high as snow that is a rounding thicker; that is told."""
+    """Height of a net; that of the snow, with a note, where it is a rounding less."""
     if not 0.0 < thickness - height.si <= _ROUNDING:
         return height
     how = say("nets.rounded", typed=height.si, thickness=thickness)
@@ -221,7 +230,7 @@ def _round_net_height(
 
 def _is_faulty(named: Sequence[Row], unreadable: Iterable[str]) -> bool:
     """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
-    readings = (reading for one in named for reading in one.values())
+    readings = (reading for cells in named for reading in cells.values())
     return any(reading.state == "faulty" for reading in readings) or any(
         list_references(named, sheet) for sheet in unreadable
     )
@@ -284,7 +293,7 @@ def _understand_thickness(
 def _understand_ground(
     glide: Reading, thickness: float | None, findings: list[Finding]
 ) -> GroundLaw | None:
-    """Ground of a glide factor, the largest where nobody gives it."""
+    """Ground of a glide factor, the largest where it is not given."""
     if glide.word:
         return GroundLaw(kind="free")
     if glide.state == "faulty" or thickness is None:
@@ -318,7 +327,7 @@ def _build_layout(row: Row) -> SupportLayout:
 def _echo_inputs(
     row: Row, thickness: float, ground: GroundLaw
 ) -> tuple[InputEcho, ...]:
-    """Every input of the row; what was derived from one stands behind it."""
+    """Every input of the row, each followed by what is derived from it."""
     echoes: list[InputEcho] = []
     for key, reading in row.items():
         measured = say(f"column.Nets.{reading.field.key}")

@@ -1,7 +1,7 @@
 """Questions about numbers that can hardly be meant, by the net rows that rest on them.
 
-A net row with an open question is not proven until somebody changes the number, or
-confirms it on sheet Declared.
+A net row with an open question is not proven until the number is changed, or confirmed
+on sheet Declared.
 """
 
 from __future__ import annotations
@@ -39,19 +39,19 @@ def ask(
     lines : Lines
         Of the whole site.
     confirmed : collection of str
-        Cells of numbers that somebody has confirmed.
+        Cells of numbers that are confirmed on sheet Declared.
     findings : list of Finding
         Appended to: each open question once.
     """
-    resting, asked = _find_resting(lines), dict[str, Message]()
+    resting, questions = _find_resting(lines), dict[str, Message]()
     for reading, rule in _list_all(lines):
-        place, is_open = reading.place, reading.place not in (*confirmed, *asked)
+        place, is_open = reading.place, reading.place not in (*confirmed, *questions)
         if reading.cell is None or not is_open or not resting[place]:
             continue
         sheet, value = say("sheet.Declared"), show_value(reading.cell)
         how = say("plausible.settle", sheet=sheet, place=place, value=value)
         refuse(reading, rule, how, findings, severity="question")
-        asked[place] = say(
+        questions[place] = say(
             "plausible.asked",
             place=place,
             field=reading.field.name,
@@ -59,7 +59,9 @@ def ask(
             rule=rule,
         )
     return {
-        row: tuple(one for place, one in asked.items() if row in resting[place])
+        row: tuple(
+            question for place, question in questions.items() if row in resting[place]
+        )
         for row in lines.places
     }
 
@@ -73,23 +75,23 @@ _NAMED = {
 
 
 def _find_resting(lines: Lines) -> Mapping[str, set[str]]:
-    """Net rows that rest on each cell; on one of sheet Project all of them do."""
+    """Net rows that rest on each cell; all of them rest on a cell of sheet Project."""
     resting: dict[str, set[str]] = defaultdict(lambda: set(lines.places))
     for line, rows in _list_users(lines):
-        for one in line.values():
-            resting[one.place] = {*resting.get(one.place, ()), *rows}
+        for reading in line.values():
+            resting[reading.place] = {*resting.get(reading.place, ()), *rows}
     return resting
 
 
 def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
-    """Lines with the net rows that name them, or what they are of."""
+    """Lines with the net rows that name them, or name the type that they belong to."""
     named: dict[tuple[str, str], set[str]] = {}  # by table and id
     for line in lines.rows:
         row = line["id"].word
         yield line, [row]
-        for one in (*line.values(), *lines.ends[row].values()):
-            for name in {one.word, name_bare(one.word)}:
-                named.setdefault((one.field.refers_to, name), set()).add(row)
+        for reading in (*line.values(), *lines.ends[row].values()):
+            for name in {reading.word, name_bare(reading.word)}:
+                named.setdefault((reading.field.refers_to, name), set()).add(row)
     for row, layers in lines.snow.items():
         yield from ((line, [row]) for line in layers)
     for table in TYPES:
@@ -107,8 +109,8 @@ def _list_all(lines: Lines) -> Iterator[Doubt]:
     """Doubts about all numbers, each line by itself and beside others of its table."""
     for typed in lines.typed.values():
         yield from chain.from_iterable(map(_list_doubted_cells, typed))
-    limits = [one for one in lines.links if one["force"].field.key != "force"]
-    strengths = [one for one in lines.links if one not in limits]
+    limits = [link for link in lines.links if link["force"].field.key != "force"]
+    strengths = [link for link in lines.links if link not in limits]
     # without a name where columns are not looked along
     groups: list[tuple[str, Sequence[Row]]] = [
         ("rows", lines.rows),
@@ -118,7 +120,7 @@ def _list_all(lines: Lines) -> Iterator[Doubt]:
         *(("links", strengths), ("links", limits), ("tests", lines.tests)),
     ]
     every = (*lines.rows, *lines.ends.values())
-    named = {one.word for line in every for one in line.values()}
+    named = {reading.word for line in every for reading in line.values()}
     for table, group in groups:
         used = [x for x in group if table not in TYPES or x["id"].word in named]
         yield from chain.from_iterable(map(list_doubts, used))
@@ -144,40 +146,42 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
     line : mapping of str to Reading
         Of any sheet.
     """
-    typed = {key: one for key, one in line.items() if _is_meant(one)}
+    typed = {key: reading for key, reading in line.items() if _is_meant(reading)}
     alone = dict(_list_unlike(typed, line))
     for key, reading in typed.items():
-        told = _doubt_alone(reading)
-        if told and key not in alone:
-            alone[key] = told
+        doubt = _doubt_alone(reading)
+        if doubt and key not in alone:
+            alone[key] = doubt
     for key, reading in typed.items():
-        told = alone.get(key) or _doubt_beside(reading, line, alone)
-        if told:
-            alone[key] = told
-            yield reading, told
-    meant = {key: one for key, one in typed.items() if key not in alone}
+        doubt = alone.get(key) or _doubt_beside(reading, line, alone)
+        if doubt:
+            alone[key] = doubt
+            yield reading, doubt
+    meant = {key: reading for key, reading in typed.items() if key not in alone}
     yield from _list_eccentric(meant, line)
     for key in _TESTED if _TESTED[0] in line else ():
-        if key not in alone and (told := _doubt_pulled(key, line)):
-            yield line[key], told
+        if key not in alone and (doubt := _doubt_pulled(key, line)):
+            yield line[key], doubt
 
 
 def _list_doubted_cells(line: Row) -> Iterator[Doubt]:
-    """Cells that are struck out, of most of a line the first, or hold an old result."""
+    """Cells with an old result or struck out; of a line struck out the first."""
     typed = [
-        (one, one.cell.doubt)
-        for one in line.values()
-        if one.cell is not None and not one.cell.is_blank and one.derivation is None
+        (reading, reading.cell.doubt)
+        for reading in line.values()
+        if reading.cell is not None
+        and not reading.cell.is_blank
+        and reading.derivation is None
     ]
-    doubted = [(one, doubt) for one, doubt in typed if doubt is not None]
-    struck = [one for one in doubted if one[1].key == "cell.struck"]
+    doubted = [(reading, doubt) for reading, doubt in typed if doubt is not None]
+    struck = [pair for pair in doubted if pair[1].key == "cell.struck"]
     is_line = len(typed) > _LEAST_STRUCK and 2 * len(struck) > len(typed)
     left_out = struck[1:] if is_line else []
-    yield from (one for one in doubted if one not in left_out)
+    yield from (pair for pair in doubted if pair not in left_out)
 
 
 def _is_meant(reading: Reading) -> bool:
-    """A number is typed, and no zero that says that there is none."""
+    """A number is typed, and it is no zero that stands for nothing."""
     says_none = reading.field.zero_says_none and reading.value == 0.0
     return is_typed(reading) and not says_none
 
@@ -208,7 +212,7 @@ def _doubt_beside(
     """Doubt by others of the line, none of which is in doubt itself."""
     for usual in reading.field.beside:
         others = [line[key] for key in usual.powers]
-        if any(one.state != "given" or not one.number for one in others):
+        if any(other.state != "given" or not other.number for other in others):
             continue
         if any(key in doubted for key in usual.powers):
             continue
@@ -239,7 +243,7 @@ def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
     """Eccentricity of a post beyond what an empty cell takes, which would help."""
     reading = typed.get("head_eccentricity")
     needed = ("post_width", "section_modulus", "area")
-    if reading is None or any(line[one].state != "given" for one in needed):
+    if reading is None or any(line[key].state != "given" for key in needed):
         return
     most = 0.5 * find_depth(line)
     if reading.si > most * (1.0 + 1e-9):
@@ -253,8 +257,8 @@ def _doubt_pulled(key: str, line: Row) -> Message | None:
     reading = line[key]
     if reading.state != "given":
         return None
-    told = _doubt_tested(reading, line) if key == "test_mean" else None
-    return told or _doubt_bond(reading, key, line)
+    doubt = _doubt_tested(reading, line) if key == "test_mean" else None
+    return doubt or _doubt_bond(reading, key, line)
 
 
 def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
@@ -296,7 +300,9 @@ def _list_unlike(
 ) -> Iterator[tuple[str, Message]]:
     """Numbers of a type that are not those of the product that it is named after."""
     columns = {
-        key: one.field.of_product for key, one in typed.items() if one.field.of_product
+        key: reading.field.of_product
+        for key, reading in typed.items()
+        if reading.field.of_product
     }
     if not columns:
         return
@@ -305,7 +311,7 @@ def _list_unlike(
         return
     for key, names in columns.items():
         reading = typed[key]
-        spans = [product.values[one] for one in names if one in product.values]
+        spans = [product.values[name] for name in names if name in product.values]
         if not spans:
             continue
         if key in _FORCES or key == "bar_strength":  # yield to ultimate
@@ -317,13 +323,13 @@ def _list_unlike(
         ):
             continue
         unit = reading.field.unit
-        known = tuple(_name_span(from_si(a, unit), from_si(b, unit)) for a, b in spans)
+        shown = tuple(_name_span(from_si(a, unit), from_si(b, unit)) for a, b in spans)
         yield (
             key,
             say(
                 "plausible.unlike",
                 product=product.id,
-                known=known,
+                known=shown,
                 unit=unit,
                 sources=product.sources,
             ),
@@ -361,7 +367,7 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
     for key in keys:
         if not lines[0][key].field.scatters:
             least = _LEAST_LINES.get(sheet, _LEAST_OF_TYPES)
-            yield from _list_outliers([one[key] for one in lines], least)
+            yield from _list_outliers([line[key] for line in lines], least)
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])
     if sheet == "tests":
@@ -369,44 +375,48 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
 
 
 def _list_alike(lines: Sequence[Row]) -> Iterator[Doubt]:
-    """Lines that are one again: pasted twice, unless each is of another anchor."""
+    """Doubts about tests that repeat an earlier line: each may be of another anchor."""
     for number, line in enumerate(lines):
-        again = next((one for one in lines[:number] if _are_alike(one, line)), None)
+        again = next(
+            (earlier for earlier in lines[:number] if _are_alike(earlier, line)), None
+        )
         if again is not None:
             yield line["force"], say("plausible.same_line", place=again["force"].place)
 
 
-def _are_alike(one: Row, other: Row) -> bool:
-    """Nothing that both lines give tells them apart."""
-    pairs = [(one[key], reading) for key, reading in other.items()]
-    both = [pair for pair in pairs if all(each.state == "given" for each in pair)]
-    is_known = (one["force"], other["force"]) in both
+def _are_alike(earlier: Row, line: Row) -> bool:
+    """Two tests have the same force, and the same values where both give one."""
+    pairs = [(earlier[key], reading) for key, reading in line.items()]
+    both = [pair for pair in pairs if all(reading.state == "given" for reading in pair)]
+    is_known = (earlier["force"], line["force"]) in both
     return is_known and all(first.value == second.value for first, second in both)
 
 
 def _list_outliers(readings: Sequence[Reading], least: int) -> Iterator[Doubt]:
-    """Numbers far off the median of so many, by ratio."""
-    typed = [one for one in readings if is_typed(one) and one.number > 0.0]
+    """Numbers far off the median of at least so many, by ratio."""
+    typed = [
+        reading for reading in readings if is_typed(reading) and reading.number > 0.0
+    ]
     if len(typed) < least:
         return
-    middle = median(one.number for one in typed)
-    scatter = median(_find_ratio(one.number, middle) for one in typed)
-    for one in typed:
-        if _find_ratio(one.number, middle) > _BEYOND * scatter:
+    middle = median(reading.number for reading in typed)
+    scatter = median(_find_ratio(reading.number, middle) for reading in typed)
+    for reading in typed:
+        if _find_ratio(reading.number, middle) > _BEYOND * scatter:
             yield (
-                one,
+                reading,
                 say(
                     "plausible.outlier",
-                    times=one.number / middle,
+                    times=reading.number / middle,
                     middle=middle,
-                    unit=one.field.unit,
+                    unit=reading.field.unit,
                     count=len(typed),
                 ),
             )
 
 
-def _find_ratio(one: float, other: float) -> float:
-    return max(one / other, other / one)
+def _find_ratio(first: float, second: float) -> float:
+    return max(first / second, second / first)
 
 
 def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
@@ -414,16 +424,16 @@ def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
 
     Numbers are diameters where they fit the forces of all types but one.
     """
-    named = [one for line in lines if (one := _read_name(line, key))]
+    named = [entry for line in lines if (entry := _read_name(line, key))]
     off = [x for x in named if not _FITS[0] <= x[2].number / x[1] ** 2 <= _FITS[1]]
     if len(named) - len(off) < _OTHERS or len(off) > 1:
         return
     for _, diameter, reading in off:
         yield reading, say("plausible.diameter", diameter=diameter)
-    fitting = [one for one in named if one not in off]
+    fitting = [entry for entry in named if entry not in off]
     for kind, diameter, reading in fitting:
-        for other_kind, other, beside in fitting:
-            is_smaller = kind == other_kind and diameter < other
+        for other_kind, other_diameter, beside in fitting:
+            is_smaller = kind == other_kind and diameter < other_diameter
             if is_smaller and reading.number > beside.number:
                 yield reading, say("plausible.more", place=beside.place)
                 yield beside, say("plausible.less", place=reading.place)

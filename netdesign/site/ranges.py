@@ -47,19 +47,22 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
     lines : mapping of str to Reading
         Of sheet Project, by key.
     """
-    given = [lines[key] for key in QUANTITIES]
-    if any(one.state == "faulty" for one in given):
+    readings = [lines[key] for key in QUANTITIES]
+    if any(reading.state == "faulty" for reading in readings):
         return SiteRanges()
-    ends = [_split(one) for one in given if one.state == "given"]
+    ends = [_split(reading) for reading in readings if reading.state == "given"]
     documents = [lines[key] for key in DOCUMENTS if lines[key].state == "given"]
-    assumed = tuple(assume(x.field.key) for x in given if x.state != "given")
+    assumed = tuple(assume(x.field.key) for x in readings if x.state != "given")
     return SiteRanges(
         ranges=Ranges.of(
-            **{one.key: Interval(low=one.low, high=one.high) for one in assumed},
+            **{
+                entry.key: Interval(low=entry.low, high=entry.high) for entry in assumed
+            },
             **{low.field.key: Interval(low=low.si, high=high.si) for low, high in ends},
         ),
         inputs=tuple(
-            one.echo() for one in (*(end for both in ends for end in both), *documents)
+            reading.echo()
+            for reading in (*(end for both in ends for end in both), *documents)
         ),
         assumed=assumed,
         lines=tuple({end.field.key: end} for both in ends for end in both),
@@ -70,7 +73,7 @@ def _split(reading: Reading) -> tuple[Reading, Reading]:
     """Low and high end of what one cell holds; twice the same of a single value."""
     field = replace(reading.field, may_range=False)
     low, high = reading.span or (reading.number, reading.number)
-    names = (say(f"column.{one}_end", name=field.name) for one in ("low", "high"))
+    names = (say(f"column.{end}_end", name=field.name) for end in ("low", "high"))
     first, second = (
         replace(reading, field=replace(field, named=name), value=end, span=None)
         for name, end in zip(names, (low, high), strict=True)

@@ -27,7 +27,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
-from netdesign.site.headings import count_known
+from netdesign.site.headings import count_headings
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
@@ -86,20 +86,20 @@ def read_site(
         version 0.1 with the command that writes it again, alone.
     """
     path = Path(path)
-    found = read_list_map(path)
-    if found:
-        cells = read_answered_list(path, found, text_format)
+    answers = read_list_map(path)
+    if answers:
+        cells = read_answered_list(path, answers, text_format)
     else:
         cells = read_cells(path, text_format)
     workbook, replaced = replace_cells(cells, instead)
-    if not found:
+    if not answers:
         workbook, changed = change_values(workbook, change)
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
-    if found:
-        used = say("map.used", file=found.file)
+    if answers:
+        used = say("map.used", file=answers.file)
         findings.append(note_file(workbook.file, used))
-        workbook = join_list(workbook, found, findings)
+        workbook = join_list(workbook, answers, findings)
         workbook, changed = change_values(workbook, change, is_list=True)
     else:
         findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
@@ -107,8 +107,8 @@ def read_site(
     library = read_library(net_types, text_format, findings) if net_types else None
     lines = read_office(workbook, findings, library)
     site = _build_site(lines, replaced, findings)
-    if found:
-        site = replace(site, map_file=found.file, map_sha256=found.sha256)
+    if answers:
+        site = replace(site, map_file=answers.file, map_sha256=answers.sha256)
     return replace(site, text_format=text_format)
 
 
@@ -140,11 +140,13 @@ def _build_site(
         lines.declared, workbook, lines.places, findings
     )
     findings.extend(_note_unread(workbook, findings))
-    if ranges.ranges is None or any(one.severity == "error" for one in findings):
+    if ranges.ranges is None or any(
+        finding.severity == "error" for finding in findings
+    ):
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(findings)
-    asked = ask(lines, confirmed, findings)
-    rows = (replace(row, questions=asked[row.id]) for row in net_rows)
+    questions = ask(lines, confirmed, findings)
+    rows = (replace(row, questions=questions[row.id]) for row in net_rows)
     return Site(
         project=lines.project,
         ranges=_span(ranges.ranges, net_rows),
@@ -167,7 +169,7 @@ def _build_site(
 
 
 def _read_further(lines: Lines, findings: list[Finding]) -> dict[str, Any]:
-    """What add-ons read of their sheets; that of an add-on that is gone is told."""
+    """What add-ons read of their sheets; a sheet whose add-on is gone gets a note."""
     values = {}
     for name, table in lines.further.items():
         if table is not None and is_there(SHEETS[name]):
@@ -182,10 +184,13 @@ def _read_further(lines: Lines, findings: list[Finding]) -> dict[str, Any]:
 def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
     """Ranges of a site, the density over all rows where each has its own."""
     own = [dict(row.ranges.intervals).get("density") for row in rows]
-    spans = [one for one in own if one]
+    spans = [interval for interval in own if interval]
     if not spans:
         return ranges
-    low, high = min(one.low for one in spans), max(one.high for one in spans)
+    low, high = (
+        min(interval.low for interval in spans),
+        max(interval.high for interval in spans),
+    )
     return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
 
 
@@ -205,7 +210,7 @@ def _refuse_rows_elsewhere(
     except SiteDataError:  # what has no part in the check may be damaged
         return
     for sheet in every.sheets:
-        if sheet.name in names and count_known(sheet, plan) >= _LEAST_KNOWN:
+        if sheet.name in names and count_headings(sheet, plan) >= _LEAST_KNOWN:
             accepted = say("table.copy_accepted", name=plan.title)
             yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
@@ -225,18 +230,18 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     workbook = read_workbook(path, is_wanted, is_heading, text_format)
     if is_old(workbook):
         new = path.with_name(f"{path.stem}-new.xlsx")
-        told = say("office.old", old=shlex.quote(str(path)), new=shlex.quote(str(new)))
-        raise SiteDataError([workbook.finding(told)])
-    kept = tuple(one for one in workbook.sheets if is_read(one.name))
-    left = tuple(one.name for one in workbook.sheets if one not in kept)
+        rule = say("office.old", old=shlex.quote(str(path)), new=shlex.quote(str(new)))
+        raise SiteDataError([workbook.finding(rule)])
+    kept = tuple(sheet for sheet in workbook.sheets if is_read(sheet.name))
+    left = tuple(sheet.name for sheet in workbook.sheets if sheet not in kept)
     return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
     rule = say("table.not_read")
-    told = {finding.sheet for finding in findings}
+    reported = {finding.sheet for finding in findings}
     return [
         note_file(workbook.file, rule, name)
         for name in workbook.unread
-        if name not in QUIET_SHEETS and name not in told
+        if name not in QUIET_SHEETS and name not in reported
     ]

@@ -47,7 +47,7 @@ class Reading:
         What it is.
     state : str
         ``given``, ``blank`` (nothing typed), ``default`` (assumed) or ``faulty`` (a
-        finding tells why).
+        finding says why).
     value : float, str or None
         As understood, in the field's first unit; None where there is none.
     text : str
@@ -173,17 +173,21 @@ def _read_range(
     findings: list[Finding],
 ) -> Reading:
     """Read a cell that holds a range; its value is the more severe end."""
-    told: list[Finding] = []
+    faults: list[Finding] = []
     single = replace(field, may_range=False)
     low, high = (
-        read_cell(replace(cell, value=f"{end} {ends[2]}".rstrip()), single, unit, told)
+        read_cell(
+            replace(cell, value=f"{end} {ends[2]}".rstrip()), single, unit, faults
+        )
         for end in ends[:2]
     )
-    if not told and low.number > high.number:
+    if not faults and low.number > high.number:
         rule = say("range.below_low", place=cell.place)
-        told.append(cell.finding(rule, say("range.low_to_high"), field.title_in(unit)))
-    findings.extend(replace(one, text=cell.text) for one in told)
-    if told:
+        faults.append(
+            cell.finding(rule, say("range.low_to_high"), field.title_in(unit))
+        )
+    findings.extend(replace(fault, text=cell.text) for fault in faults)
+    if faults:
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     severe = low if field.key in _SEVERE_IS_LOW else high
     span = None if low.number == high.number else (low.number, high.number)
@@ -195,7 +199,7 @@ def explain_unit(unit: str, field: Field) -> Refusal:
     rule = say("heading.unknown_unit") if unit else say("heading.no_unit")
     if unit in UNCLEAR_UNITS:
         rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
-    units = tuple(f"[{one}]" for one in field.units)
+    units = tuple(f"[{name}]" for name in field.units)
     return Refusal(rule, say("accepted.units", units=units))
 
 
@@ -246,7 +250,7 @@ def refuse(
 
 
 def refuse_beside(reading: Reading, other: Reading, findings: list[Finding]) -> None:
-    """Refuse a reading beside another one that says the same, or the contrary."""
+    """Refuse a reading beside another that says the same, or the contrary."""
     rule = say("cell.beside", name=other.field.name, place=other.place)
     refuse(reading, rule, say("accepted.one_of_two"), findings)
 
@@ -298,9 +302,9 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | str | Refusal:
     if field.phrase and isinstance(cell.value, str):
-        said = re.fullmatch(field.phrase, cell.value.strip())
-        if said:
-            return said[said.lastgroup or 0]
+        match = re.fullmatch(field.phrase, cell.value.strip())
+        if match:
+            return match[match.lastgroup or 0]
     grade = read_grade(cell.value) if field.is_grade else None
     number = _take_number(cell, unit) if grade is None else grade
     if isinstance(number, Refusal):

@@ -48,7 +48,7 @@ def build_layers(
     """
     layers = []
     for line in lines:
-        if any(one.state == "faulty" for one in line.values()):
+        if any(reading.state == "faulty" for reading in line.values()):
             continue
         density, temperature = line["density"], line["temperature"]
         thickness = measure_normal(line["thickness"], slope_angle)
@@ -72,7 +72,7 @@ def build_layers(
 
 def resolve_thickness(
     layers: tuple[Layer, ...],
-    given: Reading,
+    typed: Reading,
     slope_angle: Reading,
     findings: list[Finding],
 ) -> float | None:
@@ -82,7 +82,7 @@ def resolve_thickness(
     ----------
     layers : tuple of Layer
         Of the net row.
-    given : Reading
+    typed : Reading
         Thickness or vertical height in sheet Rows.
     slope_angle : Reading
         Of the net row.
@@ -90,11 +90,11 @@ def resolve_thickness(
         Appended to.
     """
     total = sum(layer.thickness for layer in layers)
-    is_vertical = given.field.key == "snow_height"
+    is_vertical = typed.field.key == "snow_height"
     factor = math.cos(slope_angle.si) if is_vertical else 1.0
-    if abs(total - given.si * factor) > _SUM_TOLERANCE:
+    if abs(total - typed.si * factor) > _SUM_TOLERANCE:
         rule = say("layer.other_sum", sum=total / factor)
-        refuse(given, rule, say("layer.sum_or_empty"), findings)
+        refuse(typed, rule, say("layer.sum_or_empty"), findings)
         return None
     return total
 
@@ -149,13 +149,13 @@ def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
     return tuple(echoes)
 
 
-def measure_normal(given: Reading, slope_angle: Reading) -> float | None:
+def measure_normal(typed: Reading, slope_angle: Reading) -> float | None:
     """Thickness normal to the slope [m], of itself or of a vertical height."""
-    if given.field.key not in ("height", "snow_height"):
-        return given.si
+    if typed.field.key not in ("height", "snow_height"):
+        return typed.si
     if slope_angle.state == "faulty":
         return None
-    return given.si * math.cos(slope_angle.si)
+    return typed.si * math.cos(slope_angle.si)
 
 
 def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:

@@ -40,7 +40,7 @@ from netdesign.words.names import name_check, name_member
 
 _ROPES = ("ridge_rope", "lower_rope")
 # Columns that name a type of a support.
-TYPES = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
+TYPES = tuple(dict.fromkeys(NAMED_BY.get(member, member) for member, _ in MEMBER_MODES))
 
 
 def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
@@ -63,7 +63,7 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
 
 
 def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
-    """Types of the border ropes of a row whose stiffness nobody gives."""
+    """Types of the border ropes of a row whose stiffness is not given."""
     named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
     lacking = (x for x in named if ropes[x]["axial_stiffness"].state != "given")
     return tuple(lacking)
@@ -72,47 +72,51 @@ def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
 def list_stiffnesses(at_end: Row, types: Types) -> tuple[tuple[float, ...], ...]:
     """Stiffnesses EA that uphill guy, downhill guy, end guy and post may have [N].
 
-    Ropes of which nobody gives it are of one construction: their EA is the same
-    multiple of their breaking force, or equal where none has a type. One without a
-    type beside others is either end of all that is built.
+    Ropes without a stiffness are of one construction: their EA is the same multiple of
+    their breaking force, or equal where none has a type. A rope without a type beside
+    others has either end of all that is built.
     """
     guys = (Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY)
-    lines = [types["ropes"].get(at_end[one].word) for one in guys]
+    lines = [types["ropes"].get(at_end[guy].word) for guy in guys]
     alike = [_list_alike(lines, of) for of in _list_multiples(lines)]
-    ropes = dict.fromkeys(chain.from_iterable(product(*one) for one in alike))
+    ropes = dict.fromkeys(chain.from_iterable(product(*spans) for spans in alike))
     post = _find_post_stiffness(types["posts"].get(at_end[Member.POST].word))
-    return tuple((*ways, one) for ways in ropes for one in dict.fromkeys(post))
+    return tuple(
+        (*of_ropes, of_post) for of_ropes in ropes for of_post in dict.fromkeys(post)
+    )
 
 
 def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
-    """EA over the breaking force: of the ropes that have both, else of all that are."""
-    found = [
+    """EA over the breaking force: of the ropes that have both, else of all ropes."""
+    multiples = [
         line["axial_stiffness"].si / force
         for line in lines
         if line
         and line["axial_stiffness"].state == "given"
         and (force := find_breaking(line))
     ]
-    return found or OF_BREAKING
+    return multiples or OF_BREAKING
 
 
 def _list_alike(lines: Sequence[Row | None], multiple: float) -> list[Sequence[float]]:
     """EA that each rope may have in one construction [N]: uphill, downhill, end guy."""
-    found: list[float | None] = []
+    stiffnesses: list[float | None] = []
     for line in lines:
         force = find_breaking(line) if line else None
         typed = line["axial_stiffness"].given_si if line else None
-        found.append(typed or (multiple * force if force else None))
-    if all(one is None for one in found):
-        return [(math.sqrt(math.prod(STIFFNESSES)),)] * len(found)
-    return [STIFFNESSES if one is None else (one,) for one in found]
+        stiffnesses.append(typed or (multiple * force if force else None))
+    if all(stiffness is None for stiffness in stiffnesses):
+        return [(math.sqrt(math.prod(STIFFNESSES)),)] * len(stiffnesses)
+    return [
+        STIFFNESSES if stiffness is None else (stiffness,) for stiffness in stiffnesses
+    ]
 
 
 _POST_AREAS = (5e-4, 2e-2)  # that are built [m2]
 
 
 def _find_post_stiffness(line: Row | None) -> Ends:
-    """Least and largest EA of a post's type [N]; without an area that of all."""
+    """Least and largest EA of a post's type [N]; without an area that of all posts."""
     area = line["area"].given_si if line else None
     low, high = _POST_AREAS if area is None else (area, area)
     modulus = 1e6 * load_catalogue()["buckling"]["E_MPa"]
@@ -120,14 +124,14 @@ def _find_post_stiffness(line: Row | None) -> Ends:
 
 
 def _find_stiffness(line: Row | None) -> Ends:
-    """Least and largest EA of a rope's type [N]; of no type that of all."""
+    """Least and largest EA of a rope's type [N]; without a type that of all ropes."""
     if line is None:
         return find_stiffness(None, None)
     return find_stiffness(line["axial_stiffness"].given_si, find_breaking(line))
 
 
 def has_same_types(at_end: Row, row: Row) -> bool:
-    """Sameness of every type at the row's end and inside."""
+    """Whether every type at the row's end is the same as inside."""
     return all(at_end[key].word == row[key].word for key in TYPES)
 
 
@@ -136,11 +140,11 @@ def list_missing(
 ) -> tuple[Message, ...]:
     """Names of what a verdict on a net row lacks, each once.
 
-    Of a member without a type it is the member, else the check whose resistance is not
-    given; chains whose links are not given.
+    A member without a type is named itself, else the check whose resistance is not
+    given, and each chain whose links are not given.
 
-    What an approval proves is not asked for, and of a structure of which nothing is
-    given that alone.
+    What an approval proves is not asked for. Where nothing of the structure is given,
+    only that is said.
 
     Parameters
     ----------
@@ -150,10 +154,10 @@ def list_missing(
         Chains of links, by type.
     """
     lacking = [
-        name_member(one.member)
-        if not one.type_id and one.mode != "mesh"
-        else name_check(one.member, one.mode)
-        for one in find_lacking(row)
+        name_member(resistance.member)
+        if not resistance.type_id and resistance.mode != "mesh"
+        else name_check(resistance.member, resistance.mode)
+        for resistance in find_lacking(row)
     ]
     if _is_structure_asked(row):
         lacking += _list_chains(row, links)
@@ -163,12 +167,13 @@ def list_missing(
 
 
 def find_lacking(row: NetRow) -> tuple[Resistance, ...]:
-    """Resistances of a net row that nobody gives, and that no approval proves."""
+    """Resistances of a net row that are not given, and that no approval proves."""
     is_structure_asked = _is_structure_asked(row)
     return tuple(
-        one
-        for one in _list_resistances(row)
-        if (one.member in _ANCHORS or is_structure_asked) and _is_lacking(one)
+        resistance
+        for resistance in _list_resistances(row)
+        if (resistance.member in _ANCHORS or is_structure_asked)
+        and _is_lacking(resistance)
     )
 
 
@@ -184,33 +189,41 @@ def _list_resistances(row: NetRow) -> tuple[Resistance, ...]:
 
 
 def _is_structure_asked(row: NetRow) -> bool:
-    """Something of the structure is given, and no approval."""
+    """Something of the structure is given, and no approval proves it."""
     if row.approval is not None and row.approval.document:
         return False
     parts = (x for x in _list_resistances(row) if x.member not in _ANCHORS)
     return any(x.basis if x.mode == "mesh" else x.type_id for x in parts)
 
 
-def _is_lacking(one: Resistance) -> bool:
-    if one.mode == "mesh":
-        return not one.basis
-    if (one.member, one.mode) == LIFTED_MODE:
+def _is_lacking(resistance: Resistance) -> bool:
+    if resistance.mode == "mesh":
+        return not resistance.basis
+    if (resistance.member, resistance.mode) == LIFTED_MODE:
         return False  # asked for once some case lifts a post
-    if one.mode == "direction" and not one.type_id:
+    if resistance.mode == "direction" and not resistance.type_id:
         return False  # asked for once a type is named
-    if isinstance(one.dimensions, AnchorType):
-        is_bent = one.mode == "bending" and one.dimensions.kind != "rope anchor"
-        known = one.dimensions.section if is_bent else one.dimensions.kind
-        return one.value is None and not known
-    has_value = one.value is not None or one.tests or one.dimensions
-    return not (one.type_id and has_value)
+    if isinstance(resistance.dimensions, AnchorType):
+        is_bent = (
+            resistance.mode == "bending" and resistance.dimensions.kind != "rope anchor"
+        )
+        needed = (
+            resistance.dimensions.section if is_bent else resistance.dimensions.kind
+        )
+        return resistance.value is None and not needed
+    has_value = (
+        resistance.value is not None or resistance.tests or resistance.dimensions
+    )
+    return not (resistance.type_id and has_value)
 
 
 def _list_chains(
     row: NetRow, links: Mapping[str, tuple[Link, ...]]
 ) -> Iterator[Message]:
-    """Types of ropes and anchors whose links nobody gives."""
-    for one in _list_resistances(row):
-        is_rope = one.mode in ("rope", "tendon") and one.member in CONNECTED
-        if is_rope and one.type_id and one.type_id not in links:
-            yield say("links.of_type", type=one.type_id)
+    """Types of ropes and anchors whose links are not given."""
+    for resistance in _list_resistances(row):
+        is_rope = (
+            resistance.mode in ("rope", "tendon") and resistance.member in CONNECTED
+        )
+        if is_rope and resistance.type_id and resistance.type_id not in links:
+            yield say("links.of_type", type=resistance.type_id)

@@ -196,7 +196,7 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
         value=strength.given_si,
         basis="declared" if strength.state == "given" else "",
     )
-    ropes = tuple(one for one in NET_MODES if one[0] is not NetPart.MESH)
+    ropes = tuple(pair for pair in NET_MODES if pair[0] is not NetPart.MESH)
     return mesh, *_resist_modes(row, ropes, types)
 
 
@@ -215,16 +215,16 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
 
 def _describe_type(kind: Row, mode: str, member: AnyMember) -> Resistance:
     """Resistance of a type in one mode, given or not."""
-    given, is_pulled, is_anchor = kind[mode], mode == "pull_out", "ground" in kind
+    strength, is_pulled, is_anchor = kind[mode], mode == "pull_out", "ground" in kind
     tests = find_tests(kind) if is_pulled else None
-    is_given = given.state == "given"
+    is_given = strength.state == "given"
     # A report counts once sheet Declared names it; other numbers are makers' values.
-    is_computed = is_pulled or given.derivation is not None
+    is_computed = is_pulled or strength.derivation is not None
     basis = ("computed" if is_computed else "declared") if is_given else ""
     is_strut = is_given and mode == "compression" and is_computed
     value, derivation = _find_strength(kind, mode)
     is_rope = mode == "tendon" and may_be_rope(kind)
-    place = (given if is_given or not tests else kind["test_least"]).place
+    place = (strength if is_given or not tests else kind["test_least"]).place
     return Resistance(
         member=member,
         mode=mode,
@@ -246,14 +246,14 @@ def _describe_type(kind: Row, mode: str, member: AnyMember) -> Resistance:
 
 def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
     """Characteristic resistance of a type in one mode [N], and how it follows."""
-    given = kind[mode]
-    if given.state != "given":
+    strength = kind[mode]
+    if strength.state != "given":
         return None, None
     if mode == "rope":
         return reduce_breaking(kind)
     if mode == "tendon" and may_be_rope(kind):
         return reduce_loop(kind)
-    return given.si, given.derivation
+    return strength.si, strength.derivation
 
 
 def _read_wear(kind: Row, mode: str) -> Wear | None:

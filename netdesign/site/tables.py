@@ -88,7 +88,7 @@ def _read_field(
 def read_answered(
     sheet: Sheet, cell: Cell, field: Field, unit: str, findings: list[Finding]
 ) -> Reading:
-    """Read one cell; a word of an office's list as somebody has answered."""
+    """Read one cell; a word of an office's list as it is answered in its map."""
     answers = {normalise(text): word for text, word in sheet.words.items()}
     answer = answers.get(normalise(cell.text), "") if field.kind == "word" else ""
     if not answer or cell.is_blank:
@@ -108,7 +108,7 @@ def read_answered(
 
 
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
-    """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
+    """Refuse a sheet whose name seems misspelt; else the lack of the sheet."""
     near = list_near(workbook, plan)
     wanted = say("finding.in_quotes", text=plan.title)
     if near:
@@ -118,8 +118,8 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     if not plan.required:
         return []
     rule = say("table.lacks_sheet", wanted=wanted)
-    # in each language; what else is read would be a list that nobody reads
-    names = dict.fromkeys(plan.name_in(one) for one in LANGUAGES)
+    # only the name in each language: all that are accepted would be a long list
+    names = dict.fromkeys(plan.name_in(language) for language in LANGUAGES)
     accepted = say("table.name_accepted", names=tuple(names))
     return [workbook.finding(rule, accepted)]
 
@@ -131,8 +131,8 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     for merged in sheet.merged:
         columns = range(merged.min_col, merged.max_col + 1)
         rows = range(merged.min_row, merged.max_row + 1)
-        if any(one in columns for one in read) and any(
-            one in rows for one in table.rows
+        if any(number in columns for number in read) and any(
+            row in rows for row in table.rows
         ):
             cell = sheet.cell(merged.min_row, merged.min_col)
             rule = say("table.merged", range=merged.coord)
@@ -143,10 +143,12 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     rule = say("table.hidden_row")
     findings.extend(cell.finding(rule, severity="note") for cell in first)
     # elsewhere each is asked about, of the net rows that rest on it
-    told = table.rows if table.plan.name in _NOT_ASKED else (table.heading_row,)
-    cells = (cell for row in told for cell in sheet.row(row) if cell.column in read)
+    inspected = table.rows if table.plan.name in _NOT_ASKED else (table.heading_row,)
+    cells = (
+        cell for row in inspected for cell in sheet.row(row) if cell.column in read
+    )
     accepted = say("accepted.undoubted")
-    findings.extend(one.finding(one.doubt, accepted) for one in cells if one.doubt)
+    findings.extend(cell.finding(cell.doubt, accepted) for cell in cells if cell.doubt)
     rule = say("table.hidden_column")
     headings = (sheet.cell(table.heading_row, number) for number in read)
     findings.extend(
@@ -171,13 +173,13 @@ def _refuse_items_above(table: Table) -> Iterator[Finding]:
 
 
 def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:
-    known = {column.number for column in table.columns.values()}
-    known |= {cell.column for cell in table.sheet.row(table.heading_row)}
+    judged = {column.number for column in table.columns.values()}
+    judged |= {cell.column for cell in table.sheet.row(table.heading_row)}
     for row in table.rows:
         for column, cell in table.sheet.rows[row].items():
-            if column in known or cell.is_blank:
+            if column in judged or cell.is_blank:
                 continue
-            known.add(column)
+            judged.add(column)
             cover = table.sheet.find_merged(table.heading_row, column)
             first = (cover.min_row, cover.min_col) if cover else ()
             if cover and first != (table.heading_row, column):
@@ -200,12 +202,12 @@ def match_item(
     field = find_item(name.word, items)
     if field is None:
         likely = find_near(name.word, items) or items
-        accepted = say("item.accepted", names=tuple(one.title for one in likely))
+        accepted = say("item.accepted", names=tuple(item.title for item in likely))
         refuse(name, say("item.unknown"), accepted, findings)
     return field
 
 
-# What makes a single text below a table a note and not the start of another line.
+# Words that mark a single text below a table as a note, not as the start of a line.
 _NOTE_WORD = (
     r"(notes?|nota|nb|n\.b|remarks?|remarques?|sources?|anm|anmerkung|bemerkung|hinweis"
     r"|quelle|osservazion[ei])\b"
@@ -250,7 +252,9 @@ def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
     while filled and _is_note(sheet.row(filled[-1]), width):
         cell = sheet.row(filled.pop())[0]
         findings.append(cell.finding(say("table.note_below"), severity="note"))
-    passed = {row: rule for row in filled if (rule := _find_other(table, row, filled))}
+    passed = {
+        row: rule for row in filled if (rule := _find_skip_rule(table, row, filled))
+    }
     for row, rule in passed.items():
         cell = sheet.row(row)[0]
         findings.append(cell.finding(rule, severity="note"))
@@ -274,7 +278,7 @@ def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
     return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
 
 
-def _find_other(table: Table, row: int, rows: list[int]) -> Message | None:
+def _find_skip_rule(table: Table, row: int, rows: list[int]) -> Message | None:
     """Rule of a line that holds no data; None of a line of the table."""
     cells = table.sheet.row(row)
     if _repeats_headings(table, cells):
@@ -313,9 +317,10 @@ def _is_part(
     if named is None:
         return False
     word = named[0].casefold()  # perhaps that of the ids of this table
-    others = (sheet.row(row) for row in rows)
+    lines = (sheet.row(row) for row in rows)
     return not any(
-        len(one) > 1 and str(one[0].value).casefold().startswith(word) for one in others
+        len(line) > 1 and str(line[0].value).casefold().startswith(word)
+        for line in lines
     )
 
 

@@ -41,7 +41,7 @@ def find_heading_unit(cell: Cell) -> str:
 
 
 def is_unit(cell: Cell, field: Field) -> bool:
-    """A cell holds a unit; a 1 is one only where the field may have none."""
+    """A cell holds a unit; a 1 is a unit only where the field may have none."""
     unit, in_brackets = read_unit(cell)
     is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
     return in_brackets or is_known
@@ -70,10 +70,10 @@ def find_own_unit(cells: list[Cell], field: Field) -> str:
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
     """Fields with a heading so like a text that the text may be that, misspelt."""
-    names = {name: one for one in fields for name in one.names}
+    names = {name: field for field in fields for name in field.names}
     own = split_heading(text)[0]
     close = difflib.get_close_matches(own, names, n=2, cutoff=_MISSPELT)
-    return list({names[one].key: names[one] for one in close}.values())
+    return list({names[name].key: names[name] for name in close}.values())
 
 
 def quote_title(field: Field) -> Message:
@@ -83,28 +83,28 @@ def quote_title(field: Field) -> Message:
 
 def list_meant(workbook: Workbook, plan: SheetPlan) -> list[Sheet]:
     """Sheets of a workbook that are the planned one."""
-    return [one for one in workbook.sheets if plan.matches(one.name)]
+    return [sheet for sheet in workbook.sheets if plan.matches(sheet.name)]
 
 
 def list_near(workbook: Workbook, plan: SheetPlan) -> list[str]:
     """Names of sheets that are not read, near to the planned one's."""
-    known = [normalise(one) for one in plan.raw_names]
+    names = [normalise(name) for name in plan.raw_names]
     return [
         name
         for name in workbook.unread
-        if difflib.get_close_matches(normalise(name), known, n=1, cutoff=_MISSPELT)
+        if difflib.get_close_matches(normalise(name), names, n=1, cutoff=_MISSPELT)
     ]
 
 
 def name_net_type(height: str, values: Hashable, named: dict[Hashable, str]) -> str:
-    """Name of a net type that has none: that of one with the same values, or a new one.
+    """Name of an unnamed net type: that of a type with the same values, or a new one.
 
     Parameters
     ----------
     height : str
         D_K as typed.
     values : hashable
-        All that is said of the net.
+        All that is given of the net.
     named : dict of hashable to str
         Names so far by values; appended to.
 
@@ -114,7 +114,7 @@ def name_net_type(height: str, values: Hashable, named: dict[Hashable, str]) -> 
     """
     if values not in named:
         stem = f"D_K {height}"
-        alike = [one for one in named.values() if f"{one} ".startswith(f"{stem} ")]
+        alike = [name for name in named.values() if f"{name} ".startswith(f"{stem} ")]
         letters = name_column(len(alike) + 1).lower()
         named[values] = f"{stem} {letters}" if alike else stem
     return named[values]

@@ -74,9 +74,9 @@ def place_in_ground(
     placed: list[Row] = []
     for row in rows:
         named = {
-            key: _resolve(one, by_id, row["ground"], findings)
-            for key, one in row.items()
-            if one.field.refers_to == "anchor_types"
+            key: _resolve(reading, by_id, row["ground"], findings)
+            for key, reading in row.items()
+            if reading.field.refers_to == "anchor_types"
         }
         placed.append({**row, **named})
     return placed
@@ -91,8 +91,8 @@ def _resolve(
     """Cell that names a type, alone or with its ground: "A32 (scree)"."""
     whole = _WITH_GROUND.fullmatch(named.word)
     if named.word in by_id or whole is None or whole[1] not in by_id:
-        known = by_id.get(named.word)
-        return _choose(named, known, ground, findings) if known else named
+        of_type = by_id.get(named.word)
+        return _choose(named, of_type, ground, findings) if of_type else named
     bare = replace(named, value=whole[1])
     chosen = _choose(bare, by_id[whole[1]], ground, findings)
     if chosen.state == "faulty" or chosen.word == named.word:
@@ -116,11 +116,15 @@ def _choose(
     (line, *others) = of_type.values()
     if not others and (word in ("", line["ground"].word) or not line["ground"].word):
         return named
-    known = tuple(one["ground"].text for one in of_type.values() if one["ground"].word)
+    grounds = tuple(
+        type_line["ground"].text
+        for type_line in of_type.values()
+        if type_line["ground"].word
+    )
     rule = say("nets.no_ground")
     if word:
         rule = say("nets.other_ground", ground=ground.text)
-    refuse(named, rule, say("nets.grounds", grounds=known), findings)
+    refuse(named, rule, say("nets.grounds", grounds=grounds), findings)
     return replace(named, state="faulty")
 
 
@@ -177,7 +181,7 @@ def count_in_tests(
 def _group_tests(
     lines: Sequence[Row], tests: Sequence[Row]
 ) -> dict[tuple[str, str], list[Row]]:
-    """Tests by their type and ground, that of a type with one ground if it has none."""
+    """Tests by type and ground; without one, in the only ground of the type."""
     grounds: dict[str, list[str]] = {}
     for line in lines:
         grounds.setdefault(line["id"].word, []).append(line["ground"].word)
@@ -241,7 +245,7 @@ def name_values(
     how: Message,
 ) -> dict[str, Reading]:
     """Values that a product gives to columns: the least of each, or the largest."""
-    found: dict[str, Reading] = {}
+    values: dict[str, Reading] = {}
     for key in keys:
         field = row[key].field
         spans = [product.values[x] for x in field.of_product if x in product.values]
@@ -250,8 +254,8 @@ def name_values(
         ends = [end for span in spans for end in span]
         value = max(ends) if key in largest else min(ends)
         named = replace(row[key], state="given", value=from_si(value, field.unit))
-        found[key] = replace(named, derivation=how, cell=row["id"].cell)
-    return found
+        values[key] = replace(named, derivation=how, cell=row["id"].cell)
+    return values
 
 
 def find_section(row: Row) -> Product | None:
@@ -292,15 +296,15 @@ def read_links(
     ids = [name for table in _LINKED for name in types[table]]
     chains: dict[str, tuple[Link, ...]] = {}
     for line in lines:
-        kinds = [one for one in ids if line["type"].word in (one, name_bare(one))]
+        kinds = [name for name in ids if line["type"].word in (name, name_bare(name))]
         if _is_sound(line, kinds, findings):
             link = _read_link(line)
-            chains |= {one: (*chains.get(one, ()), link) for one in kinds}
+            chains |= {name: (*chains.get(name, ()), link) for name in kinds}
     return chains
 
 
 def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
-    """A line without a fault; others are told."""
+    """A line has no fault; a fault is a finding."""
     if any(reading.state == "faulty" for reading in line.values()):
         return False
     if not kinds:
@@ -316,7 +320,7 @@ def _is_sound(line: Row, kinds: Sequence[str], findings: list[Finding]) -> bool:
 
 
 def _read_link(line: Row) -> Link:
-    """Link of a line; a force of which nobody says what it is is a strength."""
+    """Link of a line; a force of which the meaning is not given is a strength."""
     force, is_limit = line["force"], line["meaning"].word == "limit"
     return Link(
         kind=line["link"].word,

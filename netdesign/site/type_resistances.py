@@ -51,7 +51,7 @@ def compute_tendon(line: Row, findings: list[Finding]) -> Row:
     """
     steel = (line["bar_diameter"], line["bar_strength"])
     is_open = line["tendon"].state != "blank" or lacks_inner(line)
-    if is_open or any(one.state != "given" for one in steel):
+    if is_open or any(reading.state != "given" for reading in steel):
         return line
     return _compute("tendon", _bar, line, steel[0], findings)
 
@@ -131,11 +131,13 @@ def _refuse_incomplete(
     row: Row, keys: tuple[str, ...], findings: list[Finding]
 ) -> None:
     """Refuse some columns without the others."""
-    given = [row[key] for key in keys if row[key].state == "given"]
+    typed = [row[key] for key in keys if row[key].state == "given"]
     lacking = [row[key] for key in keys if row[key].state == "blank"]
-    if given and lacking and len(given) + len(lacking) == len(keys):
-        rule = say("type.needs_more", names=tuple(one.field.name for one in lacking))
-        refuse(given[0], rule, say("type.all_or_none"), findings)
+    if typed and lacking and len(typed) + len(lacking) == len(keys):
+        rule = say(
+            "type.needs_more", names=tuple(reading.field.name for reading in lacking)
+        )
+        refuse(typed[0], rule, say("type.all_or_none"), findings)
 
 
 def check_ends(row: Row, findings: list[Finding]) -> None:
@@ -153,7 +155,7 @@ def find_bond(row: Row, pull_out: float) -> float | None:
     None without the dimensions of the bond.
     """
     parts = (row["drill_diameter"], row["bond_length"])
-    if any(one.state != "given" for one in parts):
+    if any(reading.state != "given" for reading in parts):
         return None
     surface = math.pi * parts[0].si * parts[1].si
     return pull_out / surface / 1e3
@@ -253,17 +255,17 @@ def find_breaking(row: Row) -> float | None:
 
 
 def _buckling(row: Row) -> tuple[float, Message]:
-    curve, found = name_curve(row), compute_buckling(row)
+    curve, buckling = name_curve(row), compute_buckling(row)
     imperfection = find_imperfection(curve)
-    return found.value, say(
+    return buckling.value, say(
         "derivation.buckling",
-        reduction=found.reduction,
+        reduction=buckling.reduction,
         area=row["area"].number,
         strength=row["yield_strength"].number,
-        slenderness=found.slenderness,
+        slenderness=buckling.slenderness,
         curve=curve,
         imperfection=imperfection.value,
-        critical=kilonewton_from_newton(found.critical),
+        critical=kilonewton_from_newton(buckling.critical),
         modulus=load_catalogue()["buckling"]["E_MPa"],
         second_moment=row["second_moment"].number,
         length=row["buckling_length"].number,

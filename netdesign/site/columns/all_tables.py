@@ -67,7 +67,7 @@ def build_field(table: str, key: str, entry: Data) -> Field:
     entry : mapping
         Its keys, as the file says.
     """
-    values = {one: _READ.get(one, _freeze)(value) for one, value in entry.items()}
+    values = {name: _READ.get(name, _freeze)(value) for name, value in entry.items()}
     return Field(
         key=key,
         table=table,
@@ -96,26 +96,31 @@ def list_names(name: str, table: str = "", key: str = "") -> dict[str, tuple[str
     """Headings of a field, or names of a sheet, by language: that of the key first."""
     names: dict[str, tuple[str, ...]] = {}
     for language in READ_LANGUAGES:
-        own = (render(say(name), one) for one in LANGUAGES if one == language)
+        own = (render(say(name), spoken) for spoken in LANGUAGES if spoken == language)
         names[language] = (*own, *_load_headings(language).get(table, {}).get(key, ()))
     return names
 
 
 def _list_spellings(key: str, words: Iterable[str]) -> dict[str, str]:
     """Word of a field by each of its spellings."""
-    found = {word: word for word in words}
+    spellings = {word: word for word in words}
     for word in words:
-        found |= {render(name_word(key, word), one): word for one in LANGUAGES}
+        spellings |= {
+            render(name_word(key, word), language): word for language in LANGUAGES
+        }
     for language in READ_LANGUAGES:
         for word, names in _load_headings(language)["words"].get(key, {}).items():
-            found |= dict.fromkeys(names, word)
-    return found
+            spellings |= dict.fromkeys(names, word)
+    return spellings
 
 
 def list_unclear(sheet: str) -> frozenset[str]:
     """Headings, normalised, that may mean several columns of a sheet."""
-    every = (_load_headings(one)["unclear"].get(sheet, {}) for one in READ_LANGUAGES)
-    lists = (names for one in every for names in one.values())
+    by_language = (
+        _load_headings(language)["unclear"].get(sheet, {})
+        for language in READ_LANGUAGES
+    )
+    lists = (names for headings in by_language for names in headings.values())
     return frozenset(normalise(name) for names in lists for name in names)
 
 
@@ -132,7 +137,7 @@ FURTHER = (MONITORING, WINTER, UNCERTAINTY)  # sheets of add-ons
 
 def find_quantity(sheet: str, key: str) -> Field:
     """What a number is that stands in no cell, or has another column."""
-    return next(one for one in _PLANS[sheet].fields if one.key == key)
+    return next(field for field in _PLANS[sheet].fields if field.key == key)
 
 
 def load_old_plans() -> Mapping[str, SheetPlan]:

@@ -44,13 +44,15 @@ _UNITS = tomllib.loads(
     files(__package__).joinpath("units.toml").read_text(encoding="utf-8")
 )
 _SPELLINGS: Mapping[str, str] = {
-    one: unit for unit, them in _UNITS["spellings"].items() for one in them
+    spelling: unit
+    for unit, spellings in _UNITS["spellings"].items()
+    for spelling in spellings
 }
 _ABOVE_SEA = tuple(_UNITS["above_sea"]["m"])
 _FACTORS: Mapping[tuple[str, str], float] = {
     (unit, first): factor
-    for unit, others in _UNITS["factors"].items()
-    for first, factor in others.items()
+    for unit, factors in _UNITS["factors"].items()
+    for first, factor in factors.items()
 }
 _CONVERSIONS: dict[tuple[str, str], Callable[[float], float]] = {
     ("rad", "deg"): degree_from_radian,
@@ -296,12 +298,12 @@ class SheetPlan:
         if len(heading.strip()) > LONGEST_HEADING:
             return None
         whole, (own, bracket) = normalise(heading), split_heading(heading)
-        for one in self.fields:
-            if whole in one.names:
-                return one
-            is_unit = not bracket or bracket in KNOWN_UNITS or bool(one.units)
-            if own in one.names and is_unit:
-                return one
+        for column in self.fields:
+            if whole in column.names:
+                return column
+            is_unit = not bracket or bracket in KNOWN_UNITS or bool(column.units)
+            if own in column.names and is_unit:
+                return column
         return None
 
     @property
@@ -344,7 +346,7 @@ def _list_lossy(name: str) -> Sequence[str]:
         normalise(text.encode("cp1252", "ignore").decode("cp1252"))
         for text in (name, name.translate(_FITTED))
     )
-    return tuple(one for one in kept if len(one) >= _LEAST_LOSSY)
+    return tuple(folded for folded in kept if len(folded) >= _LEAST_LOSSY)
 
 
 def split_heading(text: str) -> tuple[str, str]:

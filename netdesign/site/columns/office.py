@@ -89,14 +89,16 @@ def _read_column(table: str, key: str, of: str) -> Column:
     place, _, name = stands_for.rpartition(".")
     like = load_file("columns").get(place, {}).get(name, {})
     shown = {"like", "unit", *_PLAIN, *_TEXTS}
-    entry = like | {one: own[one] for one in own if one not in shown}
+    entry = like | {
+        attribute: own[attribute] for attribute in own if attribute not in shown
+    }
     field = build_field(table, key, entry | {"required": own.get("need") == "yes"})
     return Column(
         field=field,
         like=stands_for,
         unit=own.get("unit", field.unit),
-        texts={one: own.get(one, {}) for one in _TEXTS},
-        **{one: own[one] for one in _PLAIN if one in own},
+        texts={text: own.get(text, {}) for text in _TEXTS},
+        **{attribute: own[attribute] for attribute in _PLAIN if attribute in own},
     )
 
 
@@ -104,7 +106,7 @@ def _read_column(table: str, key: str, of: str) -> Column:
 def load_plan(table: str) -> SheetPlan:
     """Plan of a sheet, or of a block of sheet Parts."""
     sheet = load_file("office")["sheets"][table].get("sheet", table)
-    fields = tuple(one.field for one in load_columns(table))
+    fields = tuple(column.field for column in load_columns(table))
     names = list_names(f"sheet.{sheet}")
     if table == "project":
         heads = tuple(
@@ -148,7 +150,9 @@ def load_text(key: str, language: Language, area: str = "text") -> str:
 def list_texts(*keys: str) -> frozenset[str]:
     """Texts in all languages, normalised."""
     texts: Data = load_file("office")["text"]
-    return frozenset(normalise(texts[key][one]) for key in keys for one in LANGUAGES)
+    return frozenset(
+        normalise(texts[key][language]) for key in keys for language in LANGUAGES
+    )
 
 
 # Units in which an office's own list may have what is shown in metres.
@@ -158,14 +162,14 @@ _UNITS_BESIDE = {"m": ("m", "cm", "mm")}
 @cache
 def list_choices() -> Mapping[str, tuple[str, str]]:
     """Unit and measure by the normalised text of a unit cell: "m vertical"."""
-    found: dict[str, tuple[str, str]] = {}
+    choices: dict[str, tuple[str, str]] = {}
     for choice, language in product(load_file("office")["choices"], LANGUAGES):
         for measure in list_measures(choice):
             text = name_measure(choice, measure, language)
             first, _, word = text.partition(" ")
             for unit in _UNITS_BESIDE.get(first, (first,)):
-                found[normalise(f"{unit} {word}")] = (unit, measure)
-    return found
+                choices[normalise(f"{unit} {word}")] = (unit, measure)
+    return choices
 
 
 def name_measure(choice: str, measure: str, language: Language) -> str:
@@ -174,6 +178,6 @@ def name_measure(choice: str, measure: str, language: Language) -> str:
 
 
 def list_measures(choice: str) -> Sequence[str]:
-    """Measures of one thing, of which a unit cell says one."""
+    """Measures of one quantity, from which a unit cell chooses."""
     measures: Sequence[str] = load_file("office")["choices"][choice]
     return measures
