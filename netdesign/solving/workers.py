@@ -449,4 +449,8 @@ def _stop(pool: ProcessPoolExecutor) -> None:
     # The pool has no public way to stop a running call before Python 3.14.
     for process in list((getattr(pool, "_processes", None) or {}).values()):
         process.terminate()
+    # A process that dies amid an answer leaves half of it: the pool waits for the rest
+    # while anybody may write.
+    if (answers := getattr(pool, "_result_queue", None)) is not None:
+        answers._writer.close()
     pool.shutdown(wait=True, cancel_futures=True)

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import closing
 from pathlib import Path
@@ -170,6 +171,31 @@ def test_an_interrupt_leaves_no_process_behind():
     arriving.close()
     pool.close()
     assert multiprocessing.active_children() == []
+
+
+class Slow:
+    """An answer that takes two seconds to be read."""
+
+    def __reduce__(self):
+        return time.sleep, (2.0,)
+
+
+def answer(work):
+    if work == "slow":
+        return Slow()
+    time.sleep(0.3)
+    return b"x" * 5_000_000  # more than the pipe holds
+
+
+def test_a_process_that_is_stopped_amid_an_answer_is_not_waited_for():
+    """Half of an answer stays in the pipe; the pool would wait for its rest."""
+    pool = ProcessPool(2, worth=1)
+    _ = [pool.begin(answer, work) for work in ("slow", "long")]
+    time.sleep(1.3)
+    stopping = threading.Thread(target=pool.close, daemon=True)
+    stopping.start()
+    stopping.join(30.0)
+    assert not stopping.is_alive()
 
 
 PARENT = """
