@@ -208,9 +208,15 @@ def test_what_is_no_number_gives_no_forces(bad):
         assert failed.outcome is Outcome.NONFINITE
 
 
-@each("pull", [(0.0, -1.7e308), (1.7e308, -1.7e308)])
-def test_forces_too_large_for_a_number_are_refused(pull):
-    with pytest.raises(ModelError, match="must lie between 0 and inf"):
+@each(
+    "pull, force",
+    [
+        ((0.0, -1.7e308), "post compression = inf"),
+        ((1.7e308, -1.7e308), "uphill guy tension = nan"),
+    ],
+)
+def test_forces_too_large_for_a_number_are_refused(pull, force):
+    with pytest.raises(ModelError, match=f"^{force}: must lie between 0 and inf"):
         compute_head_forces(pull, some_points(head=(1.0, 1.0), post_base=(0.0, 0.0)))
 
 

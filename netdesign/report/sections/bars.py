@@ -53,7 +53,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
 
 def _show_used(used: float, at_best: float | None, words: Words) -> str:
     """Utilisation; one far beyond 1 by what is assumed with that at the best ends."""
-    if at_best is None or not _HAS_ROOM <= used < math.inf:
+    if not at_best or not _HAS_ROOM <= used < math.inf:
         return words.show_number("utilisation", used)
     return f"{words.show_number('utilisation', at_best)}–{words.show_fixed(used, 0)}"
 
