@@ -1,1 +1,1 @@
-"""Cells of spreadsheets of any format, and what is found wrong in them."""
+"""Cells of spreadsheets of any format, and findings about them."""

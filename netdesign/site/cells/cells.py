@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextFormat:
-    """Declared form of a file's text; what is empty is found out or judged by cell.
+    """Declared form of a file's text; empty entries are found in the file or by cell.
 
     Attributes
     ----------
@@ -87,12 +87,12 @@ class Cell:
 
     @property
     def is_blank(self) -> bool:
-        """Nothing but spaces was typed."""
+        """Whether the cell is empty, or holds nothing but spaces."""
         return not self.text.strip()
 
     @property
     def own_unit(self) -> str:
-        """Unit that it shows itself: typed behind its number or set by its format."""
+        """Unit that the cell shows: typed behind its number, or set by its format."""
         if isinstance(self.value, str):
             return split_unit(self.value)[1]
         return "%" if self.is_percent else self.shown_unit
@@ -151,7 +151,7 @@ class Sheet:
     def find_merged(self, row: int, column: int) -> CellRange | None:
         """Merged range that a cell belongs to, if there is one."""
         place = f"{name_column(column)}{row}"
-        return next((one for one in self.merged if place in one), None)
+        return next((cells for cells in self.merged if place in cells), None)
 
     def finding(
         self,
@@ -178,9 +178,9 @@ class Workbook:
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...] = ()
     sha256: str = ""
-    hidden: frozenset[str] = frozenset()  # those of the unread that nobody sees
+    hidden: frozenset[str] = frozenset()  # unread sheets that are hidden
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
-    is_by_hand: bool = False  # formulas are calculated only where somebody asks for it
+    is_by_hand: bool = False  # formulas are calculated only on request
 
     def finding(
         self, rule: Message, accepted: Message | str = "", sheet: str = ""
@@ -190,7 +190,7 @@ class Workbook:
 
 
 def doubt_results(workbook: Workbook) -> Workbook:
-    """Workbook whose formulas are in doubt where their stored results may be old.
+    """Mark the formulas of a workbook whose stored results may be old.
 
     A result is held against what the formula gives, by the results that are stored of
     the cells it names. Where that cannot be found, a workbook that is calculated by
@@ -265,7 +265,7 @@ def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:
     return rows
 
 
-# A site workbook has tens of kilobytes; whatever is far larger is not one.
+# A site workbook has tens of kilobytes; a far larger file is none.
 MAX_FILE_BYTES = 8 * 2**20
 MAX_TEXT_BYTES = 4 * 2**20  # of all csv files that are read together
 MAX_EXPANDED_BYTES = 32 * 2**20
@@ -342,8 +342,8 @@ def _forbid_entities(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
 
     from defusedxml.ElementTree import iterparse
 
-    # what is no XML at all is told by whoever reads the part; nothing can be declared
-    # behind the first element
+    # the reader of the part reports what is no XML; nothing can be declared behind
+    # the first element
     with archive.open(entry) as part, suppress(ParseError):
         next(iterparse(part, events=("start",)), None)
 

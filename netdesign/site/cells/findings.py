@@ -23,7 +23,7 @@ _MOST = 12  # alike, named after the first
 
 
 class Refusal(NamedTuple):
-    """Reason against a value, before its place is known.
+    """Reason against a value, without its place.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Finding:
 
     @property
     def is_asked(self) -> bool:
-        """The workbook may be a list, which answers in a file beside it can settle."""
+        """Whether the workbook may be a list, which needs a file of answers."""
         return self.rule.key == "table.lacks_sheet"
 
     def __str__(self) -> str:
@@ -99,12 +99,12 @@ class Finding:
 def fold_findings(
     findings: Sequence[Finding], site_file: str = ""
 ) -> tuple[Message, ...]:
-    """Lines of what is wrong, faults first; what is wrong alike is told once.
+    """Lines about findings, faults first; alike findings share a line.
 
-    Alike are findings of one rule: in one column, or in one sheet if they are remarks.
+    Faults are alike by rule and column, remarks by rule and sheet.
     """
     alike: dict[tuple[object, ...], list[Finding]] = {}
-    for finding in sorted(findings, key=lambda one: one.severity != "error"):
+    for finding in sorted(findings, key=lambda finding: finding.severity != "error"):
         column = finding.cell.rstrip("0123456789")
         is_fault = finding.severity == "error"
         place = (column, str(finding.field)) if is_fault else ()
@@ -113,8 +113,10 @@ def fold_findings(
         group = alike.setdefault(key, [])
         if finding not in group:  # a cell that two columns are read from
             group.append(finding)
-    asked = [one for one in findings if one.is_asked]
-    offers = [say("finding.ask_map", file=site_file or one.file) for one in asked[:1]]
+    asked = [finding for finding in findings if finding.is_asked]
+    offers = [
+        say("finding.ask_map", file=site_file or finding.file) for finding in asked[:1]
+    ]
     lines = [_describe_alike(group) for group in alike.values()]
     count = sum(group[0].severity == "error" for group in alike.values())
     faults, notes = lines[:count], lines[count:]
@@ -127,15 +129,17 @@ def _describe_alike(findings: list[Finding]) -> Message:
     if not others:
         return first.message
     shown = [
-        " ".join(filter(None, (one.cell, quote(one.text) if one.text else "")))
-        or one.sheet
-        for one in others
+        " ".join(
+            filter(None, (finding.cell, quote(finding.text) if finding.text else ""))
+        )
+        or finding.sheet
+        for finding in others
     ]
     return say("finding.likewise", line=first.message, others=shorten(shown, _MOST))
 
 
 def shorten(texts: Sequence[str], most: int) -> tuple[Message | str, ...]:
-    """The first of some texts, and how many more there are."""
+    """First ``most`` of some texts, and the number of the others."""
     more = len(texts) - most
     return (*texts[:most], *([say("finding.more", count=more)] if more > 0 else []))
 
@@ -143,13 +147,13 @@ def shorten(texts: Sequence[str], most: int) -> tuple[Message | str, ...]:
 def refuse_file(
     file: str, rule: Message, accepted: Message, sheet: str = ""
 ) -> SiteDataError:
-    """Error for a file, or one sheet of it, that cannot be read as a whole."""
+    """Error for a file, or a sheet of it, that cannot be read as a whole."""
     finding = Finding(file=file, sheet=sheet, rule=rule, accepted=accepted)
     return SiteDataError([finding])
 
 
 def note_file(file: str, rule: Message, sheet: str = "") -> Finding:
-    """Remark on a file, or one sheet of it, that is read all the same."""
+    """Remark on a file, or a sheet of it, that is read all the same."""
     return Finding(file=file, sheet=sheet, rule=rule, severity="note")
 
 

@@ -1,4 +1,4 @@
-"""Numbers from cells: strict, so that no value is ever guessed."""
+"""Reads numbers from cells strictly, so that no value is ever guessed."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class _Reading:
 
 
 def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refusal:
-    """Take the number of a cell, or say why there is none.
+    """Read the number of a cell, or give the reason why there is none.
 
     A number cell is taken as it is, however it is displayed. Text is a number
     only with digits, a sign, one decimal mark and complete groups of thousands.
@@ -62,7 +62,7 @@ def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refus
         What the cell holds: number, text, truth value or date.
     decimal_mark : str
         Point or comma where it was declared for the whole file; then the other
-        one can only separate thousands.
+        sign can only separate thousands.
 
     Returns
     -------
@@ -87,10 +87,14 @@ def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refus
 
 def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
     possible = _list_readings(text)
-    readings = [one for one in possible if not declared or one.goes_with(declared)]
+    readings = [
+        reading for reading in possible if not declared or reading.goes_with(declared)
+    ]
     if len(readings) > 1:
         return Refusal(
-            say("number.ambiguous", readings=tuple(one.text for one in readings)),
+            say(
+                "number.ambiguous", readings=tuple(reading.text for reading in readings)
+            ),
             say("accepted.other_decimals"),
         )
     if possible and not readings:
@@ -132,12 +136,12 @@ _UNIT_SIGNS = "%°'′″"
 
 
 def show_percent(number_format: str) -> bool:
-    """A format multiplies by 100; a percent sign in quotes does not."""
+    """Whether a format multiplies by 100; a percent sign in quotes does not."""
     return "%" in _keep_signs(number_format)
 
 
 def show_thousands(number_format: str) -> bool:
-    """A format divides by 1000, as a comma behind the digits does."""
+    """Whether a format divides by 1000, as a comma behind the digits does."""
     return bool(_THOUSANDS.search(_keep_signs(number_format)))
 
 
@@ -186,21 +190,21 @@ def _show(piece: re.Match[str]) -> str:
 
 
 def _keep_signs(number_format: str) -> str:
-    """Format without its texts: what is left steers how digits are shown."""
+    """Signs of a format that control how digits are shown, without its texts."""
     return _PIECE.sub(lambda piece: piece["digits"] or " ", number_format)
 
 
 def _choose_section(number_format: str, value: float) -> str:
-    """Section for positive, negative or zero numbers; the first where none is."""
-    found = [one[0] for one in _SECTION.finditer(number_format) if one[0]]
-    sections = [one.removesuffix(";") for one in found] or [""]
+    """Section of a format for a positive, negative or zero number, else its first."""
+    matches = _SECTION.finditer(number_format)
+    sections = [match[0].removesuffix(";") for match in matches if match[0]] or [""]
     place = 0 if value > 0 else 1 if value < 0 else 2
     return sections[place] if place < min(len(sections), 3) else sections[0]
 
 
 _TYPED = r"[+-]?(?:[\d.,'’\s\u00a0\u202f\u2009]*\d)"
 _WITH_UNIT = re.compile(rf"({_TYPED})\s*([^\d\s.,'’+-].*)")
-# Of the ends no sign is read, so that no minus is taken for a dash nor a dash for one.
+# The ends have no sign, so that no dash is taken for a minus, nor a minus for a dash.
 _END = r"\d(?:[\d.,'’\u00a0\u202f\u2009]*\d)?"
 _END_UNIT = r"[^\d\s.,'’+–—÷-][^\d\s]*\d?|"
 _RANGE = re.compile(
@@ -211,25 +215,25 @@ _RANGE = re.compile(
 
 
 def split_unit(text: str) -> tuple[str, str]:
-    """Number and what is typed behind it, both as typed; no unit where there is none.
+    """Split a text into its number and the unit behind it, both as typed.
 
     >>> split_unit("3,0 m"), split_unit("12 500"), split_unit("about 3 m")
     (('3,0', 'm'), ('12 500', ''), ('about 3 m', ''))
     """
-    found = _WITH_UNIT.fullmatch(text.strip())
-    return (found[1].strip(), found[2].strip()) if found else (text, "")
+    match = _WITH_UNIT.fullmatch(text.strip())
+    return (match[1].strip(), match[2].strip()) if match else (text, "")
 
 
 def split_range(text: str) -> tuple[str, str, str] | None:
-    """Low end, high end and unit of a range in one cell; None where it is none.
+    """Low end, high end and unit of a range in a cell; None without a range.
 
     >>> split_range("250-450"), split_range("20° à 35°"), split_range("-5-10")
     (('250', '450', ''), ('20', '35', '°'), None)
     """
-    found = _RANGE.fullmatch(text.strip())
-    if found is None:
+    match = _RANGE.fullmatch(text.strip())
+    if match is None:
         return None
-    low, low_unit, high, high_unit = (one.strip() for one in found.groups())
+    low, low_unit, high, high_unit = (part.strip() for part in match.groups())
     if low_unit and low_unit != high_unit:
         return None
     return low, high, high_unit
@@ -243,7 +247,7 @@ _LEAST_GRADE = 200.0  # [MPa]; "St 37" is of another kind
 
 
 def read_grade(value: object) -> float | None:
-    """Yield strength that a steel grade names [MPa]; None of any other text.
+    """Yield strength that a steel grade names [MPa]; None for any other text.
 
     >>> read_grade("S 355 J2"), read_grade("500/550"), read_grade("GEWI")
     (355.0, 500.0, None)
@@ -311,13 +315,13 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
 
 
 def _round_half_up(number: float, digits: float) -> float:
-    """As a spreadsheet rounds: a half away from zero."""
+    """Round as a spreadsheet does: a half goes away from zero."""
     scale = 10.0 ** int(digits)
     return math.copysign(math.floor(abs(number) * scale + 0.5 + 1e-9), number) / scale
 
 
 def compute_formula(formula: str, find: Callable[[str, str], object]) -> float | None:
-    """Number that a formula gives; None where that is more than plain arithmetic.
+    """Compute the number of a formula; None where it is more than plain arithmetic.
 
     Parameters
     ----------
@@ -345,7 +349,7 @@ def compute_formula(formula: str, find: Callable[[str, str], object]) -> float |
 
 
 def _list_places(text: str) -> list[str]:
-    """Addresses of a cell, or of a range within one column; an error of any other."""
+    """Addresses of a cell or of a range within a column; other ranges are an error."""
     from openpyxl.utils import get_column_letter  # slow to import
     from openpyxl.worksheet.cell_range import CellRange
 
@@ -357,22 +361,30 @@ def _list_places(text: str) -> list[str]:
 
 
 def _evaluate(node: ast.AST, cells: dict[str, Sequence[object]]) -> list[float]:
-    """Numbers of a part of a formula: one, or all of a range."""
+    """Numbers of a part of a formula: a single number, or all of a range."""
     match node:
         case ast.Constant(value=int() | float() as number):
             return [float(number)]
         case ast.Name(id=key):
-            found = cells[key]
-            if not all(isinstance(one, int | float) for one in found):
+            contents = cells[key]
+            if not all(isinstance(content, int | float) for content in contents):
                 raise TypeError(key)
-            return [float(one) for one in found if isinstance(one, int | float)]
+            return [
+                float(content)
+                for content in contents
+                if isinstance(content, int | float)
+            ]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
             (number,) = _evaluate(operand, cells)
             return [-number if isinstance(sign, ast.USub) else number]
         case ast.BinOp(left=left, op=sign, right=right):
-            (one,), (other,) = _evaluate(left, cells), _evaluate(right, cells)
-            return [_OPERATORS[type(sign)](one, other)]
-        case ast.Call(func=ast.Name(id=key), args=given, keywords=[]):
-            numbers = [one for part in given for one in _evaluate(part, cells)]
+            (first,), (second,) = _evaluate(left, cells), _evaluate(right, cells)
+            return [_OPERATORS[type(sign)](first, second)]
+        case ast.Call(func=ast.Name(id=key), args=arguments, keywords=[]):
+            numbers = [
+                number
+                for argument in arguments
+                for number in _evaluate(argument, cells)
+            ]
             return [_FUNCTIONS[key](*numbers)]
     raise TypeError(node)

@@ -73,7 +73,7 @@ def read_delimited(
     Raises
     ------
     SiteDataError
-        If a file is no text, or its delimiter cannot be told.
+        If a file is no text, or its delimiter is ambiguous.
     """
     sheets: list[Sheet] = []
     unread: list[str] = []
@@ -103,7 +103,7 @@ def read_delimited(
 
 
 def _name_sheet(file: str, is_wanted: Callable[[str], bool]) -> str:
-    """Sheet that a file's name says: ``Rows.csv``, ``site - Rows.csv``."""
+    """Sheet that the name of a file gives: ``Rows.csv``, ``site - Rows.csv``."""
     stem = file.rpartition(".")[0]
     last = stem.replace("_", "-").rpartition("-")[2].strip()
     return next((name for name in (stem, last) if is_wanted(name)), "")
@@ -147,7 +147,7 @@ def _cut_end(record: list[str]) -> list[str]:
 
 
 def _find_delimiter(file: str, text: str, is_heading: Callable[[str], bool]) -> str:
-    """Delimiter that makes the most known headings; a tie is no answer."""
+    """Delimiter that gives the most known headings; a tie between two is refused."""
     counts = {mark: _count_headings(text, mark, is_heading) for mark in DELIMITERS}
     most = max(counts.values())
     best = [mark for mark, count in counts.items() if count == most]
@@ -257,14 +257,14 @@ def read_workbook(
 
 
 def is_text(path: Path) -> bool:
-    """A file is read as csv, or is a folder of csv files."""
+    """Whether a file is read as csv, or is a folder of csv files."""
     return _is_folder(path) or path.suffix.casefold() in _TEXT_SUFFIXES
 
 
 def _is_folder(path: Path) -> bool:
     try:
         return path.is_dir()
-    except OSError as error:  # no file can have that name, or nobody may look there
+    except OSError as error:  # the name is impossible, or the folder is closed to us
         rule = say("book.not_looked_for", path=str(path), cause=explain(error))
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
 
@@ -281,7 +281,7 @@ def _read_archive(
         with zipfile.ZipFile(BytesIO(content)) as archive:
             parts = archive.namelist()
             is_strict = any(
-                _STRICT in archive.read(one) for one in parts if _is_root(one)
+                _STRICT in archive.read(part) for part in parts if _is_root(part)
             )
         if is_strict:
             raise refuse_file(file, say("book.strict"), _ACCEPTED_FILE)
@@ -300,12 +300,12 @@ def _read_archive(
 
 
 def _is_root(part: str) -> bool:
-    """Part that says of which kind the whole file is."""
+    """Whether a part names the kind of the whole file."""
     return part.endswith("_rels/.rels") or part.endswith("workbook.xml")
 
 
 def _describe_damage(error: BaseException) -> Message:
-    """Words of ours for what is wrong with a file."""
+    """Reason in our own words why a file cannot be opened."""
     cause = error.__cause__ or error  # openpyxl wraps what the parser says
     if isinstance(cause, ContentError):
         return cause.message
@@ -317,7 +317,7 @@ def _describe_damage(error: BaseException) -> Message:
 
 
 def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
-    """Contents of csv files by name; all together are not larger than one may be."""
+    """Contents of csv files by name; their sum has the limit of a single file."""
     if len(paths) > MAX_ENTRIES:
         rule = say("book.many_csv", count=len(paths))
         raise refuse_file(name, rule, say("book.most_files", most=MAX_ENTRIES))

@@ -93,22 +93,26 @@ def read_xlsx(
     is_wanted: Callable[[str], bool],
     decimal_mark: DecimalMark,
 ) -> Workbook:
-    """Wanted sheets of a workbook, names of the others; never macros."""
+    """Read the wanted sheets of a workbook, and the names of the others; no macros."""
     with warnings.catch_warnings():
         # openpyxl warns of features that it would drop on saving; nothing is saved.
         warnings.simplefilter("ignore")
         reader = _open(content)
-        every = reader.wb.worksheets
+        worksheets = reader.wb.worksheets
         sheets = tuple(
-            _read_sheet(file, one, _scan_layout(reader, one.title), decimal_mark)
-            for one in every
-            if is_wanted(one.title)
+            _read_sheet(file, stored, _scan_layout(reader, stored.title), decimal_mark)
+            for stored in worksheets
+            if is_wanted(stored.title)
         )
     return Workbook(
         file=file,
         sheets=sheets,
-        unread=tuple(one.title for one in every if not is_wanted(one.title)),
-        hidden=frozenset(x.title for x in every if x.sheet_state != "visible"),
+        unread=tuple(
+            stored.title for stored in worksheets if not is_wanted(stored.title)
+        ),
+        hidden=frozenset(
+            stored.title for stored in worksheets if stored.sheet_state != "visible"
+        ),
         is_by_hand=reader.wb.calculation.calcMode == "manual",
     )
 
@@ -135,7 +139,7 @@ def _read_sheet(
         place = (cell.row, cell.column)
         formula = layout.formulas.get(place, "")
         cells[place] = _take_cell(file, cell, formula, decimal_mark)
-    require_width(file, stored.title, max((one for _, one in cells), default=0))
+    require_width(file, stored.title, max((column for _, column in cells), default=0))
     return Sheet(
         file=file,
         name=stored.title,
@@ -172,7 +176,7 @@ _STRUCK = say("cell.struck")
 
 @dataclass(slots=True)
 class _Layout:
-    """What openpyxl does not tell of a sheet beside the stored results of its cells."""
+    """Layout of a sheet, which openpyxl leaves out when it reads stored results."""
 
     last_row: int = 0
     merged: list[CellRange] = field(default_factory=list)
@@ -182,7 +186,7 @@ class _Layout:
 
 
 def _is_struck(cell: Any) -> bool:
-    """Text of a cell is struck out, or a part of it."""
+    """Whether the text of a cell, or a part of it, is struck out."""
     parts = cell.value if isinstance(cell.value, list) else ()
     fonts = [getattr(part, "font", None) for part in parts]
     fonts += [cell.font] if cell.has_style else []

@@ -83,7 +83,7 @@ def annotate_workbook(
 
 
 def _find_shown(sheet: Any, address: str) -> Any:
-    """Cell at an address; of merged cells the first one, the only one that is shown."""
+    """Cell at an address; of merged cells the first, which alone is shown."""
     for merged in sheet.merged_cells.ranges:
         if address in merged:
             return sheet.cell(merged.min_row, merged.min_col)
@@ -116,13 +116,14 @@ def _list_texts(finding: Finding, language: Language) -> tuple[str, ...]:
     """Line of the list, in the order of its headings."""
     severity = render(say(f"finding.{finding.severity}"), language)
     field, rule, accepted = (
-        render(one, language) for one in (finding.field, finding.rule, finding.accepted)
+        render(text, language)
+        for text in (finding.field, finding.rule, finding.accepted)
     )
     return severity, finding.sheet, finding.cell, field, finding.text, rule, accepted
 
 
 def _remove_old_marks(workbook: OpenWorkbook) -> None:
-    """Take away the marks of an earlier copy: what was mended must not stay marked."""
+    """Remove the marks of an earlier copy, so that no corrected cell stays marked."""
     from openpyxl.styles import PatternFill
 
     for name in FINDINGS_SHEETS.values():

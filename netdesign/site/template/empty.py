@@ -1,4 +1,4 @@
-"""What the template says of a cell: what it accepts, what is assumed if it is empty."""
+"""Notes of the template on a cell: accepted content, and what an empty cell means."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _TIMES = {"net_height": ("D_K", 2), "altitude_factor": ("f_c", 1)}
 
 
 def say_empty(column: Column, language: Language) -> str:
-    """Range or value that is assumed of an empty cell, or what is said of it."""
+    """Range or value that is assumed for an empty cell, or a phrase about it."""
     values = column.assumed or _list_ends(column)
     if values:
-        texts = dict.fromkeys(_show(one, language) for one in values)
+        texts = dict.fromkeys(_show(value, language) for value in values)
         return f" {load_text('to', language)} ".join(texts)
     if column.said:
         return load_text(column.said, language, "said")
@@ -29,7 +29,7 @@ def say_empty(column: Column, language: Language) -> str:
 
 
 def say_why(column: Column, language: Language) -> str:
-    """Where that comes from; empty where nothing is assumed."""
+    """Source of the assumed value; empty where nothing is assumed."""
     if language in column.texts["why"]:
         return column.texts["why"][language]
     assumed = _find(column)
@@ -37,7 +37,7 @@ def say_why(column: Column, language: Language) -> str:
 
 
 def say_accepted(column: Column, language: Language) -> str:
-    """What a cell accepts, in the unit that the template shows; empty of any text."""
+    """Bounds or words that a cell accepts, in the shown unit; empty for free text."""
     field = column.field
     low, high = _show_in_unit(column, field.bounds)
     is_share = column.choice == "sag_unit" or column.unit == "%"
@@ -50,7 +50,7 @@ def say_accepted(column: Column, language: Language) -> str:
 
 
 def describe_accepted(field: Field, language: Language) -> str:
-    """Accepted content of a cell, as a phrase; empty where anything is."""
+    """Accepted content of a cell as a phrase; empty where all is accepted."""
     is_open = not field.words and field.bounds[0] == field.bounds[1]
     return "" if is_open else render(field.accepted, language)
 

@@ -1,4 +1,4 @@
-"""The example of the input workbook: its lines, and the workbook of these."""
+"""Reads the lines of the example site, and writes the workbook of these."""
 
 from __future__ import annotations
 
@@ -23,9 +23,10 @@ def load_input_example() -> dict[str, Sequence[Mapping[str, object]]]:
         "project": [project],
         **{
             name: [
-                dict(zip(one["columns"], line, strict=False)) for line in one["lines"]
+                dict(zip(table["columns"], line, strict=False))
+                for line in table["lines"]
             ]
-            for name, one in tables.items()
+            for name, table in tables.items()
         },
     }
 

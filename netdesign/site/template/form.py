@@ -1,4 +1,4 @@
-"""The input workbook while it is written: formats, names and units in its language."""
+"""Writes parts of the input workbook: formats, names and units in its language."""
 
 from __future__ import annotations
 
@@ -123,28 +123,29 @@ def add_sheet(form: Form, title: str) -> Worksheet:
 
 
 def find_plan(table: str) -> SheetPlan:
-    """Plan of a sheet, or of one of an add-on."""
-    return next((one for one in FURTHER if one.name == table), None) or load_plan(table)
+    """Plan of a sheet of the input workbook or of an add-on."""
+    further = (plan for plan in FURTHER if plan.name == table)
+    return next(further, None) or load_plan(table)
 
 
 def is_further(table: str) -> bool:
-    """A sheet is one of an add-on."""
-    return any(one.name == table for one in FURTHER)
+    """Whether a sheet belongs to an add-on."""
+    return any(plan.name == table for plan in FURTHER)
 
 
 def count_lines(text: str, width: float) -> int:
-    """Lines that a text takes in a column of a width in characters."""
+    """Number of lines of a text in a column, whose width is in characters."""
     return max(1, len(wrap(text, max(1, int(width)))))
 
 
 def list_shown(form: Form, table: str) -> list[Column]:
-    """Columns of a table; those of the structure only beside sheet Parts."""
+    """Columns of a table; columns of the structure only beside sheet Parts."""
     if is_further(table):
-        return [_show_field(one) for one in find_plan(table).fields]
+        return [_show_field(field) for field in find_plan(table).fields]
     return [
-        one
-        for one in load_columns(table)
-        if one.group != "structure" or "parts" in form.sheets
+        column
+        for column in load_columns(table)
+        if column.group != "structure" or "parts" in form.sheets
     ]
 
 
@@ -167,7 +168,7 @@ def name_column(form: Form, column: Column, is_divided: bool = False) -> str:
 
 
 def say_unit(form: Form, column: Column) -> str:
-    """Unit of a column; of several measures the one that is given, or the first."""
+    """Unit of a column; with several measures, the unit chosen for it or the first."""
     if column.choice:
         key = (column.field.table, column.field.key)
         first = load_file("office")["choices"][column.choice][0]
@@ -183,7 +184,7 @@ def write_about(
     keys: Sequence[str],
     column: Column,
 ) -> list[str]:
-    """Write what is said of a column, from a cell to the right, and return it.
+    """Write the texts about a column, from a cell to the right, and return them.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ def write_notes(form: Form) -> None:
     scale = {"x_scale": 0.6, "y_scale": 0.6, "object_position": 3}
     sheet.insert_image(_PICTURE_ROW, 0, "section.png", options | scale)
     row = _PICTURE_ROW + _PICTURE_ROWS + 1
-    for name in (one for one in form.sheets if not is_further(one)):
+    for name in (name for name in form.sheets if not is_further(name)):
         for table in PARTS if name == "parts" else (name,):
             row = _write_columns(form, sheet, row, table) + 1
 

@@ -83,7 +83,7 @@ def render_input(
         _write(form, sheet)
     write_notes(form)
     rows = workbook.worksheets()[1]
-    keys = [one.field.key for one in list_shown(form, "rows")]
+    keys = [column.field.key for column in list_shown(form, "rows")]
     size = {"x_scale": 2.4, "y_scale": 1.6, "author": ""}
     for line, of_line in enumerate(notes, start=_FIRST):
         for key, note in of_line.items():
@@ -94,10 +94,10 @@ def render_input(
 
 
 def _list_further(tables: Tables, more: Sequence[str]) -> Iterator[str]:
-    """Sheets beside those that are always there: asked for, or with lines."""
+    """Sheets beside the usual ones: asked for, or with lines."""
     nets = load_columns("net_types")
-    structure = {one.field.key for one in nets if one.group == "structure"}
-    is_built = any(structure & one.keys() for one in tables.get("net_types", ()))
+    structure = {column.field.key for column in nets if column.group == "structure"}
+    is_built = any(structure & net.keys() for net in tables.get("net_types", ()))
     for name, sheet in WITH.items():
         is_parts = name == "parts"
         has_lines = any(map(tables.get, PARTS if is_parts else (sheet,)))
@@ -159,7 +159,7 @@ def _write_parts(form: Form, sheet: Worksheet) -> None:
 
 
 def _count_lines(form: Form, table: str) -> int:
-    """Lines of a form: as many as are given, and some more."""
+    """Number of lines of a form: at least the usual, and four beyond the filled."""
     usual: int = load_file("office")["sheets"].get(table, {}).get("lines", _LINES)
     return max(usual, len(form.tables.get(table, ())) + 4)
 
@@ -167,7 +167,7 @@ def _count_lines(form: Form, table: str) -> int:
 def _write_block(
     form: Form, sheet: Worksheet, row: int, columns: Sequence[Column], table: str
 ) -> None:
-    """Headings, units and what is assumed; lines, with what their cells accept."""
+    """Write headings, units and assumed values, and below them the lines."""
     count = _count_lines(form, table)
     last = row + 2 + count
     sheet.set_row(row, 30 if len(columns) < _WIDE else 52)
@@ -180,9 +180,9 @@ def _write_block(
             _mark_missing(form, sheet, (row + 3, number, last), column, len(columns))
         if rule := _say_rule(form, column):
             sheet.data_validation(row + 3, number, last, number, rule)
-    numbers = {one.field.key: number for number, one in enumerate(columns)}
-    for line, given in enumerate(form.tables.get(table, ()), start=row + 3):
-        for key, value in given.items():
+    numbers = {column.field.key: number for number, column in enumerate(columns)}
+    for line, cells in enumerate(form.tables.get(table, ()), start=row + 3):
+        for key, value in cells.items():
             if key in numbers and value != "":
                 _write_value(
                     form, sheet, line, numbers[key], columns[numbers[key]], value
@@ -200,8 +200,8 @@ def _write_heading(
     sheet.write_string(row + 1, number, label, form.style(style))
     if column.choice:
         names = [
-            name_measure(column.choice, one, form.language)
-            for one in load_file("office")["choices"][column.choice]
+            name_measure(column.choice, measure, form.language)
+            for measure in load_file("office")["choices"][column.choice]
         ]
         rule = {
             "validate": "list",
@@ -226,7 +226,7 @@ def _write_value(
 
 
 def _translate(form: Form, column: Column, value: str) -> str:
-    """Word in the language of the workbook; ids and names stay."""
+    """Translate a word into the language of the workbook; ids and names stay."""
     if value in column.field.words:
         return render(column.field.name_word(value), form.language)
     is_check = (column.field.table, column.field.key) == ("declared", "check")
@@ -240,7 +240,7 @@ def _mark_missing(
     column: Column,
     count: int,
 ) -> None:
-    """Yellow while a needed cell is empty, in the first line and in those begun."""
+    """Show needed cells yellow while empty, in the first line and in begun lines."""
     from xlsxwriter.utility import xl_col_to_name as letter
 
     first, number, last = place
@@ -260,7 +260,7 @@ def _mark_missing(
 
 
 def _say_rule(form: Form, column: Column) -> dict[str, Any] | None:
-    """Drop-down of a cell, or a prompt with what it accepts and what is assumed."""
+    """Drop-down of a cell, or a prompt with accepted content and assumed value."""
     accepted = say_accepted(column, form.language)
     is_number = column.field.kind in ("number", "count")
     empty = say_empty(column, form.language)
@@ -283,11 +283,11 @@ def _list_choices(form: Form, column: Column) -> list[str] | str:
     """Words of a cell, or the cells of the ids that it may name."""
     own = column.field
     if own.words:
-        return [render(own.name_word(one), form.language) for one in own.words]
+        return [render(own.name_word(word), form.language) for word in own.words]
     if (own.table, own.key) == ("project", "standard"):
         return list(list_standards())
     if (own.table, own.key) == ("declared", "check"):
-        return [name_group(one, form.language) for one in GROUPS]
+        return [name_group(group, form.language) for group in GROUPS]
     table = own.refers_to
     if table not in form.sheets:
         return []
@@ -299,13 +299,13 @@ def _say_note(form: Form, column: Column) -> str:
     if not column.has:  # of a sheet of an add-on
         return column.texts["note"][form.language]
     source = say_why(column, form.language)
-    told = (form.text("source"), source) if source else None
-    label, text = told or (form.text("has"), form.text(column.has, "who"))
+    stated = (form.text("source"), source) if source else None
+    label, text = stated or (form.text("has"), form.text(column.has, "who"))
     return f"{column.texts['note'][form.language]}\n{label}: {text}."
 
 
 def _find_width(form: Form, column: Column, count: int) -> float:
-    """Wide enough for the longest word of the heading, and for what stands below."""
+    """Width of a column for the longest word of its heading, and for its cells."""
     words = name_column(form, column, True).replace("/", " ").split()
     least = 14.0 if count < 9 else 7.5 if count < _WIDE else 6.4
     if column.field.refers_to or column.field.words:
@@ -314,23 +314,24 @@ def _find_width(form: Form, column: Column, count: int) -> float:
 
 
 def _write_project(form: Form, sheet: Worksheet) -> None:
-    """Lines of sheet Project: what holds for the whole site."""
+    """Write sheet Project, whose lines hold for the whole site."""
     sheet.write_string(0, 2, form.text("range"), form.style("about"))
     heads = {
-        one.key: one.label_in(form.language) for one in load_plan("project").fields
+        field.key: field.label_in(form.language)
+        for field in load_plan("project").fields
     }
     widths = (27, 34, 8, 24, 30, 15, 52)
     for number, (key, width) in enumerate(zip(PROJECT_HEADS, widths, strict=True)):
         sheet.write_string(2, number, heads[key], form.style("head"))
         sheet.set_column(number, number, width)
-    (given,) = form.tables.get("project") or ({},)
+    (project,) = form.tables.get("project") or ({},)
     for row, column in enumerate(load_columns("project"), start=3):
         sheet.set_row(row, 26)
         style = "head yes" if column.need else "head"
         sheet.write_string(row, 0, name_column(form, column), form.style(style))
         sheet.write_blank(row, 1, None, form.style_cell(column))
-        if given.get(column.field.key, "") != "":
-            _write_value(form, sheet, row, 1, column, given[column.field.key])
+        if project.get(column.field.key, "") != "":
+            _write_value(form, sheet, row, 1, column, project[column.field.key])
         if column.need:
             rule = {"type": "blanks", "format": form.style("missing")}
             sheet.conditional_format(row, 1, row, 1, rule)
