@@ -1,6 +1,6 @@
 """From lines of anchor types to what an anchor is: its kind, steel, lever, ground.
 
-What nobody gives of the steel that bends is assumed: resistance/THEORY.md, (R9d).
+Where the steel that bends is not given, it is assumed: resistance/THEORY.md, (R9d).
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def read_anchors(
 
 
 def read_anchor(line: Row, ground: str) -> AnchorType:
-    """What an anchor is, in the ground of its type, else of its row."""
+    """Anchor of a type, in the ground of that type, else in that of the row."""
     has_tube = line["tube_diameter"].state == "given"
     section, word = _build_section(line), line["ground"].word or ground
     typed = line["lever_arm"].given_si  # else the longest usual free length
@@ -84,8 +84,7 @@ def _read_soil(line: Row) -> Soil | None:
 def _build_section(line: Row) -> RoundSection | None:
     """Steel that bends: a tube at the head, else the anchor's own.
 
-    None of a rope, of what nobody gives, and of dimensions that
-    ``check_support_types`` refused.
+    None of a rope, without the dimensions, and of dimensions that no section has.
     """
     tube, wall = line["tube_diameter"].given_si, line["tube_wall"].given_si
     try:
@@ -103,7 +102,7 @@ def _build_section(line: Row) -> RoundSection | None:
 def _assume_section(line: Row) -> RoundSection | None:
     """Solid bar with the tendon's resistance, (R9d); None where that is not given.
 
-    As thin as the strongest steel makes it, where nobody gives its diameter.
+    Without a diameter it is as thin as the strongest steel makes it.
     """
     tendon, outer = line["tendon"].given_si, line["bar_diameter"].given_si
     if tendon is None or line["kind"].word == "rope anchor":

@@ -44,11 +44,11 @@ class Assumed:
         What the numbers of the file are multiplied with: ``net_height`` or
         ``altitude_factor``.
     word : str
-        Name of the text of what is assumed, where no number says it.
+        Name of the text of what is assumed, where it is no number.
     source : str
         Name of the text of where the range comes from.
     is_typed : bool
-        The range stands in the workbook: nobody has to confirm it.
+        The range stands in the workbook and needs no confirmation.
     """
 
     key: str
@@ -74,7 +74,7 @@ class Assumed:
 
     @property
     def shown(self) -> tuple[float, float]:
-        """Ends of the range in its unit, for people."""
+        """Ends of the range in the unit of its column."""
         return from_si(self.low, self.unit), from_si(self.high, self.unit)
 
     @property

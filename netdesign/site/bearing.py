@@ -45,8 +45,8 @@ class RowEnd:
     stiffnesses : tuple of tuple of float, shape (n, 4)
         EA that uphill guy, downhill guy, end guy and post there may have together [N].
     ropes_slide : bool or None
-        The border ropes slide at the supports; None, and the worse of both, where
-        nobody says it.
+        The border ropes slide at the supports; None where it is not given: the worse
+        of both counts.
     lateral_axis : float or None
         Of the lateral anchor against the slope [rad]; None where none is given.
     resistances : tuple of Resistance
@@ -70,5 +70,5 @@ class RowEnd:
         return EndGuy(angle=self.guy_angle)
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
-        """What one of its anchors is; None where its type is not given."""
+        """Type of one of its anchors; None where it is not given."""
         return next((kind for member, kind in self.anchors if member == anchor), None)

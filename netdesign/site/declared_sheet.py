@@ -79,7 +79,7 @@ def replace_cells(
         sheet = sheets.get(typed.casefold())
         if sheet is None:
             accepted = say(
-                "accepted.words", words=tuple(x.name for x in sheets.values())
+                "accepted.words", words=tuple(sheet.name for sheet in sheets.values())
             )
             rule = say("what_if.no_sheet", sheet=typed)
             findings.append(workbook.finding(rule, accepted))
@@ -261,7 +261,12 @@ def read_declared(
             continue
         for declaration in _read_line(line, rows, places, findings):
             twice = next(
-                (earlier for earlier in declared if _meet(earlier, declaration)), None
+                (
+                    earlier
+                    for earlier in declared
+                    if _concern_same_check(earlier, declaration)
+                ),
+                None,
             )
             if twice:
                 rule = say("declared.twice", place=twice.proof.cell)
@@ -278,7 +283,7 @@ def _list_rows(reading: Reading, places: Mapping[str, str]) -> list[Reading]:
     return [row["row"] for row in settle_ids(rows, places, "row")]
 
 
-def _meet(first: Declaration, second: Declaration) -> bool:
+def _concern_same_check(first: Declaration, second: Declaration) -> bool:
     """Two declarations concern the same check of some net row."""
     same_row = first.row_id == second.row_id or "" in (first.row_id, second.row_id)
     subjects = {

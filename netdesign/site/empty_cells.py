@@ -65,7 +65,11 @@ def fill_in(
         for key in load_assumed()
         if is_open.get(key, key in row and row[key].state == "blank")
     )
-    filled = {x.key: _place(row[x.key], x) for x in assumed if x.key in row}
+    filled = {
+        entry.key: _fill_cell(row[entry.key], entry)
+        for entry in assumed
+        if entry.key in row
+    }
     return {**row, **filled}, (*assumed, *_list_typed(row))
 
 
@@ -95,7 +99,11 @@ _OF_TYPES = ("anchor_kind", "lever_arm", "base_friction", "buckling_length")
 def _list_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
     """What is assumed of anchors and posts that cells name, by key."""
     anchors, posts = (
-        [types[of][x.word] for x in named if x.field.refers_to == of and x.word]
+        [
+            types[of][reading.word]
+            for reading in named
+            if reading.field.refers_to == of and reading.word
+        ]
         for of in ("anchor_types", "posts")
     )
     for line in anchors:
@@ -122,7 +130,7 @@ def _assume(key: str, row: Row, snow: Snow) -> Assumed:
     return assume(key)
 
 
-def _place(reading: Reading, assumed: Assumed) -> Reading:
+def _fill_cell(reading: Reading, assumed: Assumed) -> Reading:
     """Reading of an empty cell as the calculation begins with it."""
     share = _SEVERE.get(assumed.key, 0.5)
     value = (1.0 - share) * assumed.low + share * assumed.high

@@ -71,7 +71,13 @@ def build_workbook(frames: Frames) -> Workbook:
         lines = _list_lines(named[table])
         build = _list_items if table == "project" else _list_cells
         cells.extend(build(table, title, lines, start))
-    content = repr([(x.sheet, x.address, x.value) for y in sheets.values() for x in y])
+    content = repr(
+        [
+            (cell.sheet, cell.address, cell.value)
+            for cells in sheets.values()
+            for cell in cells
+        ]
+    )
     return Workbook(
         file=_FILE,
         sha256=hashlib.sha256(content.encode()).hexdigest(),
@@ -104,13 +110,13 @@ def _list_lines(frame: Any) -> list[Mapping[str, object]]:
         {
             str(key): plain
             for key, value in line.items()
-            if (plain := _take(value)) != ""
+            if (plain := _read_plain(value)) != ""
         }
         for line in lines
     ]
 
 
-def _take(value: Any) -> object:
+def _read_plain(value: Any) -> object:
     """Value as a workbook holds it; "" of a missing value."""
     if value is None or value != value or str(value) in ("<NA>", "NaT"):
         return ""
@@ -220,13 +226,17 @@ def change_values(
             by_place[cell.place] = (cell, value, sheet)
     if findings:
         raise SiteDataError(findings)
-    changed = ((sheet, cell, _take(value)) for cell, value, sheet in by_place.values())
+    changed = (
+        (sheet, cell, _read_plain(value)) for cell, value, sheet in by_place.values()
+    )
     return put_values(workbook, changed)
 
 
 def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
     """Sheet of rows or net types with the columns of some keys, empty if not there."""
-    table = next((x for x in _CHANGED if load_plan(x).name_in("en") == sheet.name), "")
+    table = next(
+        (name for name in _CHANGED if load_plan(name).name_in("en") == sheet.name), ""
+    )
     head = min(sheet.rows)
     headings = {normalise(cell.text.partition("[")[0]) for cell in sheet.row(head)}
     rows, number = dict(sheet.rows), max(map(max, sheet.rows.values()))
@@ -254,7 +264,7 @@ def _read_lines(workbook: Workbook) -> tuple[dict[str, Row], dict[str, Row]]:
 
 
 def _find_cell(line: Row, nets: Mapping[str, Row], key: str) -> tuple[str, Cell | None]:
-    """Cell of a net row, or of its net type, with its table; None of no column."""
+    """Cell of a net row, or of its net type, with its table; None without a column."""
     table, reading = "rows", line.get(key)
     if reading is None and "net_type" in line:
         table, reading = "net_types", nets.get(line["net_type"].word, {}).get(key)

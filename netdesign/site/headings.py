@@ -122,7 +122,7 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     first_data_row += _is_numbering(sheet.row(first_data_row))
-    while _heads_on(sheet.row(first_data_row)):
+    while _continues_headings(sheet.row(first_data_row)):
         first_data_row += 1
     table = Table(
         sheet=sheet,
@@ -147,8 +147,8 @@ def find_best_row(
     """Row that holds the most headings of a plan, and how many; 0 without any."""
     counts = {
         row: sum(
-            isinstance(x.value, str) and plan.find(x.value) is not None
-            for x in sheet.row(row)
+            isinstance(cell.value, str) and plan.find(cell.value) is not None
+            for cell in sheet.row(row)
         )
         for row in rows
     }
@@ -200,7 +200,7 @@ def _is_numbering(cells: tuple[Cell, ...]) -> bool:
     ]
 
 
-def _heads_on(cells: tuple[Cell, ...]) -> bool:
+def _continues_headings(cells: tuple[Cell, ...]) -> bool:
     """A row below headings that says units, or what empty cells mean (`office`)."""
     first = normalise(str(cells[0].value)) if cells else ""
     return first in list_texts("unit", "empty")

@@ -200,12 +200,12 @@ def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     joined = _join_rows(rows)
     lines = {row["id"].word: row for row in rows}
     for name, row in lines.items():
-        into, at = joined[name], find_named(row)
+        into, at = joined[name], find_neighbour_cell(row)
         for neighbour in into:
             if neighbour == name or neighbour not in lines:
                 rule = say("nets.no_neighbour", id=neighbour)
                 refuse(at, rule, say("nets.other_ids"), findings)
-        chained = _reach(name, joined)
+        chained = _find_chain(name, joined)
         if len(into) > _ENDS:
             rule = say("nets.two_ends", id=name, ids=tuple(sorted(into)))
             refuse(at, rule, say("nets.free_or_both"), findings)
@@ -215,7 +215,7 @@ def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     return {name: joined[name] for name in lines if len(joined[name]) >= _ENDS}
 
 
-def find_named(row: Row) -> Reading:
+def find_neighbour_cell(row: Row) -> Reading:
     """Cell that names the neighbours, or that of the id if there is no such column."""
     return row["gap"] if row["gap"].cell else row["id"]
 
@@ -233,7 +233,7 @@ def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
     return {own: tuple(neighbours) for own, neighbours in joined.items()}
 
 
-def _reach(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
+def _find_chain(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
     """Rows into which the nets of a row go on, one after the other."""
     reached, new = {name}, {name}
     while new:

@@ -134,14 +134,14 @@ class NetRow:
     def find_anchor_type(
         self, anchor: str, position: Position = "intermediate"
     ) -> AnchorType | None:
-        """What an anchor is; None where its type is not given."""
+        """Type of an anchor; None where it is not given."""
         if self.row_end is not None and anchor in tuple(EndMember):
             return self.row_end.find_anchor_type(anchor)
         at_end = position == "edge" and self.end_anchors is not None
         types = self.end_anchors or () if at_end else self.anchors
         return next((kind for member, kind in types if member == anchor), None)
 
-    def list_unsaid_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
+    def list_missing_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Name of an anchor's drilled length, where it is not given."""
         kind = self.find_anchor_type(anchor, position)
         is_said = kind is not None and kind.drilled is not None
@@ -150,7 +150,7 @@ class NetRow:
         return () if is_said else (where,)
 
     def find_net_part(self, part: NetPart) -> Resistance:
-        """What the mesh or a border rope bears; of ropes only where there are some."""
+        """Resistance of the mesh, or of a border rope where the row has one."""
         return next(
             resistance for resistance in self.net_parts if resistance.member == part
         )
@@ -175,7 +175,10 @@ class NetRow:
     def has_same_type_at_end(self, member: str) -> bool:
         """Whether a member is of one type at the row's end and inside it."""
         places = (self.resistances, self.resistances_at("edge"))
-        inside, end = ({x.type_id for x in of if x.member == member} for of in places)
+        inside, end = (
+            {resistance.type_id for resistance in of if resistance.member == member}
+            for of in places
+        )
         return inside == end and "" not in inside
 
     @property
@@ -203,7 +206,7 @@ class NetRow:
         return scale_layers(self.layers, self.held_thickness, density)
 
     def at(self, case: Case) -> NetRow:
-        """Row with what the case has of its own; itself where that is nothing.
+        """Row with the values of a case in the place of its own.
 
         Raises
         ------
@@ -314,10 +317,10 @@ class Site:
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:
-        """Declaration of a check of a net row; None if it is proven here or nowhere.
+        """Declaration of a check of a net row; None if there is none.
 
-        ``position`` is that of its support. What is declared of no support is not
-        proven of an anchor of another type at the row's end.
+        ``position`` is that of its support. A declaration without a position does not
+        hold for an anchor of another type at the row's end.
         """
         by_position = {
             declaration.position: declaration

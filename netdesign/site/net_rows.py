@@ -17,7 +17,7 @@ from netdesign.site.lines import (
     Lines,
     Neighbours,
     Types,
-    find_named,
+    find_neighbour_cell,
     find_neighbours,
     index_lines,
     list_references,
@@ -87,14 +87,14 @@ def build_net_rows(lines: Lines, findings: list[Finding]) -> tuple[NetRow, ...]:
     index_lines(lines.rows, "id", say("nets.ids_once"), findings)
     beside = find_neighbours(lines.rows, findings)
     built = [
-        _build_net_row(_say_joined(row, beside), lines, findings) for row in lines.rows
+        _build_net_row(_resolve_gap(row, beside), lines, findings) for row in lines.rows
     ]
     built = _separate_unlike(built, beside, lines, findings)
     refuse_missing_sheets(lines, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
-def _say_joined(row: Row, beside: Neighbours) -> Row:
+def _resolve_gap(row: Row, beside: Neighbours) -> Row:
     """Line whose gap holds for both ends: 0 where its nets go on at both."""
     gap, neighbours = row["gap"], beside.get(row["id"].word)
     if neighbours:
@@ -122,22 +122,22 @@ def _separate_unlike(
             unlike = (
                 (other.id, key)
                 for other in neighbours
-                for key in list_unlike(row, other)
+                for key in list_differences(row, other)
             )
             if difference := next(unlike, None):
                 name = say(f"column.{difference[1]}")
                 how = say("nets.unlike", id=difference[0], name=name)
-                refuse(find_named(line), how, "", findings, severity="note")
+                refuse(find_neighbour_cell(line), how, "", findings, severity="note")
                 gap = replace(line["gap"], state="blank", value=None, derivation=how)
                 row = _build_net_row({**line, "gap": gap}, lines, [])
         kept.append(row)
     return kept
 
 
-def list_unlike(row: NetRow, other: NetRow) -> Iterator[str]:
-    """Columns by which two rows are not loaded and built alike.
+def list_differences(row: NetRow, other: NetRow) -> Iterator[str]:
+    """Columns in which two rows are not loaded and built alike.
 
-    Only alike rows load each other's ends as if the nets went on.
+    Only rows without a difference load each other's ends as if the nets went on.
     """
     others = _list_compared(other)
     for key, mine in _list_compared(row).items():
@@ -151,7 +151,7 @@ def list_unlike(row: NetRow, other: NetRow) -> Iterator[str]:
 
 
 def _list_compared(row: NetRow) -> dict[str, float | int | str]:
-    """Values by which rows are alike or not, by their columns."""
+    """Values by which two rows are compared, by their columns."""
     layout, ground = row.layout, row.ground
     types = {
         resistance.member: resistance.type_id
@@ -174,7 +174,7 @@ def _list_compared(row: NetRow) -> dict[str, float | int | str]:
 
 
 def _judge_count(count: int) -> Refusal | None:
-    """Reason against so many net rows; None if they are a site."""
+    """Reason to refuse the number of net rows; None if it is accepted."""
     if not count:
         return Refusal(say("nets.no_row"), say("nets.one_line"))
     if count > MAX_NET_ROWS:

@@ -29,7 +29,7 @@ from netdesign.site.type_resistances import (
 from netdesign.words.message import Message, say
 
 
-def ask(
+def ask_about_numbers(
     lines: Lines, confirmed: Collection[str], findings: list[Finding]
 ) -> Mapping[str, tuple[Message, ...]]:
     """Open questions of every net row.
@@ -44,7 +44,7 @@ def ask(
         Appended to: each open question once.
     """
     resting, questions = _find_resting(lines), dict[str, Message]()
-    for reading, rule in _list_all(lines):
+    for reading, rule in _list_all_doubts(lines):
         place, is_open = reading.place, reading.place not in (*confirmed, *questions)
         if reading.cell is None or not is_open or not resting[place]:
             continue
@@ -101,17 +101,19 @@ def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
         for line in lines.typed[table]:
             yield (
                 line,
-                set().union(*(named.get((x, line[key].word), ()) for x in tables)),
+                set().union(
+                    *(named.get((target, line[key].word), ()) for target in tables)
+                ),
             )
 
 
-def _list_all(lines: Lines) -> Iterator[Doubt]:
+def _list_all_doubts(lines: Lines) -> Iterator[Doubt]:
     """Doubts about all numbers, each line by itself and beside others of its table."""
     for typed in lines.typed.values():
         yield from chain.from_iterable(map(_list_doubted_cells, typed))
     limits = [link for link in lines.links if link["force"].field.key != "force"]
     strengths = [link for link in lines.links if link not in limits]
-    # without a name where columns are not looked along
+    # the name is empty where columns are not compared from line to line
     groups: list[tuple[str, Sequence[Row]]] = [
         ("rows", lines.rows),
         ("", list(chain.from_iterable(lines.snow.values()))),
@@ -122,7 +124,9 @@ def _list_all(lines: Lines) -> Iterator[Doubt]:
     every = (*lines.rows, *lines.ends.values())
     named = {reading.word for line in every for reading in line.values()}
     for table, group in groups:
-        used = [x for x in group if table not in TYPES or x["id"].word in named]
+        used = [
+            line for line in group if table not in TYPES or line["id"].word in named
+        ]
         yield from chain.from_iterable(map(list_doubts, used))
         yield from list_column_doubts(group, table)
 
@@ -147,7 +151,7 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
         Of any sheet.
     """
     typed = {key: reading for key, reading in line.items() if _is_meant(reading)}
-    alone = dict(_list_unlike(typed, line))
+    alone = dict(_list_unlike_product(typed, line))
     for key, reading in typed.items():
         doubt = _doubt_alone(reading)
         if doubt and key not in alone:
@@ -209,7 +213,7 @@ def _doubt_alone(reading: Reading) -> Message | None:
 def _doubt_beside(
     reading: Reading, line: Row, doubted: Container[str]
 ) -> Message | None:
-    """Doubt by others of the line, none of which is in doubt itself."""
+    """Doubt beside other numbers of the line that are not in doubt themselves."""
     for usual in reading.field.beside:
         others = [line[key] for key in usual.powers]
         if any(other.state != "given" or not other.number for other in others):
@@ -231,7 +235,7 @@ def _doubt_beside(
 
 
 def _doubt_tested(reading: Reading, line: Row) -> Message | None:
-    """No test may pull its tendon so far: resistance/THEORY.md, (R32)."""
+    """Doubt about a test that pulls its tendon too far: resistance/THEORY.md, (R32)."""
     limit = find_proof_limit(line, has_loop=False)
     if limit is None or reading.si <= limit * (1.0 + 1e-9):
         return None
@@ -240,7 +244,7 @@ def _doubt_tested(reading: Reading, line: Row) -> Message | None:
 
 
 def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
-    """Eccentricity of a post beyond what an empty cell takes, which would help."""
+    """Doubt about an eccentricity that helps more than that of an empty cell."""
     reading = typed.get("head_eccentricity")
     needed = ("post_width", "section_modulus", "area")
     if reading is None or any(line[key].state != "given" for key in needed):
@@ -262,9 +266,9 @@ def _doubt_pulled(key: str, line: Row) -> Message | None:
 
 
 def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
-    """A pull-out force is more than the ground holds on the bond, or hardly any of it.
+    """Doubt about a pull-out force beyond what ground holds on the bond, or far below.
 
-    One from a test may lie further beyond the catalogue than one that is worked out.
+    A force from a test may lie further beyond the catalogue than a computed force.
     """
     bond = find_bond(line, reading.si)
     if bond is None:
@@ -295,10 +299,10 @@ def _name_with_value(reading: Reading) -> Message:
     )
 
 
-def _list_unlike(
+def _list_unlike_product(
     typed: Mapping[str, Reading], line: Row
 ) -> Iterator[tuple[str, Message]]:
-    """Numbers of a type that are not those of the product that it is named after."""
+    """Doubts about numbers that differ from the product that names the type."""
     columns = {
         key: reading.field.of_product
         for key, reading in typed.items()
@@ -371,20 +375,21 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
     if sheet in _BY_DIAMETER:
         yield from _list_misfits(lines, _BY_DIAMETER[sheet])
     if sheet == "tests":
-        yield from _list_alike(lines)
+        yield from _list_repeated_tests(lines)
 
 
-def _list_alike(lines: Sequence[Row]) -> Iterator[Doubt]:
+def _list_repeated_tests(lines: Sequence[Row]) -> Iterator[Doubt]:
     """Doubts about tests that repeat an earlier line: each may be of another anchor."""
     for number, line in enumerate(lines):
         again = next(
-            (earlier for earlier in lines[:number] if _are_alike(earlier, line)), None
+            (earlier for earlier in lines[:number] if _are_same_test(earlier, line)),
+            None,
         )
         if again is not None:
             yield line["force"], say("plausible.same_line", place=again["force"].place)
 
 
-def _are_alike(earlier: Row, line: Row) -> bool:
+def _are_same_test(earlier: Row, line: Row) -> bool:
     """Two tests have the same force, and the same values where both give one."""
     pairs = [(earlier[key], reading) for key, reading in line.items()]
     both = [pair for pair in pairs if all(reading.state == "given" for reading in pair)]
@@ -425,7 +430,11 @@ def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
     Numbers are diameters where they fit the forces of all types but one.
     """
     named = [entry for line in lines if (entry := _read_name(line, key))]
-    off = [x for x in named if not _FITS[0] <= x[2].number / x[1] ** 2 <= _FITS[1]]
+    off = [
+        entry
+        for entry in named
+        if not _FITS[0] <= entry[2].number / entry[1] ** 2 <= _FITS[1]
+    ]
     if len(named) - len(off) < _OTHERS or len(off) > 1:
         return
     for _, diameter, reading in off:

@@ -52,7 +52,9 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
         return SiteRanges()
     ends = [_split(reading) for reading in readings if reading.state == "given"]
     documents = [lines[key] for key in DOCUMENTS if lines[key].state == "given"]
-    assumed = tuple(assume(x.field.key) for x in readings if x.state != "given")
+    assumed = tuple(
+        assume(reading.field.key) for reading in readings if reading.state != "given"
+    )
     return SiteRanges(
         ranges=Ranges.of(
             **{

@@ -39,7 +39,7 @@ from netdesign.site.net_rows import build_net_rows
 from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
 from netdesign.site.office.sheets import is_old, is_read
-from netdesign.site.plausible import ask
+from netdesign.site.plausible import ask_about_numbers
 from netdesign.site.snow_sheets import check_layers
 from netdesign.site.support_types import list_catalogue
 from netdesign.site.titles import list_meant
@@ -145,11 +145,11 @@ def _build_site(
     ):
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(findings)
-    questions = ask(lines, confirmed, findings)
+    questions = ask_about_numbers(lines, confirmed, findings)
     rows = (replace(row, questions=questions[row.id]) for row in net_rows)
     return Site(
         project=lines.project,
-        ranges=_span(ranges.ranges, net_rows),
+        ranges=_widen_density(ranges.ranges, net_rows),
         rows=tuple(mark_replaced(row, replaced) for row in rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
@@ -181,7 +181,7 @@ def _read_further(lines: Lines, findings: list[Finding]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value}
 
 
-def _span(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
+def _widen_density(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
     """Ranges of a site, the density over all rows where each has its own."""
     own = [dict(row.ranges.intervals).get("density") for row in rows]
     spans = [interval for interval in own if interval]

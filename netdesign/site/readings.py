@@ -91,7 +91,7 @@ class Reading:
 
     @property
     def given_si(self) -> float | None:
-        """The value in SI units where it was typed; else None, default or not."""
+        """The value in SI units where it was typed; None of a default or empty cell."""
         return self.si if self.state == "given" else None
 
     @property
@@ -101,7 +101,7 @@ class Reading:
 
     @property
     def given_count(self) -> int | None:
-        """The whole number where it was typed; else None."""
+        """The whole number where it was typed; None of a default or an empty cell."""
         return int(self.number) if self.state == "given" else None
 
     @property
@@ -261,10 +261,14 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
         if reading.state != "given":
             continue
         field = reading.field
-        for word, unfit in ((row[x], words) for x, words in field.not_with.items()):
+        for word, unfit in ((row[key], words) for key, words in field.not_with.items()):
             if word.word in unfit:
                 name, name_word = word.field.name, word.field.name_word
-                others = tuple(name_word(x) for x in word.field.words if x not in unfit)
+                others = tuple(
+                    name_word(choice)
+                    for choice in word.field.words
+                    if choice not in unfit
+                )
                 typed, place = name_word(word.word), word.place
                 rule = say("cell.not_with", name=name, word=typed, place=place)
                 accepted = say("cell.empty_or", name=name, words=others)
@@ -276,7 +280,7 @@ def refuse_misfits(row: Row, findings: list[Finding]) -> None:
 
 
 def refuse_stored(cell: Cell) -> Refusal | None:
-    """Reason why the stored content of a cell is of no use; None if it is of use."""
+    """Reason why the stored content of a cell cannot be read; None if it can."""
     if cell.is_error:
         return Refusal(say("cell.error_value"), say("cell.value_or_formula"))
     if cell.formula and cell.value is None:
@@ -383,7 +387,7 @@ def _shift(number: float, digits: int) -> float:
 
 
 def knows_word(field: Field, text: str) -> bool:
-    """A column of words knows a text."""
+    """A text is one of the accepted spellings of a column of words."""
     cell = Cell(file="", sheet="", row=1, column=1, value=text)
     return isinstance(_understand_word(cell, field), str)
 

@@ -40,7 +40,7 @@ def build_layers(
     Parameters
     ----------
     lines : sequence of Row
-        As ``read_layers`` gives them.
+        As ``order_layers`` gives them.
     slope_angle : Reading
         Turns vertical heights into thicknesses normal to the slope.
     findings : list of Finding
@@ -150,7 +150,7 @@ def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
 
 
 def measure_normal(typed: Reading, slope_angle: Reading) -> float | None:
-    """Thickness normal to the slope [m], of itself or of a vertical height."""
+    """Thickness normal to the slope [m], typed as such or as a vertical height."""
     if typed.field.key not in ("height", "snow_height"):
         return typed.si
     if slope_angle.state == "faulty":

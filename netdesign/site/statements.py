@@ -65,7 +65,11 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
 def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
     """Types of the border ropes of a row whose stiffness is not given."""
     named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
-    lacking = (x for x in named if ropes[x]["axial_stiffness"].state != "given")
+    lacking = (
+        type_id
+        for type_id in named
+        if ropes[type_id]["axial_stiffness"].state != "given"
+    )
     return tuple(lacking)
 
 
@@ -78,7 +82,7 @@ def list_stiffnesses(at_end: Row, types: Types) -> tuple[tuple[float, ...], ...]
     """
     guys = (Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY)
     lines = [types["ropes"].get(at_end[guy].word) for guy in guys]
-    alike = [_list_alike(lines, of) for of in _list_multiples(lines)]
+    alike = [_list_rope_stiffnesses(lines, of) for of in _list_multiples(lines)]
     ropes = dict.fromkeys(chain.from_iterable(product(*spans) for spans in alike))
     post = _find_post_stiffness(types["posts"].get(at_end[Member.POST].word))
     return tuple(
@@ -98,7 +102,9 @@ def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
     return multiples or OF_BREAKING
 
 
-def _list_alike(lines: Sequence[Row | None], multiple: float) -> list[Sequence[float]]:
+def _list_rope_stiffnesses(
+    lines: Sequence[Row | None], multiple: float
+) -> list[Sequence[float]]:
     """EA that each rope may have in one construction [N]: uphill, downhill, end guy."""
     stiffnesses: list[float | None] = []
     for line in lines:
@@ -192,8 +198,15 @@ def _is_structure_asked(row: NetRow) -> bool:
     """Something of the structure is given, and no approval proves it."""
     if row.approval is not None and row.approval.document:
         return False
-    parts = (x for x in _list_resistances(row) if x.member not in _ANCHORS)
-    return any(x.basis if x.mode == "mesh" else x.type_id for x in parts)
+    parts = (
+        resistance
+        for resistance in _list_resistances(row)
+        if resistance.member not in _ANCHORS
+    )
+    return any(
+        resistance.basis if resistance.mode == "mesh" else resistance.type_id
+        for resistance in parts
+    )
 
 
 def _is_lacking(resistance: Resistance) -> bool:

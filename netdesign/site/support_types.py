@@ -89,7 +89,7 @@ class _Typed(NamedTuple):
         lack: Message | None = None,
         source: str = "",
     ) -> Resistance:
-        """Resistance of which only the dimensions are known."""
+        """Resistance that follows the demand: only its dimensions are given."""
         return Resistance(
             member=self.member,
             mode=mode,
@@ -104,7 +104,7 @@ class _Typed(NamedTuple):
 def _list_typed(
     row: Row, members: Iterable[AnyMember], types: Types
 ) -> Iterator[_Typed]:
-    """Members of a row with their types, where they have some."""
+    """Members of a row with their types, where these are given."""
     for member in members:
         cell = row[name_column(member)]
         table = cell.field.refers_to
@@ -201,7 +201,7 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
 
 
 def list_catalogue(types: Types) -> tuple[Resistance, ...]:
-    """Resistances of every type of the workbook, of some member that may have it.
+    """Resistances of every type of the workbook, for one member that may have it.
 
     Those that follow the demand have no place here: they need a member.
     """
@@ -318,7 +318,7 @@ def _slide(base: _Typed) -> Resistance:
 
 
 def _hold_foot(foot: _Typed) -> Resistance:
-    """Resistance of a post's foot to tension, as declared; 0 is that of a loose one."""
+    """Resistance of a post's foot to tension, as declared; 0 of a loose foot."""
     held = foot.line["foot_tension"] if foot.line else None
     if held is None or held.state != "given":
         return foot.leave_open("tension", lack=say("check.no_foot_tension"))

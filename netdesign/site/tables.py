@@ -279,7 +279,7 @@ def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
 
 
 def _find_skip_rule(table: Table, row: int, rows: list[int]) -> Message | None:
-    """Rule of a line that holds no data; None of a line of the table."""
+    """Reason why a line holds no data; None of a line of the table."""
     cells = table.sheet.row(row)
     if _repeats_headings(table, cells):
         return say("table.headings_again")

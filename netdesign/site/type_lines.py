@@ -213,7 +213,7 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
 
 
 def _read_single(test: Row) -> SingleTest:
-    """One test; what is not said of its result stays open."""
+    """One test; a result that is not given stays open."""
     words = {"held": True, "pulled out": False}
     return SingleTest(
         load=test["force"].si,
@@ -248,7 +248,9 @@ def name_values(
     values: dict[str, Reading] = {}
     for key in keys:
         field = row[key].field
-        spans = [product.values[x] for x in field.of_product if x in product.values]
+        spans = [
+            product.values[name] for name in field.of_product if name in product.values
+        ]
         if not spans:
             continue
         ends = [end for span in spans for end in span]
@@ -282,7 +284,7 @@ _LINKED = ("ropes", "anchor_types")
 def read_links(
     lines: Sequence[Row], types: Types, findings: list[Finding]
 ) -> Mapping[str, tuple[Link, ...]]:
-    """Chains by type.
+    """Chains of links by type.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ def _compute(
     first: Reading,
     findings: list[Finding],
 ) -> Row:
-    """Line with a resistance that follows from dimensions, at the first's cell."""
+    """Line with a resistance worked out from dimensions, in the cell of the first."""
     try:
         value, derivation = rule(line)
     except ModelError as error:
@@ -97,9 +97,9 @@ def _compute(
 
 
 def find_tests(row: Row) -> PullOutTests | None:
-    """Pull-out tests of an anchor type; None where none, or refused ones, are given.
+    """Pull-out tests of an anchor type; None where none are given, or all are refused.
 
-    Without a number it is one test, without a mean that is the least.
+    Without a number of tests it is 1; without a mean, the mean is the least force.
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
     if least.state != "given" or "faulty" in (count.state, mean.state):
@@ -130,7 +130,7 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
 def _refuse_incomplete(
     row: Row, keys: tuple[str, ...], findings: list[Finding]
 ) -> None:
-    """Refuse some columns without the others."""
+    """Refuse a line that fills only some of the columns that belong together."""
     typed = [row[key] for key in keys if row[key].state == "given"]
     lacking = [row[key] for key in keys if row[key].state == "blank"]
     if typed and lacking and len(typed) + len(lacking) == len(keys):
@@ -205,7 +205,7 @@ def reduce_breaking(row: Row) -> tuple[float, Message | None]:
 
 
 def may_be_rope(line: Row) -> bool:
-    """An anchor whose tendon is a rope, or of which nothing says what it is."""
+    """Whether an anchor's tendon is a rope, or may be, as its kind is not given."""
     if line["kind"].word:
         return line["kind"].word == "rope anchor"
     product = find_product(line["id"].word)
@@ -274,9 +274,9 @@ def _buckling(row: Row) -> tuple[float, Message]:
 
 
 def lacks_inner(line: Row) -> bool:
-    """Lack of an inner diameter of an anchor that may be hollow.
+    """Whether an anchor that may be hollow lacks its inner diameter.
 
-    A bar that is known by its name has one, or is solid.
+    A bar that is recognised by its name has one, or is solid.
     """
     is_solid = line["kind"].word == _SOLID
     return (

@@ -285,7 +285,7 @@ def find_ground_resistance(
         return resistance
     depths = [x for axis in _list_axes(row, pull) for x in anchor.list_depths(axis)]
     if not depths:
-        names = row.list_unsaid_bore(pull.anchor, pull.position)
+        names = row.list_missing_bore(pull.anchor, pull.position)
         return replace(resistance, lack=say("check.unsaid", names=names))
     if not min(depths) > 0.0:
         return replace(resistance, lack=say("wedge.no_depth"))

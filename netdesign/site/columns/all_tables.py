@@ -162,7 +162,7 @@ IGNORE, UNANSWERED = "ignore", "?"
 
 
 def has_no_part(text: str) -> bool:
-    """A heading stands for what no check needs.
+    """A heading is of a column that no check needs.
 
     >>> has_no_part("Remarques :"), has_no_part("Remarques N")
     (True, False)

@@ -73,7 +73,7 @@ _TO_SI = {
     "degC": kelvin_from_celsius,
 }
 
-# Every unit that can be turned into another or into SI, and what is refused as one.
+# Every unit that can be converted, and the spellings that are refused as unclear.
 KNOWN_UNITS: frozenset[str] = frozenset(UNCLEAR_UNITS).union(
     _TO_SI, *_FACTORS, *_CONVERSIONS
 )
@@ -336,7 +336,7 @@ def normalise(text: str) -> str:
 
 # Letters of cp1252 that spreadsheets write for Greek ones; of others "?" is left.
 _FITTED = str.maketrans("\u03b1\u03b2\u03b4\u03b5\u03c0\u03c3\u03c4\u03c6", "aßdepstf")
-_LEAST_LOSSY = 3  # signs: a symbol alone is not told apart without its letter
+_LEAST_LOSSY = 3  # signs: a symbol alone is not recognised without its letter
 
 
 @lru_cache(maxsize=4096)
