@@ -76,9 +76,9 @@ def check(site_file: Path | None, **asked: Any) -> None:
     outputs = plan_outputs(folder, [profile.id for profile in profiles], asked)
 
     def read_again(instead: Mapping[str, str]) -> Site:
-        """Site with other texts in some cells."""
-        given = {**asked, "annotate": None, "instead": instead}
-        return choose_rows(read_asked_site(site_file, given), asked["rows"])
+        """Read the site again with other texts in some cells."""
+        with_texts = {**asked, "annotate": None, "instead": instead}
+        return choose_rows(read_asked_site(site_file, with_texts), asked["rows"])
 
     again = read_again if asked["size"] else None
     name = str(site_file or "--example")
@@ -88,7 +88,7 @@ def check(site_file: Path | None, **asked: Any) -> None:
 def _refuse_contradictions(
     site_file: Path | None, folder: Path | None, asked: Mapping[str, Any]
 ) -> None:
-    """Refuse options that contradict each other, or have no effect.
+    """Refuse options that contradict each other or have no effect.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def _describe_other_profile(names: Sequence[str], site: Site) -> None:
 
 
 def find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
-    """Profiles of the command line, else that of the site, else the default."""
+    """Profiles of the command line, else the profile of the site, else the default."""
     named = site.project.standard
     if names:
         return _load_profiles(names)

@@ -1,4 +1,4 @@
-"""Steps of a check once its site is read: planned, solved, judged, written, printed."""
+"""Carries out the check of a site: solves, judges, writes and prints."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def carry_out(
     asked: Mapping[str, Any],
     site_name: str,
 ) -> int:
-    """Exit code of a check; its files are written, its result is printed.
+    """Check a site, write its files, print its result; returns the exit code.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def carry_out(
     asked : mapping
         Options of the command line, by their names.
     site_name : str
-        What the next commands are told to read.
+        Site in the command lines of next steps.
     """
     from netdesign.study.check_site import check_site
 
@@ -105,7 +105,7 @@ def carry_out(
 
 
 def _print_rows(site: Site, progress: RunProgress) -> OnRow:
-    """Print the head of the matrix; what is returned prints a row once it is known."""
+    """Print the head of the matrix; the returned function prints a finished row."""
     from netdesign.report.console import open_console
     from netdesign.report.terminal import Matrix
     from netdesign.report.what_if import title_pages
@@ -136,7 +136,7 @@ def _write_documents(studies: Sequence[Study]) -> str:
 def _print_summaries(
     studies: Sequence[Study], asked: Mapping[str, Any], *, has_rows: bool = False
 ) -> None:
-    """Print what each study says, of several below the name of its profile."""
+    """Print the summary of each study, of several below the name of its profile."""
     from netdesign.report.console import open_console, print_lines
     from netdesign.report.terminal import print_summary
     from netdesign.report.words import Words
@@ -152,7 +152,7 @@ def _print_summaries(
 
 
 def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
-    """Print what ``--size`` found for each profile, and what its study says."""
+    """Print the types that ``--size`` found for each profile, and their verdict."""
     from netdesign.report.console import open_console, print_lines
     from netdesign.report.what_if import describe_overall, describe_sized
     from netdesign.report.words import Words
@@ -189,14 +189,14 @@ class Outputs:
 def plan_outputs(
     folder: Path | None, profiles: Sequence[str], asked: Mapping[str, Any]
 ) -> Outputs:
-    """Places of the outputs of each profile, by their ids: several get a folder each.
+    """Places of the outputs by profile; each of several profiles has a folder.
 
-    ``asked`` are the options of the command line. Without a folder there are none.
+    ``asked`` are the options of the command line. Without a folder there are no places.
 
     Raises
     ------
     OutputError
-        Where something is there.
+        Where a file is in the way.
     """
     from netdesign.edge.output import require_free
 
@@ -225,7 +225,7 @@ def render_outputs(
     asked: Mapping[str, Any],
     runner: Runner,
 ) -> dict[Path, bytes]:
-    """Contents of all files; processes of the run make some of them."""
+    """Contents of all files; processes of the run render some of them."""
     from netdesign.report.files import render_files
 
     what_ifs = [what_if for _, what_if in sized]
@@ -267,7 +267,7 @@ def _check_and_size(
 
 
 def announce(site: Site, *, as_json: bool) -> None:
-    """Print what would be checked, and what is lacking or asked."""
+    """Print the planned checks, missing inputs and questions."""
     from netdesign.study.cases import count_cases
 
     rows, cases, missing = len(site.rows), count_cases(site), _list_missing(site)
@@ -292,7 +292,7 @@ def announce(site: Site, *, as_json: bool) -> None:
 
 
 def _list_missing(site: Site) -> list[Message]:
-    """Lines on what the net rows lack for a verdict; rows that lack the same share."""
+    """Lines about inputs that net rows lack; rows that lack the same share a line."""
     by_lack: dict[tuple[Message, ...], list[str]] = {}
     for row in site.rows:
         if names := list_missing(row, site.links):

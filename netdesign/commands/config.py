@@ -31,7 +31,7 @@ class ConfiguredCommand(ShortHelpCommand):
     """A command whose defaults may come from a file beside its input."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the defaults first: where their file is depends on the arguments."""
+        """Read the defaults first, since the arguments decide where their file is."""
         typed, _, _ = self.make_parser(ctx).parse_args(list(args))
         path = _find_file(self, typed)
         if path is not None:
@@ -42,11 +42,11 @@ class ConfiguredCommand(ShortHelpCommand):
 def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
     beside = [
         Path(value).parent / CONFIG_NAME
-        for one in command.params
-        if isinstance(one, click.Argument)
-        and isinstance(value := typed.get(one.name or ""), str)
+        for param in command.params
+        if isinstance(param, click.Argument)
+        and isinstance(value := typed.get(param.name or ""), str)
     ]
-    return next((one for one in beside if is_there(one) and one.is_file()), None)
+    return next((path for path in beside if is_there(path) and path.is_file()), None)
 
 
 def _read_defaults(
@@ -61,8 +61,10 @@ def _read_defaults(
     group = ctx.find_root().command
     commands = [
         name
-        for name, one in getattr(group, "commands", {}).items()
-        if isinstance(one, ConfiguredCommand)  # tables of others would never be read
+        for name, command in getattr(group, "commands", {}).items()
+        if isinstance(
+            command, ConfiguredCommand
+        )  # tables of others would never be read
     ]
     faults = [
         _suggest(f"{path}: [{name}]", name, commands)
@@ -93,8 +95,8 @@ def _read_defaults(
 def _read_value(
     ctx: click.Context, option: click.Option, value: object, place: str
 ) -> object:
-    """Value as a command line would give it; a message where it cannot."""
-    if "\\x00" in repr(value):  # no command line can hold one
+    """Value as on a command line, or a message where there is none."""
+    if "\\x00" in repr(value):  # no command line can hold NUL
         return say("config.zero_character", place=place, value=repr(value))
     try:
         word = _write_as_typed(option, value)
@@ -106,12 +108,12 @@ def _read_value(
 
 
 def _write_as_typed(option: click.Option, value: object) -> object:
-    """Value as a command line would give it: words, or a truth value for a flag.
+    """Value as on a command line: words, or a truth value for a flag.
 
     Raises
     ------
     ValueError
-        If no command line can hold it.
+        If no command line can hold the value.
     """
     if isinstance(value, list) and option.multiple:
         if any(isinstance(word, list) for word in value):
@@ -125,7 +127,7 @@ def _write_as_typed(option: click.Option, value: object) -> object:
 
 
 def _name_options(command: click.Command) -> dict[str, click.Option]:
-    """Options by their long names without dashes; the file cannot name another."""
+    """Options by their long names without dashes; the file names these alone."""
     return {
         name.removeprefix("--"): param
         for param in command.params
@@ -141,8 +143,8 @@ def _explain(error: Exception) -> Message | str:
     return explain(error)
 
 
-def _suggest(place: str, word: str, known: list[str]) -> Message:
-    near = difflib.get_close_matches(word, known, n=1)
+def _suggest(place: str, word: str, accepted: list[str]) -> Message:
+    near = difflib.get_close_matches(word, accepted, n=1)
     if not near:
         return say("config.unknown", place=place)
     return say("config.unknown_near", place=place, near=near[0])

@@ -27,7 +27,7 @@ _EXIT_UNSOUND = 5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Probe:
-    """One thing that was looked at."""
+    """Result of a test: its subject, the value shown, and whether it is sound."""
 
     what: Message | str
     shows: Message | str
@@ -42,7 +42,7 @@ def doctor(*, language: Language) -> None:
     for probe in probes:
         key = "doctor.ok" if probe.is_sound else "doctor.fault"
         parts = (say(key), probe.what, probe.shows)
-        mark, what, shows = (render(one, language) for one in parts)
+        mark, what, shows = (render(part, language) for part in parts)
         click.echo(f"{mark:8}{what:24}{shows}")
     sys.exit(0 if all(probe.is_sound for probe in probes) else _EXIT_UNSOUND)
 
@@ -102,7 +102,7 @@ def _name_blas() -> str:
 
 
 def _look_at_core() -> Probe:
-    """Core that solves here; why it is not the compiled one; a switch that is none."""
+    """Name the core that solves here, or why the compiled core is not used."""
     from netdesign.core.library import find_core, is_switched_off, name_core
     from netdesign.core.sources import SWITCH, SWITCHED_OFF, read_switch
 
@@ -117,7 +117,7 @@ def _look_at_core() -> Probe:
 
 
 def _measure_store() -> Probe:
-    """Place and size of the store; one that is damaged is set aside by the next run."""
+    """Place and size of the store; the next run sets a damaged store aside."""
     from netdesign.edge.input_files import is_there
     from netdesign.solving.store import find_store
 
@@ -167,9 +167,9 @@ def _solve_small_scene() -> Message:
     from netdesign.files.scene import SceneFile, build_scene_of_file
     from netdesign.solving.solve import solve_scene
 
-    given = build_scene_of_file(SceneFile.model_validate(_SCENE))
+    to_solve = build_scene_of_file(SceneFile.model_validate(_SCENE))
     start = time.perf_counter()
-    solution = require_solved(solve_scene(given.scene, given.settings))
+    solution = require_solved(solve_scene(to_solve.scene, to_solve.settings))
     elapsed = time.perf_counter() - start
     residual = solution.balance.relative_residual
     return say("doctor.solved", residual=residual, seconds=elapsed)

@@ -13,8 +13,8 @@ import click
 
 from netdesign.commands.options import (
     RANGE,
-    GivenRange,
     ShortHelpCommand,
+    TypedRange,
     refuse_jobs,
     take_options,
 )
@@ -59,19 +59,19 @@ def envelope(scene_file: Path, **asked: Any) -> None:
 
     out = asked["out"]
     refuse_jobs(asked["executor"])
-    ranging = [one.name or "" for one in _list_options()]
-    given = {name: asked[name] for name in ranging if asked[name] is not None}
-    counts = _read_counts(given)
-    read = read_scene_file(scene_file, "steady")
-    spans = _build_ranges(given)
-    require_valid(read.scene, spans)
+    ranging = [option.name or "" for option in _list_options()]
+    spans = {name: asked[name] for name in ranging if asked[name] is not None}
+    counts = _read_counts(spans)
+    to_solve = read_scene_file(scene_file, "steady")
+    ranges = _build_ranges(spans)
+    require_valid(to_solve.scene, ranges)
     require_places(out, (_DOCUMENT,), asked)
-    if read.support is not None and not asked["quiet"]:
+    if to_solve.support is not None and not asked["quiet"]:
         tell(say("envelope.no_support"), err=True)
     start = time.perf_counter()
-    with open_phases(_list_phases(counts, len(given)), asked) as (runner, progress):
+    with open_phases(_list_phases(counts, len(spans)), asked) as (runner, progress):
         task = build_search(
-            *(read.scene, spans, asked["accuracy"]),
+            *(to_solve.scene, ranges, asked["accuracy"]),
             is_confirmed=asked["confirm"] == "mesh",
         )
         document = _solve(task, counts, runner, progress, start)
@@ -88,22 +88,24 @@ def envelope(scene_file: Path, **asked: Any) -> None:
 
 
 def _list_options() -> list[click.Parameter]:
-    """Options of ranges, in the order of the help."""
+    """Options that take a range, in the order of the help."""
     command = click.get_current_context().command
-    return [one for one in command.params if one.type is RANGE]
+    return [param for param in command.params if param.type is RANGE]
 
 
-def _read_counts(given: dict[str, GivenRange]) -> dict[str, int]:
-    """Samples of a grid's ranges, none of a search; refuses what makes no envelope."""
-    if not given:
-        flags = tuple(one.opts[0] for one in _list_options())
+def _read_counts(spans: dict[str, TypedRange]) -> dict[str, int]:
+    """Samples of each range of a grid; empty for a search. Too many are refused."""
+    if not spans:
+        flags = tuple(option.opts[0] for option in _list_options())
         raise UsageRefusal(say("usage.no_range", flags=flags))
-    if len(given) > _MOST_RANGES:
+    if len(spans) > _MOST_RANGES:
         raise UsageRefusal(
-            say("usage.many_ranges", count=len(given), most=_MOST_RANGES)
+            say("usage.many_ranges", count=len(spans), most=_MOST_RANGES)
         )
-    counts = {name: one.count for name, one in given.items() if one.count is not None}
-    if counts and len(counts) < len(given):
+    counts = {
+        name: span.count for name, span in spans.items() if span.count is not None
+    }
+    if counts and len(counts) < len(spans):
         raise UsageRefusal(say("usage.mixed_ranges"))
     cases = math.prod(counts.values())
     if cases > _MOST_GRID_CASES:
@@ -112,7 +114,7 @@ def _read_counts(given: dict[str, GivenRange]) -> dict[str, int]:
 
 
 def _list_phases(counts: dict[str, int], ranging: int) -> list[Phase]:
-    """Phases with about so many cases; confirmations are part of a search."""
+    """Phases with their estimated number of cases, confirmations included."""
     from netdesign.edge.progress import Phase
 
     number = math.prod(counts.values()) if counts else _USUAL_CASES * ranging
@@ -123,11 +125,11 @@ def _list_phases(counts: dict[str, int], ranging: int) -> list[Phase]:
     ]
 
 
-def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
+def _build_ranges(spans: dict[str, TypedRange]) -> Ranges:
     from netdesign.envelope.ranges import PARAMETERS, Interval, Ranges
 
     intervals = {}
-    for name, span in given.items():
+    for name, span in spans.items():
         read = PARAMETERS[name].read
         intervals[name] = Interval(low=read(span.low), high=read(span.high))
     return Ranges.of(**intervals)
@@ -140,7 +142,7 @@ def _solve(
     progress: RunProgress,
     start: float,
 ) -> dict[str, Any]:
-    """Document of a grid with these counts; without any, of a bounded search."""
+    """Document of a grid with ``counts`` samples; without counts, of a search."""
     from netdesign.envelope.search import run_grid, search_rows
     from netdesign.files.cases import write_envelope_document, write_grid_document
 
@@ -148,21 +150,21 @@ def _solve(
         results, skipped = run_grid(task, counts, runner)
         elapsed = time.perf_counter() - start
         return write_grid_document(results, skipped, runner.counts, elapsed, speak())
-    (found,) = search_rows([task], runner, progress.report_wave)
+    (extremes,) = search_rows([task], runner, progress.report_wave)
     elapsed = time.perf_counter() - start
-    return write_envelope_document(found, runner.counts, elapsed, speak())
+    return write_envelope_document(extremes, runner.counts, elapsed, speak())
 
 
 def _show(document: dict[str, Any]) -> None:
     from netdesign.report.words import Words, name_heading
 
     words = Words(speak())
-    for one in document["extremes"]:
-        line = words.show(_describe_extreme(one, words))
-        click.echo(f"{name_heading(words, one['quantity']):30} {line}")
-        again = one.get("confirmation") or {}
-        if again.get("difference_percent") is not None:
-            line = words.show(_describe_confirmation(again))
+    for extreme in document["extremes"]:
+        line = words.show(_describe_extreme(extreme, words))
+        click.echo(f"{name_heading(words, extreme['quantity']):30} {line}")
+        confirmation = extreme.get("confirmation") or {}
+        if confirmation.get("difference_percent") is not None:
+            line = words.show(_describe_confirmation(confirmation))
             click.echo(f"{'':30} {line}")
     counts = tuple(
         say(f"case_count.{what}", count=count)
@@ -174,19 +176,19 @@ def _show(document: dict[str, Any]) -> None:
         tell(say("envelope.not_proven", reason=document["reason"]))
 
 
-def _describe_extreme(one: dict[str, Any], words: Words) -> Message:
-    case = ", ".join(words.name_values(one["case"].items()))
-    bound = one["upper_bound"]
+def _describe_extreme(extreme: dict[str, Any], words: Words) -> Message:
+    case = ", ".join(words.name_values(extreme["case"].items()))
+    bound = extreme["upper_bound"]
     limit = say("envelope.no_bound")
     if bound is not None:
-        limit = say("envelope.nowhere_above", bound=bound, high=one["high"])
-    return say("envelope.at_case", max=one["max"], limit=limit, case=case)
+        limit = say("envelope.nowhere_above", bound=bound, high=extreme["high"])
+    return say("envelope.at_case", max=extreme["max"], limit=limit, case=case)
 
 
-def _describe_confirmation(again: dict[str, Any]) -> Message:
+def _describe_confirmation(confirmation: dict[str, Any]) -> Message:
     return say(
         "envelope.confirmed_again",
-        force=again["confirmed_kN_per_m"],
-        elements=again["elements"],
-        difference=again["difference_percent"],
+        force=confirmation["confirmed_kN_per_m"],
+        elements=confirmation["elements"],
+        difference=confirmation["difference_percent"],
     )

@@ -42,23 +42,24 @@ def read_instead(
     option: click.Parameter | None,
     texts: Sequence[str],
 ) -> dict[str, str]:
-    """Texts by place, of ``CELL=TEXT``.
+    """Read texts ``CELL=TEXT`` into texts by cell.
 
     Raises
     ------
     ValueRefusal
-        If one has another form, or a cell comes twice.
+        If a text has another form, or a cell comes twice.
     """
     from netdesign.site.declared_sheet import split_replacement
 
     instead: dict[str, str] = {}
     for text in texts:
-        found = split_replacement(text)
-        if found is None:
+        replacement = split_replacement(text)
+        if replacement is None:
             raise ValueRefusal(say("what_if.form", text=text), context, option)
-        if found[0] in instead:
-            raise ValueRefusal(say("what_if.twice", cell=found[0]), context, option)
-        instead[found[0]] = found[1]
+        cell, now = replacement
+        if cell in instead:
+            raise ValueRefusal(say("what_if.twice", cell=cell), context, option)
+        instead[cell] = now
     return instead
 
 
@@ -67,26 +68,26 @@ def read_scopes(
     option: click.Parameter | None,
     texts: Sequence[str],
 ) -> tuple[str, ...]:
-    """Scopes of a study, of texts such as ``anchors,siting``.
+    """Read scopes of a study from texts such as ``anchors,siting``.
 
     Raises
     ------
     ValueRefusal
-        If one is none of them.
+        If a text names no scope.
     """
     from netdesign.study.scopes import SCOPES
 
-    named = [one.strip() for text in texts for one in text.split(",")]
-    for one in named:
-        if one not in tuple(SCOPES):
-            message = say("usage.scope", text=one, accepted=tuple(map(str, SCOPES)))
+    scopes = [scope.strip() for text in texts for scope in text.split(",")]
+    for scope in scopes:
+        if scope not in tuple(SCOPES):
+            message = say("usage.scope", text=scope, accepted=tuple(map(str, SCOPES)))
             raise ValueRefusal(message, context, option)
-    return tuple(dict.fromkeys(named))
+    return tuple(dict.fromkeys(scopes))
 
 
 @dataclass(frozen=True, slots=True)
-class GivenRange:
-    """A range as typed, in the engineer's unit; ``count`` is None where not given."""
+class TypedRange:
+    """A range as typed, in the engineer's unit; ``count`` may be left out."""
 
     low: float
     high: float
@@ -94,7 +95,7 @@ class GivenRange:
 
 
 class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 8.5 only
-    """``low:high[:n]``; every fault names the text and what is accepted."""
+    """Reads ``low:high[:n]``; each refusal names the text and the accepted form."""
 
     name = "low:high[:n]"
 
@@ -103,7 +104,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
         value: object,
         param: click.Parameter | None,
         ctx: click.Context | None,
-    ) -> GivenRange:
+    ) -> TypedRange:
         """Read a range.
 
         Raises
@@ -114,9 +115,9 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
         text = str(value)
         try:
             low, high, *samples = text.split(":")
-            span = GivenRange(float(low), float(high), *map(int, samples))
+            span = TypedRange(float(low), float(high), *map(int, samples))
         except (ValueError, TypeError):
-            span = GivenRange(math.nan, math.nan)
+            span = TypedRange(math.nan, math.nan)
         faults = {
             "usage.range_form": not (
                 math.isfinite(span.low) and math.isfinite(span.high)
@@ -133,7 +134,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
 
 
 class StudyType(click.Path):
-    """File of a study, or a folder with one."""
+    """File of a study, or a folder that holds a study."""
 
     def convert(
         self,
@@ -141,7 +142,7 @@ class StudyType(click.Path):
         param: click.Parameter | None,
         ctx: click.Context | None,
     ) -> Path:
-        """Find the study of a folder: study.json, else the only marked one."""
+        """Find the study of a folder: study.json, else its only marked study."""
         from netdesign.edge.input_files import is_there
         from netdesign.edge.output import STUDY_FILE
 
@@ -168,19 +169,19 @@ _READERS = {
 
 
 class ShortHelpCommand(click.Command):
-    """A command whose help shows the options that are used most; another shows all."""
+    """A command whose help shows the usual options; ``--help-all`` shows all."""
 
     def format_options(
         self, ctx: click.Context, formatter: click.HelpFormatter
     ) -> None:
-        """Write those that ``options.toml`` names for the command, or all."""
+        """Write the options that ``options.toml`` names for the command, or all."""
         shown = _load_tables()["help"].get(self.name)
         records = [
             record
-            for one in self.get_params(ctx)
-            if isinstance(one, click.Option)
-            and (ctx.meta.get(_HELP_ALL) or shown is None or _is_shown(one, shown))
-            and (record := one.get_help_record(ctx))
+            for option in self.get_params(ctx)
+            if isinstance(option, click.Option)
+            and (ctx.meta.get(_HELP_ALL) or shown is None or _is_shown(option, shown))
+            and (record := option.get_help_record(ctx))
         ]
         with formatter.section("Options"):
             formatter.write_dl(records)
@@ -190,7 +191,7 @@ _HELP_ALL = "netdesign.help_all"  # where a context remembers that all are asked
 
 
 def _is_shown(option: click.Option, shown: Sequence[str]) -> bool:
-    names = [one.removeprefix("--") for one in option.opts]
+    names = [name.removeprefix("--") for name in option.opts]
     return any(name in (*shown, "help", "help-all") for name in names)
 
 
@@ -227,10 +228,10 @@ def _load_tables() -> dict[str, Any]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def _list_options(given: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Names and tables of options, those of groups in the place of the group."""
+def _list_options(options: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Names and tables of options; a group is replaced by its options."""
     tables = _load_tables()
-    for name, table in given.items():
+    for name, table in options.items():
         if table.get("group") is True:
             yield from _list_options(tables["group"][name])
         else:
@@ -262,36 +263,36 @@ def _build_option(name: str, table: dict[str, Any]) -> Callable[[Any], Any]:
 def _remember_language(
     context: click.Context, _: click.Parameter, language: str
 ) -> str:
-    """Language of the run; what a command refuses is told in it once it has ended."""
+    """Keep the language for messages that are printed after the command ended."""
     context.meta["language"] = language
     return language
 
 
 def refuse_without(names: Sequence[str], *needed: str) -> None:
-    """Refuse options of the command that runs, which belong to one not given.
+    """Refuse options of the running command that have no effect without another.
 
     Parameters
     ----------
     names : sequence of str
         Of their parameters.
     *needed : str
-        Options of which one would give them an effect.
+        Options that would give them an effect.
 
     Raises
     ------
     UsageRefusal
-        If one of them was typed.
+        If such an option was typed.
     """
     _refuse(names, "usage.idle_without", needed=needed)
 
 
 def refuse_delimiter(*paths: Path | None) -> None:
-    """Refuse ``--delimiter`` where no csv file is read; None is the example's workbook.
+    """Refuse ``--delimiter`` where no csv file is read; None stands for the example.
 
     Raises
     ------
     UsageRefusal
-        If it was typed.
+        If the option was typed.
     """
     from netdesign.site.cells.spreadsheet import is_text
 
@@ -307,20 +308,20 @@ def refuse_jobs(executor: str) -> None:
     Raises
     ------
     UsageRefusal
-        If it was typed.
+        If the option was typed.
     """
     if executor:
         _refuse(["jobs"], "usage.idle_beside", other="--executor")
 
 
 def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
-    """Refuse options where typed; defaults of a file may be there for other runs."""
+    """Refuse typed options; defaults of a file may be there for other runs."""
     context = click.get_current_context()
     typed = tuple(
-        max(one.opts, key=len)
-        for one in context.command.params
-        if one.name in names
-        and context.get_parameter_source(one.name) is ParameterSource.COMMANDLINE
+        max(option.opts, key=len)
+        for option in context.command.params
+        if option.name in names
+        and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE
     )
     if typed:
         raise UsageRefusal(say(key, options=typed, **why))

@@ -37,7 +37,7 @@ _TURNED = 1
 def mark_names(
     names: Sequence[str], *, is_what_if: object, is_part: object
 ) -> list[str]:
-    """Names of outputs; those of a what-if, or of some net rows, say so."""
+    """Names of outputs, marked where they are of a what-if or of some net rows."""
     mark = (WHAT_IF_MARK if is_what_if else "") + (PART_MARK if is_part else "")
     return [f"{mark}{name}" for name in names]
 
@@ -48,9 +48,9 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
     Raises
     ------
     NetDesignError
-        If one of them cannot be written on this machine.
+        If a report cannot be written on this machine.
     """
-    wanted = {one: asked[one] for one in _REPORTS}
+    wanted = {option: asked[option] for option in _REPORTS}
     if wanted["pdf"]:
         from netdesign.report.files import require_pdf
 
@@ -59,7 +59,7 @@ def list_wanted(asked: Mapping[str, Any]) -> list[str]:
         from netdesign.report.document.styles import require_docx
 
         require_docx()
-    return [name for one, name in _REPORTS.items() if wanted[one]]
+    return [name for option, name in _REPORTS.items() if wanted[option]]
 
 
 def choose_style(asked: Mapping[str, Any]) -> ReportStyle:
@@ -107,12 +107,12 @@ def report(study_file: Path, **asked: Any) -> None:
 def _look_at(
     studies: Sequence[Study], paths: Sequence[Path], asked: Mapping[str, Any]
 ) -> bool:
-    """Verification of the studies, if it is asked for; told first either way.
+    """Verify the studies if ``--verify`` asks for it, and print whether it was done.
 
     Raises
     ------
     StudyError
-        If one of them does not come out again.
+        If a study differs when it is solved again.
     """
     if asked["verify"]:
         for study, path in zip(studies, paths, strict=True):

@@ -1,4 +1,4 @@
-"""Run of a command: solves followed, faults, files and next steps told, exit codes."""
+"""Runs a command: progress of solves, faults, files, next steps and exit codes."""
 
 from __future__ import annotations
 
@@ -53,12 +53,12 @@ def find_exit_code(studies: Sequence[Study], scopes: Sequence[str] = ()) -> int:
 
 
 def own_command() -> str:
-    """The command line as it was given."""
+    """Command line as typed."""
     return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
 
 
 def format_time() -> str:
-    """Time of the run, or that of SOURCE_DATE_EPOCH for reproducible outputs."""
+    """Time of the run, or SOURCE_DATE_EPOCH for reproducible outputs."""
     from datetime import UTC, datetime
 
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
@@ -77,7 +77,7 @@ def print_document(document: Mapping[str, Any]) -> None:
 def require_places(
     folder: Path | None, names: Iterable[str], asked: Mapping[str, Any]
 ) -> None:
-    """Refuse before any work what is in the way of outputs; nothing without a folder.
+    """Refuse, before any work, files in the way of outputs; no folder, no refusal.
 
     Raises
     ------
@@ -93,14 +93,14 @@ def require_places(
 def write_outputs(
     folder: Path, contents: Mapping[str, bytes], asked: Mapping[str, Any]
 ) -> None:
-    """Write files by their names, or their places, and tell where they are.
+    """Write files by their names or paths, and print where they are.
 
     ``asked`` are options of the command line: force, quiet, as_json.
 
     Raises
     ------
     OutputError
-        Where something is there, or cannot be written.
+        Where a file is in the way, or cannot be written.
     """
     from netdesign.edge.output import write_files
 
@@ -110,7 +110,7 @@ def write_outputs(
 
 
 def report_places(paths: Iterable[Path], asked: Mapping[str, Any]) -> None:
-    """Tell where outputs were written, by their folders; not who asked for silence."""
+    """Print where outputs were written, by folder; nothing with ``--quiet``."""
     is_silent = asked.get("quiet") or asked.get("as_json")
     by_folder: dict[Path, list[Path]] = {}
     for path in [] if is_silent else paths:
@@ -127,7 +127,7 @@ def report_places(paths: Iterable[Path], asked: Mapping[str, Any]) -> None:
 def follow(
     count: int, what: str, asked: Mapping[str, Any]
 ) -> AbstractContextManager[Callable[[object], None] | None]:
-    """Progress through so many things; nothing is shown with ``--quiet``."""
+    """Progress through phases; nothing is shown with ``--quiet``."""
     from netdesign.edge.progress import show_progress
 
     return show_progress(count, what, quiet=bool(asked.get("quiet")), language=speak())
@@ -136,7 +136,7 @@ def follow(
 def open_run(
     site: Site, asked: Mapping[str, Any]
 ) -> AbstractContextManager[tuple[Runner, RunProgress]]:
-    """Workers, store and progress for the check of a site, open while it lasts."""
+    """Open workers, store and progress for the check of a site."""
     from netdesign.study.cases import list_phases
 
     return open_phases(list_phases(site), asked)
@@ -146,7 +146,7 @@ def open_run(
 def open_phases(
     phases: Sequence[Phase], asked: Mapping[str, Any]
 ) -> Iterator[tuple[Runner, RunProgress]]:
-    """Workers, store and progress of some phases, open while they last.
+    """Open workers, store and progress for some phases.
 
     ``asked`` are options of the command line: jobs, executor, cache, quiet.
     """
@@ -178,17 +178,17 @@ def follow_runner(progress: RunProgress, runner: Runner) -> None:
     runner.on_ask, runner.on_done = ask, progress.count_case
 
 
-_SHOWN = 20  # cases of one fault
-TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
+_SHOWN = 20  # cases of a fault
+TRACEBACK = "NETDESIGN_TRACEBACK"  # variable that asks for the traceback
 
 
 def print_faults(faults: Mapping[Fault, Collection[str]]) -> int:
-    """Tell each fault with its cases and their net rows, on stderr.
+    """Print each fault with its cases and their net rows on stderr.
 
     Parameters
     ----------
     faults : mapping of Fault to collection of str
-        What failed, and the ids of the net rows that it befell.
+        Faults, and the ids of the net rows that they concern.
 
     Returns
     -------
@@ -208,13 +208,13 @@ def print_faults(faults: Mapping[Fault, Collection[str]]) -> int:
 
 
 def _describe_alike(faults: Mapping[Fault, Collection[str]]) -> None:
-    """The same fault in some cases: its text once, and the way to the first."""
+    """Print equal faults: their text once, their cases, the first traceback."""
     first = next(iter(faults))
     lines: list[Message | str] = [say("cli.fault", fault=str(first))]
     cases = [
-        _name_case(tuple(sorted(rows)), one.case)
-        for one, rows in faults.items()
-        if one.case
+        _name_case(tuple(sorted(rows)), fault.case)
+        for fault, rows in faults.items()
+        if fault.case
     ]
     lines += cases[:_SHOWN]
     if cases[_SHOWN:]:
@@ -232,7 +232,7 @@ def _name_case(rows: tuple[str, ...], case: str) -> Message:
 
 
 def print_next_step(verdicts: Set[Verdict], site: str) -> None:
-    """Tell how smaller or stronger types are found, where a row fails.
+    """Print how smaller or stronger types are found, where a row fails.
 
     ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
     line.

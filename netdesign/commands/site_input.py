@@ -1,4 +1,4 @@
-"""Site workbooks: how commands read one; ``netdesign init``, ``netdesign map``."""
+"""Reads site workbooks for commands; ``netdesign init``, ``netdesign map``."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
 def require_source(
     site_file: Path | None, asked: Mapping[str, Any], *others: Path
 ) -> None:
-    """Refuse a command without one source, and what has no effect on how it is read.
+    """Refuse a command without a single source, and options without an effect on it.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def require_source(
 
 
 def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
-    """Site by the options of a command; the example goes through a real workbook too.
+    """Read the site by the options of a command; the example is a workbook, too.
 
     Raises
     ------
@@ -100,11 +100,11 @@ def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
 
 
 def choose_rows(site: Site, ids: Sequence[str]) -> Site:
-    """Site with the net rows that are asked for; all of them where none is named."""
-    given = tuple(row.id for row in site.rows)
-    strange = tuple(row_id for row_id in ids if row_id not in given)
-    if strange:
-        raise UsageRefusal(say("usage.no_row", rows=strange, given=given))
+    """Site with the named net rows; with all rows where none is named."""
+    row_ids = tuple(row.id for row in site.rows)
+    unknown = tuple(row_id for row_id in ids if row_id not in row_ids)
+    if unknown:
+        raise UsageRefusal(say("usage.no_row", rows=unknown, given=row_ids))
     return site.take_rows(ids) if ids else site
 
 
@@ -118,7 +118,7 @@ def build_text_format(asked: Mapping[str, Any]) -> TextFormat:
 
 
 def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> None:
-    """Refuse replaced cells that nothing reads: their outputs would claim a change.
+    """Refuse replaced cells that are never read: outputs would claim a change.
 
     Raises
     ------
@@ -128,10 +128,10 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
     from dataclasses import replace
 
     def read_bare(cells: Mapping[str, str]) -> Site | None:
-        """Site but for what only says that a cell was replaced; None if refused."""
+        """Site without the notes on replaced cells; None if the site is refused."""
         try:
             site = read(cells)
-        except SiteDataError:  # the cell that is left out is needed by another one
+        except SiteDataError:  # another cell needs the cell that is left out
             return None
         rows = (
             replace(row, inputs=tuple(replace(e, derivation=None) for e in row.inputs))
@@ -151,7 +151,7 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
 
 @contextmanager
 def temporary_example() -> Iterator[Path]:
-    """Workbook of the built-in example, there as long as it is read.
+    """Write the built-in example to a temporary workbook.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def _write_copy(
     from netdesign.site.cells.findings import Finding
     from netdesign.site.template.annotate import annotate_workbook
 
-    findings = [one for one in read.findings if isinstance(one, Finding)]
+    findings = [finding for finding in read.findings if isinstance(finding, Finding)]
     form, copy = build_text_format(asked), asked["annotate"]
     try:
         content = annotate_workbook(path, findings, form, speak())
@@ -208,9 +208,9 @@ def init(site_file: Path, **asked: Any) -> None:
     if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))
     more = [*filter(None, map(str.strip, (asked["more"] or "").split(",")))]
-    strange = tuple(one for one in more if one not in WITH)
-    if strange:
-        raise UsageRefusal(say("usage.init_with", sheets=strange, known=tuple(WITH)))
+    unknown = tuple(sheet for sheet in more if sheet not in WITH)
+    if unknown:
+        raise UsageRefusal(say("usage.init_with", sheets=unknown, known=tuple(WITH)))
     write_site_workbook(
         site_file,
         example=asked["example"],
@@ -252,7 +252,7 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     place, overwrite = name_map(site_file), asked["force"]
     require_free([place], overwrite=overwrite)
     form = build_text_format(asked)
-    read_cells(site_file, form)  # one of version 0.1 is refused with what to do
+    read_cells(site_file, form)  # a workbook of version 0.1 is refused
     if not is_own_list(site_file, form):
         raise UsageRefusal(say("usage.map_new", file=str(site_file)))
     text, missing = write_list_map(site_file, form, asked["language"])
@@ -278,8 +278,8 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     made = rewrite(workbook, asked["language"])
     content = render_input(made.tables, asked["language"], (), made.measures)
     write_files({new: content}, overwrite=asked["force"])
-    for one in made.done:
-        tell(one)
+    for message in made.done:
+        tell(message)
     tell(say("cli.wrote", path=str(new)), err=True)
     command = shlex.join(["netdesign", "check", str(new)])
     tell(say("rewrite.next", command=command), err=True)

@@ -1,4 +1,4 @@
-"""``netdesign solve``: one scene, printed or as a folder."""
+"""``netdesign solve``: solves a scene, and prints it or writes a folder."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def solve(scene_file: Path, **asked: Any) -> None:
     from netdesign.files.scene import read_scene_file
     from netdesign.files.solution import write_solution_document
 
-    given, out = read_scene_file(scene_file, asked["method"]), asked["out"]
-    scene, settings = given.scene, given.settings
+    to_solve, out = read_scene_file(scene_file, asked["method"]), asked["out"]
+    scene, settings = to_solve.scene, to_solve.settings
     require_places(out, (_DOCUMENT, _HISTORY), asked)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
-    support = _resolve_support(solution, given)
+    support = _resolve_support(solution, to_solve)
     document = write_solution_document(
         solution, settings, elapsed, asked["language"], support
     )
@@ -80,7 +80,7 @@ def solve(scene_file: Path, **asked: Any) -> None:
 
 
 def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
-    """Solution of a scene, and the exit code of a fault; it is told on stderr."""
+    """Solution of a scene, and the exit code of a fault, which is printed on stderr."""
     from netdesign.coupling.solution import FailedSolution
     from netdesign.solving.solve import describe_case, solve_scene
 
@@ -92,21 +92,21 @@ def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     return failed, print_faults({solution: ()})
 
 
-def _resolve_support(solution: Solved, given: SceneToSolve) -> dict[str, Any] | None:
+def _resolve_support(solution: Solved, to_solve: SceneToSolve) -> dict[str, Any] | None:
     """Support of a net for the document; None without a solution or a support."""
-    if given.support is None:
+    if to_solve.support is None:
         return None
     from netdesign.coupling.solution import Solution
     from netdesign.files.cases import resolve_support, write_support
 
     if not isinstance(solution, Solution):
         return None
-    result = resolve_support(solution, given.settings, given.support)
-    return write_support(result, given.support, speak())
+    result = resolve_support(solution, to_solve.settings, to_solve.support)
+    return write_support(result, to_solve.support, speak())
 
 
 def _render(document: dict[str, Any], solution: Solved) -> dict[str, bytes]:
-    """Contents of the outputs by name: the document, of a history its table, too."""
+    """Contents of the outputs by name: the document, and the table of a history."""
     files = {_DOCUMENT: json.dumps(document, indent=1, allow_nan=False).encode()}
     if history := getattr(solution, "history", None):
         files[_HISTORY] = history.write_table()
@@ -144,7 +144,7 @@ def _describe_end(end: str, pull: dict[str, float]) -> Message:
 
 
 def _describe_support(support: dict[str, Any] | None) -> Iterator[Message]:
-    """Forces of both sets, ropes and row end, a line each."""
+    """Lines about the members' forces of section and panel."""
     if support is None:
         return
     if "reason" in support:

@@ -1,4 +1,4 @@
-"""Stored study solved again from its own inputs, and what does not come out again."""
+"""Solves a stored study again from its own inputs, and lists the differences."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ _SHOWN = 20  # differences; more are counted
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inputs:
-    """Site and limit profile of a stored study, as they are now."""
+    """Present site and limit profile of a stored study."""
 
     site: Site
     profile: Standard
 
     def list_hashes(self, study: Study) -> list[tuple[Message, str, str]]:
-        """Name, stored hash and hash of now, of each."""
+        """Name, stored hash and present hash of each input."""
         made, used = study.provenance, study.profile
         return [
             (say("verify.site_file"), made.site_sha256, self.site.sha256),
@@ -39,12 +39,12 @@ class Inputs:
 
 
 def find_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> Inputs:
-    """Site and profile by their names, or as the options ``asked`` give them.
+    """Find site and profile by their names, or by the options ``asked``.
 
     Raises
     ------
     NetDesignError
-        If one of them is not there, or cannot be read.
+        If an input is missing, or cannot be read.
     """
     from netdesign.study.record_provenance import load_own_profile
 
@@ -56,27 +56,27 @@ def find_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> Inp
 
 
 def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
-    """Site of a study: as given, by its name, or the built-in example.
+    """Read the site of a study: ``site_file``, a file of its name, or the example.
 
     Raises
     ------
     StudyError
-        If there is none.
+        If no such site is found.
     """
     from netdesign.edge.input_files import is_there, make_printable
 
     name = Path(study.provenance.site_file).name  # never a path out of these folders
     folder = study_file.absolute().parent
-    near = [one / name for one in (folder, folder.parent)]
+    places = [parent / name for parent in (folder, folder.parent)]
     if site_file is not None:
         return _read_again(study, site_file)
-    found = next((one for one in near if name and is_there(one)), None)
-    if found is None:  # a study has a blank for a sign that would steer a terminal
-        beside = (one for place in near for one in sorted(place.parent.iterdir()))
-        alike = (one for one in beside if make_printable(one.name) == name)
-        found = next(alike, None)
-    if found is not None:
-        return _read_again(study, found)
+    site_path = next((path for path in places if name and is_there(path)), None)
+    if site_path is None:  # a study has a blank for a sign that would steer a terminal
+        beside = (path for place in places for path in sorted(place.parent.iterdir()))
+        alike = (path for path in beside if make_printable(path.name) == name)
+        site_path = next(alike, None)
+    if site_path is not None:
+        return _read_again(study, site_path)
     with temporary_example() as path:
         if name == path.name:
             return _read_again(study, path)
@@ -84,7 +84,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
 
 
 def _read_again(study: Study, path: Path) -> Site:
-    """Site from a file, by the options that took effect when it was read."""
+    """Read a site again with the options that the study was made with."""
     from netdesign.site.declared_sheet import split_replacement
     from netdesign.site.reader import read_site
     from netdesign.study.record_provenance import read_library_name, read_text_format
@@ -98,7 +98,7 @@ def _read_again(study: Study, path: Path) -> Site:
 
 
 def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study:
-    """Study of the same inputs, solved now; no stored case is used.
+    """Solve the same inputs again, without stored cases.
 
     A fault of the program in a solve ends the command.
     """
@@ -116,12 +116,12 @@ def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study
 
 
 def require_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> Inputs:
-    """Site and profile with the hashes that the study names.
+    """Find site and profile, which must have the hashes of the study.
 
     Raises
     ------
     StudyError
-        If one has another.
+        If an input has another hash.
     """
     inputs = find_inputs(study, study_file, asked)
     hashes = inputs.list_hashes(study)
@@ -131,18 +131,18 @@ def require_inputs(study: Study, study_file: Path, asked: Mapping[str, Any]) -> 
 
 
 def require_verified(study: Study, study_file: Path, asked: Mapping[str, Any]) -> None:
-    """Refuse a study of which a new solve gives other values.
+    """Refuse a study whose values differ when it is solved again.
 
     Raises
     ------
     StudyError
-        With the places, or with the file that is not the study's.
+        Names the values that differ, or the input with another hash.
     """
     from netdesign.study.record_provenance import list_differences
 
     inputs = require_inputs(study, study_file, asked)
-    _, found = list_differences(study, solve_again(study, inputs, asked))
-    _refuse(study_file, show_differences(found))
+    _, differences = list_differences(study, solve_again(study, inputs, asked))
+    _refuse(study_file, show_differences(differences))
 
 
 def _refuse(study_file: Path, lines: list[Message]) -> None:
@@ -152,9 +152,10 @@ def _refuse(study_file: Path, lines: list[Message]) -> None:
         )
 
 
-def show_differences(found: list[Difference]) -> list[Message]:
-    """Lines on the first places at which values do not come out again."""
-    lines = [say("verify.difference", value=one.message) for one in found[:_SHOWN]]
-    if found[_SHOWN:]:
-        lines.append(say("verify.more", count=len(found) - _SHOWN))
+def show_differences(differences: list[Difference]) -> list[Message]:
+    """Lines about the first differences, and the number of the others."""
+    messages = (difference.message for difference in differences[:_SHOWN])
+    lines = [say("verify.difference", value=message) for message in messages]
+    if differences[_SHOWN:]:
+        lines.append(say("verify.more", count=len(differences) - _SHOWN))
     return lines

@@ -67,21 +67,23 @@ def table(site_file: Path | None, **asked: Any) -> None:
     print_anchor_table(rows, open_console(), words)
 
 
-def _find_study(site: Site, site_file: Path | None, given: Path | None) -> Study | None:
-    """Study with the coupled forces of a site; None where none is at hand.
+def _find_study(
+    site: Site, site_file: Path | None, study_file: Path | None
+) -> Study | None:
+    """Study with the coupled forces of a site; None where no study is found.
 
     Raises
     ------
     StudyError
-        If the one that is given is of another site, or of another version of it.
+        If ``study_file`` is of another site, or of another version of the site.
     """
     from netdesign.edge.input_files import is_there
     from netdesign.study.document import load_study
 
-    if given is not None:
-        study = load_study(given)
+    if study_file is not None:
+        study = load_study(study_file)
         if study.provenance.site_sha256 != site.sha256:
-            raise StudyError(say("table.other_site", study=str(given)))
+            raise StudyError(say("table.other_site", study=str(study_file)))
         return study
     folder = site_file.absolute().parent if site_file else Path.cwd()
     for path in (folder / STUDY_FILE, folder / DEFAULT_FOLDER / STUDY_FILE):

@@ -10,18 +10,18 @@ from netdesign.words.message import Message
 
 
 def speak() -> Language:
-    """Language of the command that runs; English outside of any."""
+    """Language of the running command; English outside of commands."""
     context = click.get_current_context(silent=True)
-    found: Language = context.params.get("language", "en") if context else "en"
-    return found
+    language: Language = context.params.get("language", "en") if context else "en"
+    return language
 
 
 def tell(
     message: Message | str, language: Language | None = None, *, err: bool = False
 ) -> None:
-    """Print a message in the language of the command, unless it is another one.
+    """Print a message in the language of the command, or in ``language``.
 
-    Control characters in given texts are made visible.
+    Control characters in the message are made visible.
     """
     click.echo(make_printable(render(message, language or speak())), err=err)
 
