@@ -22,7 +22,7 @@ from netdesign.guideline.floor import Floor
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.structure.anchors import measure_pull
 from netdesign.structure.layout import Point
-from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
+from netdesign.structure.members import Member, RopeForce
 
 _DIRECTIONS = 16  # in which the outermost of the pulls are looked for
 
@@ -137,18 +137,6 @@ def measure_feet(
     turns = measure_pull(x, y, Member.FOOT_ANCHOR)
     ends = (float(turns.min()), float(turns.max())) if turns.size else ()
     return FootPulls(turns=ends, along=share)
-
-
-def find_least_tension(results: Sequence[CaseResult]) -> float:
-    """Least tension of the guys on both sides, of which one is at work [N]."""
-    converged = (result.member_forces for result in results if result.is_converged)
-    least = [sum(forces[guy].low for guy in GUYS) for forces in converged]
-    by_panel = tuple(map(name_in_panel, GUYS))
-    least += [
-        float(np.sum([panel.bands[guy][0] for guy in by_panel], axis=0).min())
-        for panel in list_panels(results)
-    ]
-    return min(least)
 
 
 def find_least_ropes(results: Sequence[CaseResult]) -> dict[RopeForce, float]:

@@ -97,10 +97,9 @@ class NetRow:
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = field(
         default=None, hash=False
     )
-    # Between two posts: one, or several of which the worst counts, where something of
-    # it is assumed; none of a row without ropes: a metre of net times the spacing.
+    # Between two posts, as they may be built, of which the worst counts: no cell says
+    # the cut of a net.
     panels: tuple[Panel, ...] = ()
-    is_panel_assumed: bool = False  # as of every row that is read: no cell says its cut
     row_end: RowEnd | None = None  # of a row with panel and end
     # mesh, and border ropes where there are some
     net_parts: tuple[Resistance, ...] = field(default=(), hash=False)

@@ -268,7 +268,6 @@ def _compose_net_row(
         axes=read_axes(row, ANCHORS, types),
         anchors=read_anchors(row, ANCHORS, types),
         panels=build_panels(row, types["ropes"]),
-        is_panel_assumed=True,
         row_end=None if gap == 0.0 else build_row_end(at_end, types),
         net_parts=find_net_parts(row, types),
         approval=read_approval(row),

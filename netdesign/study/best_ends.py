@@ -156,8 +156,7 @@ class _BestEnds:
             check = self._ease(_take_off_ropes, "assumed.by_ropes")
         if check.verdict is Verdict.FAIL and _has_open_truss(self.row):
             check = self._ease(take_off_truss, "assumed.by_stiffness")
-        is_open = bool(self.searched or self.task.row.is_panel_assumed)
-        if check.verdict is Verdict.FAIL and is_open:
+        if check.verdict is Verdict.FAIL:
             check = check.ease(self._find_least())
         if check.verdict is not Verdict.FAIL and (deciding := self._tell()):
             check = check.with_open(OpenKind.ASSUMED_DECIDES, deciding)
@@ -199,7 +198,7 @@ class _BestEnds:
         """Low end of the utilisation at the best corner of what is searched [-].
 
         In the case that governs the check, at its density, friction and inclination:
-        over all cases it is no less. Of an assumed panel what any brings at least. 0
+        over all cases it is no less. Of the panels what any brings at least. 0
         where that cannot be calculated.
         """
         row = self.best.row

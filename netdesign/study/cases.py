@@ -146,7 +146,6 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         anchors=(),
         end_anchors=None,
         panels=(),
-        is_panel_assumed=False,
         row_end=None,
         assumed=(),
         ranges=NO_RANGES,

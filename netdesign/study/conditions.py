@@ -137,10 +137,8 @@ def _list_of_types(forces: RowForces) -> Iterator[Condition]:
                 yield _state("basis")
             if not resistance.tests:
                 yield _state("sleeve")
-    if row.find_assumed("panel_system"):
-        yield _state("rectangular")
-    if len(row.panels) > 1:  # of those that may be built, the ones that hang free count
-        yield _state("hangs_free")
+    yield _state("rectangular")
+    yield _state("hangs_free")  # of the panels that may be built, those count
     if row.row_end and row.guys.count > 1 and len(row.row_end.stiffnesses) > 1:
         yield _state("one_construction")
 

@@ -143,7 +143,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         guideline=record_guideline(forces.row, foot, task.standard),
         floor=forces.floor,
         model_form=model_form,
-        notes=list_judged_notes(forces, checks, cases, governing),
+        notes=list_judged_notes(forces, checks, cases),
         held_sideways=forces.along_row,
         end_guy=forces.at_end,
         reliability=_find_reliability(worst, row_checks, run),

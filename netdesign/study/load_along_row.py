@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.ranges import Interval
-from netdesign.envelope.row_pulls import HeadPulls, find_least_tension
+from netdesign.envelope.row_pulls import HeadPulls
 from netdesign.guideline.floor import HeadSpan
 from netdesign.site.model import NetRow
 from netdesign.structure.head import (
@@ -91,19 +91,13 @@ def _record(
     }
     pull = heads.bound_size(sum(hidden.values()))
     of_floor = 0.0 if is_layout_assumed(row) else _find_floor_tension(row, floor)
-    # Between two panels or two layouts as they may be built, the guy of one side can
-    # give way to that of the other: then none is counted on.
-    least = 0.0
-    if not row.is_panel_assumed and not is_layout_assumed(row):
-        in_guys = sum(hidden.get(guy, 0.0) for guy in GUYS)
-        least = max(0.0, find_least_tension(task.solved.results) - in_guys)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
         pull_low_kN=kilonewton_from_newton(pull.low),
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
-        least_tension_kN=kilonewton_from_newton(min(least, of_floor)),
+        least_tension_kN=0.0,
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
         **weigh_places(_place_heads(row, heads)),

@@ -13,9 +13,7 @@ from netdesign.checks.check import Check
 from netdesign.checks.comparison import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
-from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import Ranges
-from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -143,9 +141,8 @@ def list_judged_notes(
     forces: RowForces,
     checks: Sequence[Check],
     cases: Sequence[CaseRecord],
-    drawn: CaseResult | None,
 ) -> list[Message]:
-    """Notes of a row by its inputs, checks and cases, of which one is drawn."""
+    """Notes of a row by its inputs, checks and cases."""
     row, ranges, standard = forces.row, forces.site.ranges, forces.standard
     return [
         *list_row_notes(forces),
@@ -153,7 +150,6 @@ def list_judged_notes(
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
         *list_guy_notes(row, ranges, checks, standard),
-        *_list_sag_notes(row, drawn),
         *list_case_notes(cases),
     ]
 
@@ -304,17 +300,3 @@ def _find_cosine(row: NetRow, ranges: Ranges, guy: Member) -> float:
         along = abs(points.head[0] - anchor[0])
         cosines.append(along / math.dist(points.head, anchor))
     return max(cosines) * math.cos(row.guys.splay or 0.0)
-
-
-def _list_sag_notes(row: NetRow, drawn: CaseResult | None) -> Iterator[Message]:
-    """Height of the loaded net between two posts, in the case that is drawn."""
-    panel = drawn.panel if drawn else None
-    if row.is_panel_assumed or not isinstance(panel, PanelForces):
-        return
-    height = float(panel.solution.curves[-1][1, -1])  # of the head, in mid-panel
-    yield say(
-        "row.loaded_net",
-        height=height,
-        of_net=height / row.net_height,
-        of_snow=height / row.held_thickness,
-    )

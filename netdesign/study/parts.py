@@ -59,7 +59,7 @@ def _list_anchors(row: NetRow) -> Iterator[tuple[str, Resistance, int | None]]:
             if anchor not in types:
                 continue
             yield anchor, types[anchor], _count(row, anchor, position, supports)
-    if row.panels and all(panel.has_mid_anchors for panel in row.panels):
+    if any(panel.has_mid_anchors for panel in row.panels):
         foot = _index(row.resistances)[Member.FOOT_ANCHOR]
         yield Member.FOOT_ANCHOR, foot, None if posts is None else posts - 1
     held = _index(row.row_end.resistances) if row.row_end else {}

@@ -75,14 +75,12 @@ def find_forces_alone(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> Row
 
 
 def find_least_forces(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> RowForces:
-    """Knowledge of a variant with what any panel that is assumed of it brings at least.
+    """Knowledge of a variant with what any panel that it may have brings at least.
 
     That is what its section brings, and the pull of each rope in the panel that pulls
-    on it least. As `find_forces_alone` where the panel is given.
+    on it least.
     """
     cases = gather_cases(task, row, solved)
-    if not row.is_panel_assumed:
-        return place_forces(cases, read_cases(cases))
     heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
     cases = replace(cases, heads=heads, feet=feet, factors=RopeFactors())
@@ -199,7 +197,7 @@ def read_cases(cases: RowCases) -> RowForces:
             row, (result.case.inclination for result in results if result.is_converged)
         ),
         open_cases=task.solved.gap,
-        open_panel=_find_failed_panel(row, results),
+        open_panel=_find_failed_panel(results),
     )
 
 
@@ -222,9 +220,9 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
     return replace(forces, end_guy=find_end_guy(task, load, cases.heads))
 
 
-def _find_failed_panel(row: NetRow, results: Sequence[CaseResult]) -> Message | None:
-    """Reason why an assumed panel fails, so that a force may be larger."""
+def _find_failed_panel(results: Sequence[CaseResult]) -> Message | None:
+    """Reason why a panel fails, so that a force may be larger."""
     failed = [result for result in results if isinstance(result.panel, FailedPanel)]
-    if not failed or not row.is_panel_assumed:
+    if not failed:
         return None
     return say("panel.assumed_fails", reason=failed[0].lack or "")

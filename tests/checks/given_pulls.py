@@ -109,7 +109,6 @@ def read_row(*, anchor, post=POST, tests=(), **row):
         "axes": tuple((AXES[key], math.radians(angle)) for key, angle in axes.items())
         or given.axes,
         "panels": (),
-        "is_panel_assumed": False,
         "row_end": None,
         "net_parts": given.net_parts[:1],
         "assumed": tuple(x for x in given.assumed if x.key in TOLD),

@@ -159,7 +159,7 @@ def test_what_fails_fails_with_every_panel_that_is_assumed():
         panels=PANELS,
         net_parts=list_net_parts(6e4, has_ropes=True),
     )
-    assumed = index(judge(replace(row, is_panel_assumed=True), (0.05, 0.05)))
+    assumed = index(judge(row, (0.05, 0.05)))
     alone = [
         index(judge(replace(row, panels=(one,)), (0.05, 0.05))) for one in PANELS[::2]
     ]

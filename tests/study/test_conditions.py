@@ -28,6 +28,7 @@ def test_only_what_no_cell_says_is_left_as_a_condition(solved):
         "apart",
         "protected",
         "rectangular",
+        "hangs_free",
     }
     assert study.conditions == study.rows[0].conditions
 

@@ -300,7 +300,7 @@ def list_notes(study: Study, words: Words) -> list[str]:
 
 
 # Notes that ask nothing of anyone: no number of them decides.
-_BESIDE = ("row.loaded_net", "row.guys_in_snow")
+_BESIDE = ("row.guys_in_snow",)
 
 
 # Notes of which the largest number is said for all rows.
