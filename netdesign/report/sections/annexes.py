@@ -148,7 +148,19 @@ def show_quality(study: Study, words: Words) -> Part:
         words("heading.annex_quality"),
         build_opinions(study, words).shown("extremes"),
         *_list_refused(study, words),
+        Items(items=tuple(_tell_information(study, words))),
     )
+
+
+def _tell_information(study: Study, words: Words) -> Iterator[str]:
+    """What decides nothing: why the guideline's forces differ, and notes of a row."""
+    for row in study.rows:
+        messages = [note for note in row.notes if not basis.is_of_row(note)]
+        if row.guideline is not None:
+            messages.insert(0, row.guideline.sentence)
+        for message in messages:
+            text = words.show(message)
+            yield words("show.label", label=show_text(row.id), text=text)
 
 
 def explain_case(case: CaseRecord, words: Words) -> Cell:
