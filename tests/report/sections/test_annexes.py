@@ -46,7 +46,7 @@ def test_why_the_guideline_differs_and_what_is_information_stand_in_the_annex():
     note = say("row.guys_in_snow", guys=(), pressure=5.3)
     rows = [replace(STUDY.rows[0], notes=[note]), *STUDY.rows[1:]]
     annex = show_quality(replace(STUDY, rows=rows), ENGLISH)
-    (items,) = [block.items for block in annex.blocks if isinstance(block, Items)]
+    *_, items = [block.items for block in annex.blocks if isinstance(block, Items)]
     compared = [row.guideline.sentence for row in rows if row.guideline]
     for message in (*compared, note):
         assert any(text.endswith(ENGLISH.show(message)) for text in items)
