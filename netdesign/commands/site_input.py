@@ -138,7 +138,9 @@ def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> Non
             for row in site.rows
         )
         # what no check reads is no part of the comparison either
-        of_addons = {x: y for x, y in site.of_addons.items() if x in OF_ROWS}
+        of_addons = {
+            key: site.of_addons[key] for key in site.of_addons if key in OF_ROWS
+        }
         bare = replace(site, what_if=(), rows=tuple(rows), findings=(), notes=())
         return replace(bare, of_addons=of_addons)
 
@@ -275,10 +277,10 @@ def _rewrite(old: Path, new: Path, asked: Mapping[str, Any]) -> None:
     workbook = read_old(old, build_text_format(asked))
     if workbook is None:
         raise UsageRefusal(say("usage.map_not_old", file=str(old)))
-    made = rewrite(workbook, asked["language"])
-    content = render_input(made.tables, asked["language"], (), made.measures)
+    rewritten = rewrite(workbook, asked["language"])
+    content = render_input(rewritten.tables, asked["language"], (), rewritten.measures)
     write_files({new: content}, overwrite=asked["force"])
-    for message in made.done:
+    for message in rewritten.done:
         tell(message)
     tell(say("cli.wrote", path=str(new)), err=True)
     command = shlex.join(["netdesign", "check", str(new)])

@@ -1,7 +1,7 @@
 """Opens a site file of any accepted kind safely: xlsx, xlsm, csv.
 
-Of csv files it finds encoding and delimiter. One file is one sheet: in a folder the one
-that its name says, alone the net rows. All cells are text; row numbers are those of the
+It finds encoding and delimiter of csv files. Each file is a sheet: in a folder the
+sheet that its name gives, alone the net rows. All cells are text, with rows as in the
 file.
 """
 
@@ -223,7 +223,7 @@ def read_workbook(
     is_wanted : callable
         Tells from a sheet's name whether to read it.
     is_heading : callable
-        Tells from a cell's text whether it is a known heading; finds the
+        Tells from a cell's text whether it is a known heading, which finds the
         delimiter of a csv file.
     text_format : TextFormat
         What is declared of the file's text.
@@ -236,7 +236,7 @@ def read_workbook(
     Raises
     ------
     SiteDataError
-        With one finding, if the file as a whole cannot be read: missing, not a
+        With a finding, if the file as a whole cannot be read: missing, not a
         workbook, damaged, hostile or far too large.
     """
     is_folder = _is_folder(path)

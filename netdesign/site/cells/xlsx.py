@@ -194,9 +194,9 @@ def _is_struck(cell: Any) -> bool:
 
 
 def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
-    """Last filled row, merged ranges, what is hidden, and the formulas of a sheet.
+    """Last filled row, merged ranges, hidden rows and columns, formulas of a sheet.
 
-    openpyxl gives merged ranges only in its other mode, which makes one object
+    openpyxl gives merged ranges only in its other mode, which makes an object
     of every merged cell: a few bytes of XML would exhaust the memory.
     """
     from defusedxml.ElementTree import iterparse

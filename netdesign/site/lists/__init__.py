@@ -1,5 +1,5 @@
-"""A list of an office's own: its headings mapped to the input workbook, and read so.
+"""Reads an office's own list: its headings are mapped to the input workbook.
 
-`targets` has what a heading may mean, `list_map` the file of answers, `join` makes of
-the list the sheets that the input workbook would have; `ask` writes the file.
+`targets` has the columns that a heading may mean, `list_map` reads the file of
+answers, `ask` writes it, and `join` builds the sheets of the input workbook.
 """

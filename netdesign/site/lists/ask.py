@@ -73,7 +73,7 @@ _OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadingGuess:
-    """First answer to a heading, how it was found, and what else it may mean.
+    """First answer to a heading, with its reason and other possible columns.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class HeadingGuess:
     target : Target or None
         Column that the answer names.
     how : Message or None
-        How it was found.
+        Reason for the answer.
     ranked : str
         Likeliest columns, with how alike they are, of 100.
     cells : str
@@ -117,7 +117,7 @@ def write_list_map(
     ------
     SiteDataError
         If the list cannot be read at all, or a file of answers beside it; if no sheet
-        has headings that are known.
+        has known headings.
     """
     answers = read_list_map(path)
     if answers:
@@ -293,7 +293,7 @@ def guess_headings(
 def _guess(
     text: str, unit: str, becomes: str, below: Sequence[Cell], language: Language
 ) -> HeadingGuess:
-    """First answer to one heading."""
+    """First answer to a heading."""
     if has_no_part(text):
         return HeadingGuess(answer=IGNORE, how=say("list_map.no_part"))
     targets = [target for target in list_targets(becomes) if target.has_unit(unit)]
@@ -395,7 +395,7 @@ def _ask_always(
 
 
 def _explain(heading: HeadingGuess, language: Language) -> str:
-    """How an answer was found, what else the heading may mean, and its first cells."""
+    """Comment on an answer: its reason, other possible columns, its first cells."""
     how = render(heading.how, language) if heading.how else ""
     ranked = heading.ranked if UNANSWERED in heading.answer else ""
     cells = (

@@ -28,7 +28,7 @@ class Guess(NamedTuple):
     ranked : list of Target and float
         The likeliest first, with how alike their names are, of 100.
     target : Target or None
-        The one that may be taken; None where only an engineer knows.
+        Column that may be taken; None where an engineer must decide.
     """
 
     ranked: list[tuple[Target, float]]

@@ -26,7 +26,7 @@ from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
 
-# Columns of a sheet that is made: heading, and cells by line of the list, by number.
+# Columns of a built sheet by number: heading, and cells by line of the list.
 Columns = dict[int, tuple[str, Mapping[int, Cell]]]
 
 
@@ -68,7 +68,7 @@ class MappedSheet:
 def join_list(
     workbook: Workbook, answers: ListMap, findings: list[Finding]
 ) -> Workbook:
-    """Input workbook that an office's list makes.
+    """Build the input workbook from an office's list.
 
     Every cell keeps its place in the list. Rows whose net is the same by all its
     columns share a net type. Anchor types that only the rows name get a line each.
@@ -90,17 +90,17 @@ def join_list(
             findings.append(Finding(file=answers.file, sheet=name, rule=rule))
         elif table.becomes:
             mapped.append(map_sheet(sheets[name], table, answers.file, findings))
-    made = [
+    built = [
         _make_sheet(source, table)
         for source in mapped
         for table in GROUPS[source.table.becomes]
     ]
     if not any(source.table.becomes == "anchor_types" for source in mapped):
-        made += map(_name_anchors, mapped)
+        built += map(_name_anchors, mapped)
     read = {source.sheet.name for source in mapped}
     return replace(
         workbook,
-        sheets=tuple(filter(None, made)),
+        sheets=tuple(filter(None, built)),
         unread=tuple(name for name in sheets if name not in read),
     )
 
@@ -108,7 +108,7 @@ def join_list(
 def map_sheet(
     sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
 ) -> MappedSheet:
-    """Columns of a sheet by the answers; a heading without one is a finding."""
+    """Columns of a sheet by its answers; a heading without an answer is a finding."""
     units = find_units(sheet, table.headings_in_line)
     asked = {normalise(heading): heading for heading in table.headings}
     columns: dict[int, tuple[Target, str]] = {}
@@ -186,8 +186,8 @@ def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
         target = read_answer(name, mapped.table.becomes).target
         if target is not None and target.table == table:
             cells = mapped.cells(number).items()
-            said = {line: replace(cell, value=text) for line, cell in cells}
-            columns[number] = target.heading(target.field.unit), said
+            filled = {line: replace(cell, value=text) for line, cell in cells}
+            columns[number] = target.heading(target.field.unit), filled
     lines: Sequence[int] = mapped.lines
     if mapped.table.becomes == "rows":
         key = "net_type" if table == "rows" else "id"
@@ -275,10 +275,10 @@ def _name_anchors(mapped: MappedSheet) -> Sheet | None:
         number: (_name_column("anchor_types", key), {})
         for number, key in enumerate(("id", "kind", "ground"), 1)
     }
-    made = _build(mapped, "anchor_types", columns, ())
+    sheet = _build(mapped, "anchor_types", columns, ())
     head = mapped.table.headings_in_line
     below = {n: {1: cell} for n, cell in enumerate(first.values(), head + 1)}
-    return replace(made, rows={**made.rows, **below}, merged=())
+    return replace(sheet, rows={**sheet.rows, **below}, merged=())
 
 
 def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]:

@@ -40,7 +40,7 @@ def _find_becomes(text: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ListTable:
-    """A sheet of a list, and what becomes of it.
+    """A sheet of a list, and the table that it becomes.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class ListTable:
         Line in which its headings stand.
     headings, words, always : mapping of str to str
         Answer by heading as typed; word of the input workbook by text of a cell; and
-        column to what stands in every line.
+        text of every line by column.
     """
 
     __pydantic_config__: ClassVar = _SHAPE
@@ -64,7 +64,7 @@ class ListTable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _AnswerFile:
-    """What a file of answers holds."""
+    """Content of a file of answers."""
 
     __pydantic_config__: ClassVar = _SHAPE
 
@@ -85,7 +85,7 @@ class ListMap:
 
 
 def read_list_map(site_file: Path) -> ListMap | None:
-    """Answers beside a list; None where none stand there.
+    """Read the answers beside a list; None without such a file.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def read_list_map(site_file: Path) -> ListMap | None:
     wanted = say("map.wanted")
     try:
         content = read_bounded(path, MAX_TOML_BYTES)
-        held = TypeAdapter(_AnswerFile).validate_python(parse_toml(content))
+        answers = TypeAdapter(_AnswerFile).validate_python(parse_toml(content))
     except ValidationError as error:
         findings = [
             Finding(
@@ -116,20 +116,20 @@ def read_list_map(site_file: Path) -> ListMap | None:
     return ListMap(
         file=path.name,
         sha256=hashlib.sha256(content).hexdigest(),
-        decimal_mark=held.decimal_mark,
-        tables=held.tables,
+        decimal_mark=answers.decimal_mark,
+        tables=answers.tables,
     )
 
 
 def read_list(path: Path, text_format: TextFormat) -> Workbook:
-    """Every sheet of a list."""
+    """Read every sheet of a list."""
     return read_workbook(
         path, lambda _: True, is_heading=is_heading, text_format=text_format
     )
 
 
 def read_answered_list(path: Path, answers: ListMap, declared: TextFormat) -> Workbook:
-    """Every sheet of a list whose headings are answered, its numbers as answered.
+    """Read a list with complete answers, and with the decimal mark that they give.
 
     Raises
     ------

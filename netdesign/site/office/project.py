@@ -24,7 +24,7 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
     Parameters
     ----------
     table : Table or None
-        The sheet, if it was found.
+        The sheet; None where it is missing.
     lines : list of Row
         Its lines, as texts.
     findings : list of Finding

@@ -1,6 +1,6 @@
-"""A workbook of version 0.1 as lines of the input workbook, and what was done.
+"""Rewrites a workbook of version 0.1 as lines of the input workbook.
 
-Every cell that is filled in either has a place there, or is named in the list.
+Every filled cell has a place there, or is named in the list of what was done.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _Ranged = dict[str, tuple[str, Reading]]  # text of the new cell, justification
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rewritten:
-    """Lines of the input workbook.
+    """Lines of the input workbook, and what was done to get them.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ def read_old(path: Path, text_format: TextFormat) -> Workbook | None:
 
 
 def rewrite(workbook: Workbook, language: Language) -> Rewritten:
-    """Rewrite a workbook; cells that cannot be understood are copied as they are.
+    """Rewrite a workbook; cells that are not understood are copied as they are.
 
     Parameters
     ----------

@@ -135,7 +135,7 @@ def _rewrite_gap(line: Row, log: RewriteLog) -> Line:
 
 
 def _rewrite_end(end: Row, log: RewriteLog) -> Line:
-    """Anchor of a row's end: the lateral one, else that of the end guy."""
+    """Anchor of a row's end: the lateral anchor, else that of the end guy."""
     log.tick(end["row"], end["support_types"])
     anchors = [end[key] for key in ("lateral_anchor", "end_guy_anchor")]
     typed = [anchor for anchor in anchors if anchor.word]

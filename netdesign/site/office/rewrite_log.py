@@ -1,4 +1,4 @@
-"""What a rewriting did with each cell: nothing that is filled in is lost silently."""
+"""Log of a rewriting, so that no filled cell is lost silently."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from netdesign.site.columns.office import load_columns
 from netdesign.site.readings import Reading, Row
 from netdesign.words.message import Message, say
 
-_MOST_PLACES = 3  # named in one line
+_MOST_PLACES = 3  # named in a line
 Line = dict[str, object]  # of the new workbook, by key
 
 
@@ -66,7 +66,7 @@ class RewriteLog:
 
 
 def is_typed(reading: Reading) -> bool:
-    """Something stands in the cell."""
+    """Whether something stands in the cell."""
     return reading.cell is not None and not reading.cell.is_blank
 
 
@@ -78,14 +78,14 @@ def show(reading: Reading) -> object:
 def copy_line(
     table: str, line: Row, sheet: str, log: RewriteLog, skip: Collection[str] = ()
 ) -> Line:
-    """Cells of a line that a table of the new workbook has, too.
+    """Copy the cells of a line that a table of the new workbook has, too.
 
     Parameters
     ----------
     table : str
-        Of the new workbook.
+        Table of the new workbook.
     line, sheet : Row, str
-        Of the old one.
+        Line of the old workbook, and its sheet.
     log : RewriteLog
         The cells are ticked off in it.
     skip : collection of str

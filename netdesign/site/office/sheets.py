@@ -108,7 +108,9 @@ def find_office_tables(
     return OfficeTables(
         tables=tables,
         unread=frozenset(
-            x for x in plans if not tables[x] and list_meant(plain, plans[x])
+            name
+            for name, plan in plans.items()
+            if not tables[name] and list_meant(plain, plan)
         ),
         lines={name: read_rows(table, findings) for name, table in tables.items()},
         measures={

@@ -65,10 +65,10 @@ class Form:
         return load_text(key, self.language, area)
 
     def style(self, name: str) -> Format:
-        """Format of a name; made once."""
+        """Format of a name, which is created at its first use."""
         if name not in self.formats:
-            made = {"font_color": _INK, "valign": "vcenter", **_STYLES[name]}
-            self.formats[name] = self.workbook.add_format(made)
+            properties = {"font_color": _INK, "valign": "vcenter", **_STYLES[name]}
+            self.formats[name] = self.workbook.add_format(properties)
         return self.formats[name]
 
     def style_cell(self, column: Column) -> Format:
@@ -191,9 +191,9 @@ def write_about(
     place : tuple of int
         Row and column of the first cell, from 0.
     keys : sequence of str
-        Of the headings below which it stands.
+        Of the headings above the cells.
     """
-    said = {
+    texts = {
         "item": name_column(form, column),
         "unit": say_unit(form, column),
         "accepted": say_accepted(column, form.language),
@@ -205,5 +205,5 @@ def write_about(
     row, first = place
     for number, key in enumerate(keys, start=first):
         style = "grey" if key in ("empty", "source") else "cell"
-        sheet.write_string(row, number, said[key], form.style(style))
-    return [said[key] for key in keys]
+        sheet.write_string(row, number, texts[key], form.style(style))
+    return [texts[key] for key in keys]
