@@ -40,8 +40,8 @@ class RowEnd:
 
     Attributes
     ----------
-    guy_angle : float or None
-        Between the end guy and the row [rad]; None where none is given.
+    guy_angle : float
+        Between the end guy and the row [rad]; where none is given the largest.
     stiffnesses : tuple of tuple of float, shape (n, 4)
         EA that uphill guy, downhill guy, end guy and post there may have together [N].
     ropes_slide : bool or None
@@ -55,7 +55,7 @@ class RowEnd:
         Those that have a type.
     """
 
-    guy_angle: float | None
+    guy_angle: float
     stiffnesses: tuple[tuple[float, ...], ...] = ()
     ropes_slide: bool | None = None
     lateral_axis: float | None = None
@@ -63,10 +63,8 @@ class RowEnd:
     anchors: tuple[tuple[EndMember, AnchorType], ...] = ()
 
     @property
-    def guy(self) -> EndGuy | None:
-        """End guy in space; None where its angle is not given."""
-        if self.guy_angle is None:
-            return None
+    def guy(self) -> EndGuy:
+        """End guy in space."""
         return EndGuy(angle=self.guy_angle)
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:

@@ -130,7 +130,7 @@ def place_end_anchors(
                 yield anchor, replace(bore, start=(x, y, -z))
     end, member = row.row_end, EndMember.END_GUY_ANCHOR
     pull = find_pull(pulls, member, "edge")
-    if end is None or end.guy is None or pull is None:
+    if end is None or pull is None:
         return
     kind = end.find_anchor_type(member)
     start, length = end.guy.find_anchor(points), kind.drilled if kind else None

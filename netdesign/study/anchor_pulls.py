@@ -98,8 +98,6 @@ def _list_end_pulls(row: NetRow) -> Iterator[PullRecord]:
         return
     along = PullRange(least=0.0, largest=0.0)
     yield build_pull(row, EndMember.LATERAL_ANCHOR, along, 0.0, "edge")
-    if end.guy is None:
-        return
     guy = end.guy.way
     x, y, z = way = turn_down(guy, slope, USUAL_DIP)
     rise = degree_from_radian(end.guy.angle)

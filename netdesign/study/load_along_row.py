@@ -16,7 +16,7 @@ from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.ranges import Interval
 from netdesign.envelope.row_pulls import HeadPulls
 from netdesign.guideline.floor import HeadSpan
-from netdesign.site.model import NetRow
+from netdesign.site.model import NetRow, RowEnd
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
@@ -26,7 +26,6 @@ from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import (
-    EndGuy,
     EndHead,
     hold_end_guy,
     is_held_sideways,
@@ -154,7 +153,7 @@ def find_end_guy(
 ) -> EndGuyRecord | Message | None:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
 
-    None without a guy whose angle is given.
+    None of a row without an end.
 
     Parameters
     ----------
@@ -166,8 +165,7 @@ def find_end_guy(
         States of all its cases.
     """
     row, span = task.row, task.site.ranges["inclination"]
-    guy = row.row_end.guy if row.row_end else None
-    if guy is None:
+    if row.row_end is None:
         return None
     places = place_over(row, span)
     held = [hold_end_guy(place) for place in places]
@@ -177,7 +175,7 @@ def find_end_guy(
     forces = [support for support in held if isinstance(support, HeadForces)]
     posts = [head.post_compression for head in forces]
     upright = [place.head[1] / place.post_length for place in places]
-    tensions = _share_end(task, guy, load, heads)
+    tensions = _share_end(task, row.row_end, load, heads)
     if isinstance(tensions, Message):
         return tensions
     return EndGuyRecord(
@@ -198,7 +196,7 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, guy: EndGuy, load: EndShare, states: HeadPulls
+    task: RowToCheck, end: RowEnd, load: EndShare, states: HeadPulls
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
@@ -206,7 +204,7 @@ def _share_end(
     guy on a side, or without a panel.
     """
     row, splay = task.row, task.row.guys.splay
-    if row.row_end is None or row.guys.count < 2 or splay is None:
+    if row.guys.count < 2 or splay is None:
         return None
     if not states.has_panels:
         return None
@@ -226,8 +224,8 @@ def _share_end(
         EndHead(points=places[k], pull=(scale * x, scale * y), along=load.along)
         for k, (x, y) in states.outermost
     ]
-    ways = row.row_end.stiffnesses
-    tensions = share_with_end_guy(heads, splay=splay, guy=guy, stiffness=ways)
+    ways = end.stiffnesses
+    tensions = share_with_end_guy(heads, splay=splay, guy=end.guy, stiffness=ways)
     if tensions is None:
         return say("support.not_held_sideways")
     outer = tensions.reshape(-1, tensions.shape[-1]).max(axis=0)

@@ -66,7 +66,7 @@ def an_end(angle=40.0, value=1e7):
         for member, mode in END_MODES
     )
     return RowEnd(
-        guy_angle=None if angle is None else math.radians(angle),
+        guy_angle=math.radians(angle),
         stiffnesses=((15e6, 15e6, 36e6, 700e6),),
         lateral_axis=math.radians(80.0),
         resistances=(*resistances, *turn(END_ANCHORS)),
