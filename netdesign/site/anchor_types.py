@@ -32,10 +32,12 @@ def read_axes(
 ) -> tuple[tuple[AnyMember, float], ...]:
     """Axes against the slope of those anchors whose bores dip by their type [rad]."""
     lines, slope = types["anchor_types"], row["slope_angle"].si
-    named = ((member, lines.get(row[name_column(member)].word)) for member in members)
+    lines_by_member = (
+        (member, lines.get(row[name_column(member)].word)) for member in members
+    )
     return tuple(
         (member, find_axis_at_dip(line["dip"].si, slope, member))
-        for member, line in named
+        for member, line in lines_by_member
         if line and line["dip"].state == "given"
     )
 
@@ -45,8 +47,12 @@ def read_anchors(
 ) -> tuple[tuple[AnyMember, AnchorType], ...]:
     """Kind and steel of those anchors of a row whose type is in its sheet."""
     lines, ground = types["anchor_types"], row["ground"].word
-    named = ((member, lines.get(row[name_column(member)].word)) for member in members)
-    return tuple((member, read_anchor(line, ground)) for member, line in named if line)
+    lines_by_member = (
+        (member, lines.get(row[name_column(member)].word)) for member in members
+    )
+    return tuple(
+        (member, read_anchor(line, ground)) for member, line in lines_by_member if line
+    )
 
 
 def read_anchor(line: Row, ground: str) -> AnchorType:

@@ -69,4 +69,7 @@ class RowEnd:
 
     def find_anchor_type(self, anchor: str) -> AnchorType | None:
         """Type of one of its anchors; None where it is not given."""
-        return next((kind for member, kind in self.anchors if member == anchor), None)
+        return next(
+            (anchor_type for member, anchor_type in self.anchors if member == anchor),
+            None,
+        )

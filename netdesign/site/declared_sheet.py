@@ -114,7 +114,9 @@ def put_values(
         office's list makes, and its new value. The display format of the old is gone.
     """
     sheets, replaced = list(workbook.sheets), []
-    numbers = {sheet.name: n for n, sheet in reversed(list(enumerate(sheets)))}
+    numbers = {
+        sheet.name: number for number, sheet in reversed(list(enumerate(sheets)))
+    }
     for name, cell, value in values:
         plain = replace(
             cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
@@ -207,9 +209,9 @@ def name_group(group: str, language: Language) -> str:
 def _list_subjects() -> Mapping[str, tuple[_Subject, ...]]:
     """Checks by id, and by the words for them that reports and the template have."""
     subjects = [
-        (*check, at)
+        (*check, position)
         for check in DECLARABLE
-        for at in (("",) if check in OF_ROWS else ("", "edge"))
+        for position in (("",) if check in OF_ROWS else ("", "edge"))
     ]
     names: dict[str, tuple[_Subject, ...]] = {}
     for subject in subjects:
@@ -250,11 +252,13 @@ def read_declared(
     """
     declared: list[Declaration] = []
     confirmed: dict[str, Message] = {}
-    named = [_list_rows(line["row"], places) for line in lines]
+    rows_by_line = [_list_rows(line["row"], places) for line in lines]
     if places:
-        ids = (row for rows in named for row in rows if not _is_of_all(row, places))
+        ids = (
+            row for rows in rows_by_line for row in rows if not _is_of_all(row, places)
+        )
         refuse_unknown_ids(ids, places, findings, "declared.id_or_all")
-    for line, rows in zip(lines, named, strict=True):
+    for line, rows in zip(lines, rows_by_line, strict=True):
         replacement = split_replacement(line["check"].word)
         if replacement is not None:
             confirmed |= _read_confirmation(line, replacement, workbook, findings)
@@ -343,8 +347,8 @@ def _read_confirmation(
     sheet = sheets.get(sheet_name.casefold())
     cell = find_cell(sheet, address) if sheet else None
     if cell is None or not _holds(cell, text):
-        held = show_value(cell) if cell else ""
-        rule = say("plausible.holds_other", cell=place, held=held)
+        content = show_value(cell) if cell else ""
+        rule = say("plausible.holds_other", cell=place, held=content)
         refuse(line["check"], rule, say("plausible.such_as"), findings)
         return {}
     if not line["date"].word:

@@ -96,15 +96,15 @@ def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
 _OF_TYPES = ("anchor_kind", "lever_arm", "base_friction", "buckling_length")
 
 
-def _list_of_types(named: Sequence[Reading], types: Types) -> Iterator[str]:
+def _list_of_types(readings: Sequence[Reading], types: Types) -> Iterator[str]:
     """What is assumed of anchors and posts that cells name, by key."""
     anchors, posts = (
         [
-            types[of][reading.word]
-            for reading in named
-            if reading.field.refers_to == of and reading.word
+            types[table][reading.word]
+            for reading in readings
+            if reading.field.refers_to == table and reading.word
         ]
-        for of in ("anchor_types", "posts")
+        for table in ("anchor_types", "posts")
     )
     for line in anchors:
         kind = line["kind"].word

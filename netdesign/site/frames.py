@@ -60,15 +60,15 @@ def build_workbook(frames: Frames) -> Workbook:
     SiteDataError
         If a name is that of no sheet.
     """
-    named = {_find_name(name, frames): frame for name, frame in frames.items()}
+    by_table = {_find_name(name, frames): frame for name, frame in frames.items()}
     sheets: dict[str, list[Cell]] = {}
     for table in TABLES:
-        if table not in named:
+        if table not in by_table:
             continue
         title = load_plan(table).name_in("en")
         cells = sheets.setdefault(title, [])
         start = max((cell.row for cell in cells), default=-1) + 2
-        lines = _list_lines(named[table])
+        lines = _list_lines(by_table[table])
         build = _list_items if table == "project" else _list_cells
         cells.extend(build(table, title, lines, start))
     content = repr(

@@ -248,8 +248,8 @@ def _find_unit(
 ) -> str | None:
     """Take the unit of a column from its heading, or from the row of units."""
     cell, text = heading, str(heading.value)
-    own, whole = split_heading(text)[0], normalise(text)
-    is_name = own != whole in field.names  # brackets and all
+    own, full_name = split_heading(text)[0], normalise(text)
+    is_name = own != full_name in field.names  # brackets and all
     unit = "" if is_name else find_heading_unit(heading)
     if not field.units:
         if unit in KNOWN_UNITS and unit != "-":  # a number of another field

@@ -171,11 +171,14 @@ def list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
 def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
     """One finding for a type sheet that is not there, not one for each of its ids."""
     for name in lines.absent:
-        named = list_references([*lines.rows, *lines.ends.values()], name)
-        if not named:
+        references = list_references([*lines.rows, *lines.ends.values()], name)
+        if not references:
             continue
         sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
-        ids = [quote(text) for text in dict.fromkeys(reading.word for reading in named)]
+        ids = [
+            quote(text)
+            for text in dict.fromkeys(reading.word for reading in references)
+        ]
         rule = say(
             "nets.lacks_sheet",
             sheet=sheet,
@@ -183,7 +186,7 @@ def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
             ids=shorten(ids, _MOST_PLACES),
             nets=lines.table.sheet.name if lines.table else "",
         )
-        places = shorten([reading.place for reading in named], _MOST_PLACES)
+        places = shorten([reading.place for reading in references], _MOST_PLACES)
         accepted = say("nets.sheet_or_empty", sheet=sheet, places=places)
         findings.append(Finding(file=lines.workbook.file, rule=rule, accepted=accepted))
 
@@ -200,18 +203,18 @@ def find_neighbours(rows: Sequence[Row], findings: list[Finding]) -> Neighbours:
     joined = _join_rows(rows)
     lines = {row["id"].word: row for row in rows}
     for name, row in lines.items():
-        into, at = joined[name], find_neighbour_cell(row)
-        for neighbour in into:
+        neighbours, cell = joined[name], find_neighbour_cell(row)
+        for neighbour in neighbours:
             if neighbour == name or neighbour not in lines:
                 rule = say("nets.no_neighbour", id=neighbour)
-                refuse(at, rule, say("nets.other_ids"), findings)
+                refuse(cell, rule, say("nets.other_ids"), findings)
         chained = _find_chain(name, joined)
-        if len(into) > _ENDS:
-            rule = say("nets.two_ends", id=name, ids=tuple(sorted(into)))
-            refuse(at, rule, say("nets.free_or_both"), findings)
+        if len(neighbours) > _ENDS:
+            rule = say("nets.two_ends", id=name, ids=tuple(sorted(neighbours)))
+            refuse(cell, rule, say("nets.free_or_both"), findings)
         elif all(len(joined[row_id]) == _ENDS for row_id in chained):
             rule = say("nets.ring", ids=tuple(sorted(chained)))
-            refuse(at, rule, say("nets.free_or_both"), findings)
+            refuse(cell, rule, say("nets.free_or_both"), findings)
     return {name: joined[name] for name in lines if len(joined[name]) >= _ENDS}
 
 
@@ -235,8 +238,8 @@ def _join_rows(rows: Sequence[Row]) -> dict[str, tuple[str, ...]]:
 
 def _find_chain(name: str, beside: Mapping[str, Collection[str]]) -> set[str]:
     """Rows into which the nets of a row go on, one after the other."""
-    reached, new = {name}, {name}
-    while new:
-        new = {neighbour for row in new for neighbour in beside[row]} - reached
-        reached |= new
+    reached, newest = {name}, {name}
+    while newest:
+        newest = {neighbour for row in newest for neighbour in beside[row]} - reached
+        reached |= newest
     return reached

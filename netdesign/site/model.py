@@ -138,15 +138,17 @@ class NetRow:
             return self.row_end.find_anchor_type(anchor)
         at_end = position == "edge" and self.end_anchors is not None
         types = self.end_anchors or () if at_end else self.anchors
-        return next((kind for member, kind in types if member == anchor), None)
+        return next(
+            (anchor_type for member, anchor_type in types if member == anchor), None
+        )
 
     def list_missing_bore(self, anchor: str, position: Position) -> tuple[Message, ...]:
         """Name of an anchor's drilled length, where it is not given."""
-        kind = self.find_anchor_type(anchor, position)
-        is_said = kind is not None and kind.drilled is not None
+        anchor_type = self.find_anchor_type(anchor, position)
+        is_given = anchor_type is not None and anchor_type.drilled is not None
         name = say("column.anchor_types.drilled_length")
-        where = say("check.on_sheet", name=name, sheet=say("sheet.anchor_types"))
-        return () if is_said else (where,)
+        column = say("check.on_sheet", name=name, sheet=say("sheet.anchor_types"))
+        return () if is_given else (column,)
 
     def find_net_part(self, part: NetPart) -> Resistance:
         """Resistance of the mesh, or of a border rope where the row has one."""
@@ -175,8 +177,12 @@ class NetRow:
         """Whether a member is of one type at the row's end and inside it."""
         places = (self.resistances, self.resistances_at("edge"))
         inside, end = (
-            {resistance.type_id for resistance in of if resistance.member == member}
-            for of in places
+            {
+                resistance.type_id
+                for resistance in resistances
+                if resistance.member == member
+            }
+            for resistances in places
         )
         return inside == end and "" not in inside
 

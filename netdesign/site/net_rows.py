@@ -140,12 +140,12 @@ def list_differences(row: NetRow, other: NetRow) -> Iterator[str]:
     Only rows without a difference load each other's ends as if the nets went on.
     """
     others = _list_compared(other)
-    for key, mine in _list_compared(row).items():
-        its = others[key]
-        if isinstance(mine, float) and isinstance(its, float):
-            is_alike = math.isclose(mine, its, rel_tol=_ALIKE)
+    for key, value in _list_compared(row).items():
+        other_value = others[key]
+        if isinstance(value, float) and isinstance(other_value, float):
+            is_alike = math.isclose(value, other_value, rel_tol=_ALIKE)
         else:
-            is_alike = mine == its
+            is_alike = value == other_value
         if not is_alike:
             yield key
 
@@ -228,11 +228,11 @@ def _round_net_height(
     return replace(height, value=thickness, derivation=how)
 
 
-def _is_faulty(named: Sequence[Row], unreadable: Iterable[str]) -> bool:
+def _is_faulty(lines: Sequence[Row], unreadable: Iterable[str]) -> bool:
     """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
-    readings = (reading for cells in named for reading in cells.values())
+    readings = (reading for cells in lines for reading in cells.values())
     return any(reading.state == "faulty" for reading in readings) or any(
-        list_references(named, sheet) for sheet in unreadable
+        list_references(lines, sheet) for sheet in unreadable
     )
 
 
@@ -310,8 +310,8 @@ def _ask_for_length(row: Row, findings: list[Finding]) -> None:
     glide, length = row["glide_factor"], row["upslope_length"]
     if glide.word and length.state == "blank":
         rule = say("nets.free_without_length", name=length.field.name)
-        at = glide if length.cell is None else length
-        refuse(at, rule, say("nets.other_law_or_length"), findings)
+        cell = glide if length.cell is None else length
+        refuse(cell, rule, say("nets.other_law_or_length"), findings)
 
 
 def _build_layout(row: Row) -> SupportLayout:

@@ -85,24 +85,24 @@ def _find_resting(lines: Lines) -> Mapping[str, set[str]]:
 
 def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
     """Lines with the net rows that name them, or name the type that they belong to."""
-    named: dict[tuple[str, str], set[str]] = {}  # by table and id
+    users: dict[tuple[str, str], set[str]] = {}  # by table and id
     for line in lines.rows:
         row = line["id"].word
         yield line, [row]
         for reading in (*line.values(), *lines.ends[row].values()):
             for name in {reading.word, name_bare(reading.word)}:
-                named.setdefault((reading.field.refers_to, name), set()).add(row)
+                users.setdefault((reading.field.refers_to, name), set()).add(row)
     for row, layers in lines.snow.items():
         yield from ((line, [row]) for line in layers)
     for table in TYPES:
         for name, line in lines.types[table].items():
-            yield line, named.get((table, name), ())
+            yield line, users.get((table, name), ())
     for table, (key, *tables) in _NAMED.items():
         for line in lines.typed[table]:
             yield (
                 line,
                 set().union(
-                    *(named.get((target, line[key].word), ()) for target in tables)
+                    *(users.get((target, line[key].word), ()) for target in tables)
                 ),
             )
 
@@ -121,13 +121,13 @@ def _list_all_doubts(lines: Lines) -> Iterator[Doubt]:
         *((table, list(lines.types[table].values())) for table in TYPES),
         *(("links", strengths), ("links", limits), ("tests", lines.tests)),
     ]
-    every = (*lines.rows, *lines.ends.values())
-    named = {reading.word for line in every for reading in line.values()}
+    row_lines = (*lines.rows, *lines.ends.values())
+    used_ids = {reading.word for line in row_lines for reading in line.values()}
     for table, group in groups:
-        used = [
-            line for line in group if table not in TYPES or line["id"].word in named
+        used_lines = [
+            line for line in group if table not in TYPES or line["id"].word in used_ids
         ]
-        yield from chain.from_iterable(map(list_doubts, used))
+        yield from chain.from_iterable(map(list_doubts, used_lines))
         yield from list_column_doubts(group, table)
 
 
@@ -327,7 +327,9 @@ def _list_unlike_product(
         ):
             continue
         unit = reading.field.unit
-        shown = tuple(_name_span(from_si(a, unit), from_si(b, unit)) for a, b in spans)
+        shown = tuple(
+            _name_span(from_si(low, unit), from_si(high, unit)) for low, high in spans
+        )
         yield (
             key,
             say(
@@ -381,20 +383,27 @@ def list_column_doubts(lines: Sequence[Row], sheet: str) -> Iterator[Doubt]:
 def _list_repeated_tests(lines: Sequence[Row]) -> Iterator[Doubt]:
     """Doubts about tests that repeat an earlier line: each may be of another anchor."""
     for number, line in enumerate(lines):
-        again = next(
+        repeated = next(
             (earlier for earlier in lines[:number] if _are_same_test(earlier, line)),
             None,
         )
-        if again is not None:
-            yield line["force"], say("plausible.same_line", place=again["force"].place)
+        if repeated is not None:
+            yield (
+                line["force"],
+                say("plausible.same_line", place=repeated["force"].place),
+            )
 
 
 def _are_same_test(earlier: Row, line: Row) -> bool:
     """Two tests have the same force, and the same values where both give one."""
     pairs = [(earlier[key], reading) for key, reading in line.items()]
-    both = [pair for pair in pairs if all(reading.state == "given" for reading in pair)]
-    is_known = (earlier["force"], line["force"]) in both
-    return is_known and all(first.value == second.value for first, second in both)
+    given_pairs = [
+        pair for pair in pairs if all(reading.state == "given" for reading in pair)
+    ]
+    is_known = (earlier["force"], line["force"]) in given_pairs
+    return is_known and all(
+        first.value == second.value for first, second in given_pairs
+    )
 
 
 def _list_outliers(readings: Sequence[Reading], least: int) -> Iterator[Doubt]:
@@ -429,20 +438,20 @@ def _list_misfits(lines: Sequence[Row], key: str) -> Iterator[Doubt]:
 
     Numbers are diameters where they fit the forces of all types but one.
     """
-    named = [entry for line in lines if (entry := _read_name(line, key))]
+    entries = [entry for line in lines if (entry := _read_name(line, key))]
     off = [
         entry
-        for entry in named
+        for entry in entries
         if not _FITS[0] <= entry[2].number / entry[1] ** 2 <= _FITS[1]
     ]
-    if len(named) - len(off) < _OTHERS or len(off) > 1:
+    if len(entries) - len(off) < _OTHERS or len(off) > 1:
         return
     for _, diameter, reading in off:
         yield reading, say("plausible.diameter", diameter=diameter)
-    fitting = [entry for entry in named if entry not in off]
-    for kind, diameter, reading in fitting:
-        for other_kind, other_diameter, beside in fitting:
-            is_smaller = kind == other_kind and diameter < other_diameter
+    fitting = [entry for entry in entries if entry not in off]
+    for stem, diameter, reading in fitting:
+        for other_stem, other_diameter, beside in fitting:
+            is_smaller = stem == other_stem and diameter < other_diameter
             if is_smaller and reading.number > beside.number:
                 yield reading, say("plausible.more", place=beside.place)
                 yield beside, say("plausible.less", place=reading.place)

@@ -97,8 +97,8 @@ def read_site(
     workbook = doubt_results(workbook)
     findings = [*workbook.remarks]
     if answers:
-        used = say("map.used", file=answers.file)
-        findings.append(note_file(workbook.file, used))
+        note = say("map.used", file=answers.file)
+        findings.append(note_file(workbook.file, note))
         workbook = join_list(workbook, answers, findings)
         workbook, changed = change_values(workbook, change, is_list=True)
     else:
@@ -206,10 +206,10 @@ def _refuse_rows_elsewhere(
     if not names or not list_meant(workbook, plan):
         return
     try:
-        every = read_workbook(path, names.__contains__, is_heading, text_format)
+        unread = read_workbook(path, names.__contains__, is_heading, text_format)
     except SiteDataError:  # what has no part in the check may be damaged
         return
-    for sheet in every.sheets:
+    for sheet in unread.sheets:
         if sheet.name in names and count_headings(sheet, plan) >= _LEAST_KNOWN:
             accepted = say("table.copy_accepted", name=plan.title)
             yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
@@ -233,8 +233,8 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
         rule = say("office.old", old=shlex.quote(str(path)), new=shlex.quote(str(new)))
         raise SiteDataError([workbook.finding(rule)])
     kept = tuple(sheet for sheet in workbook.sheets if is_read(sheet.name))
-    left = tuple(sheet.name for sheet in workbook.sheets if sheet not in kept)
-    return replace(workbook, sheets=kept, unread=(*workbook.unread, *left))
+    unread = tuple(sheet.name for sheet in workbook.sheets if sheet not in kept)
+    return replace(workbook, sheets=kept, unread=(*workbook.unread, *unread))
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:

@@ -143,8 +143,8 @@ def echo_layers(lines: Sequence[Row]) -> tuple[InputEcho, ...]:
         for key in ("thickness", "density", "temperature"):
             reading = line[key]
             if reading.state == "given":
-                named = say(f"column.Snow.{reading.field.key}")
-                name = say("column.of_layer", layer=number, name=named)
+                quantity = say(f"column.Snow.{reading.field.key}")
+                name = say("column.of_layer", layer=number, name=quantity)
                 echoes.append(reading.echo(name))
     return tuple(echoes)
 

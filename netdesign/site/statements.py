@@ -64,10 +64,10 @@ def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
 
 def list_open_ropes(row: Row, ropes: Mapping[str, Row]) -> tuple[str, ...]:
     """Types of the border ropes of a row whose stiffness is not given."""
-    named = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
+    type_ids = dict.fromkeys(row[key].word for key in _ROPES if row[key].word)
     lacking = (
         type_id
-        for type_id in named
+        for type_id in type_ids
         if ropes[type_id]["axial_stiffness"].state != "given"
     )
     return tuple(lacking)
@@ -82,7 +82,9 @@ def list_stiffnesses(at_end: Row, types: Types) -> tuple[tuple[float, ...], ...]
     """
     guys = (Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY)
     lines = [types["ropes"].get(at_end[guy].word) for guy in guys]
-    alike = [_list_rope_stiffnesses(lines, of) for of in _list_multiples(lines)]
+    alike = [
+        _list_rope_stiffnesses(lines, multiple) for multiple in _list_multiples(lines)
+    ]
     ropes = dict.fromkeys(chain.from_iterable(product(*spans) for spans in alike))
     post = _find_post_stiffness(types["posts"].get(at_end[Member.POST].word))
     return tuple(

@@ -206,69 +206,69 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
     Those that follow the demand have no place here: they need a member.
     """
     return tuple(
-        _describe_type(kind, mode, member)
+        _describe_type(line, mode, member)
         for sheet, (member, modes) in _CATALOGUE.items()
-        for kind in types[sheet].values()
+        for line in types[sheet].values()
         for mode in modes
     )
 
 
-def _describe_type(kind: Row, mode: str, member: AnyMember) -> Resistance:
+def _describe_type(line: Row, mode: str, member: AnyMember) -> Resistance:
     """Resistance of a type in one mode, given or not."""
-    strength, is_pulled, is_anchor = kind[mode], mode == "pull_out", "ground" in kind
-    tests = find_tests(kind) if is_pulled else None
+    strength, is_pulled, is_anchor = line[mode], mode == "pull_out", "ground" in line
+    tests = find_tests(line) if is_pulled else None
     is_given = strength.state == "given"
     # A report counts once sheet Declared names it; other numbers are makers' values.
     is_computed = is_pulled or strength.derivation is not None
     basis = ("computed" if is_computed else "declared") if is_given else ""
     is_strut = is_given and mode == "compression" and is_computed
-    value, derivation = _find_strength(kind, mode)
-    is_rope = mode == "tendon" and may_be_rope(kind)
-    place = (strength if is_given or not tests else kind["test_least"]).place
+    value, derivation = _find_strength(line, mode)
+    is_rope = mode == "tendon" and may_be_rope(line)
+    place = (strength if is_given or not tests else line["test_least"]).place
     return Resistance(
         member=member,
         mode=mode,
         value=None if tests else value,
         basis="tested" if tests else basis,
-        type_id=kind["id"].word,
-        source=place or kind["id"].place,
+        type_id=line["id"].word,
+        source=place or line["id"].place,
         derivation=derivation,
         tests=tests,
-        buckling_length=kind["buckling_length"].si if is_strut else None,
-        drilled_length=kind["drilled_length"].given_si if is_anchor else None,
-        ground=kind["ground"].word if is_anchor else "",
-        wear=_read_wear(kind, mode),
+        buckling_length=line["buckling_length"].si if is_strut else None,
+        drilled_length=line["drilled_length"].given_si if is_anchor else None,
+        ground=line["ground"].word if is_anchor else "",
+        wear=_read_wear(line, mode),
         factored_as=("tendon", "rope") if is_rope else (),
-        proof_limit=find_proof_limit(kind, has_loop=True) if is_pulled else None,
-        is_basis_assumed=is_pulled and is_given and kind["proven"].word != "calculated",
+        proof_limit=find_proof_limit(line, has_loop=True) if is_pulled else None,
+        is_basis_assumed=is_pulled and is_given and line["proven"].word != "calculated",
     )
 
 
-def _find_strength(kind: Row, mode: str) -> tuple[float | None, Message | None]:
+def _find_strength(line: Row, mode: str) -> tuple[float | None, Message | None]:
     """Characteristic resistance of a type in one mode [N], and how it follows."""
-    strength = kind[mode]
+    strength = line[mode]
     if strength.state != "given":
         return None, None
     if mode == "rope":
-        return reduce_breaking(kind)
-    if mode == "tendon" and may_be_rope(kind):
-        return reduce_loop(kind)
+        return reduce_breaking(line)
+    if mode == "tendon" and may_be_rope(line):
+        return reduce_loop(line)
     return strength.si, strength.derivation
 
 
-def _read_wear(kind: Row, mode: str) -> Wear | None:
+def _read_wear(line: Row, mode: str) -> Wear | None:
     """Corrosion of a type's steel; None of posts, and of the grout in the ground."""
     if mode == "rope":
         return Wear(kind="rope")
-    if "protection" not in kind or mode == "pull_out":
+    if "protection" not in line or mode == "pull_out":
         return None
-    outer = kind["bar_diameter"].given_si
+    outer = line["bar_diameter"].given_si
     return Wear(
-        kind=kind["kind"].word,
-        protection=kind["protection"].word,
-        soil=kind["soil"].word,
+        kind=line["kind"].word,
+        protection=line["protection"].word,
+        soil=line["soil"].word,
         outer=outer,
-        inner=None if outer is None or lacks_inner(kind) else read_inner(kind),
+        inner=None if outer is None or lacks_inner(line) else read_inner(line),
     )
 
 

@@ -313,10 +313,10 @@ def _is_part(
     is_merged = size["rows"] == 1 and size["columns"] >= _WIDE
     if is_merged or plan.items:
         return is_merged
-    named = _SECTION.match(text)
-    if named is None:
+    match = _SECTION.match(text)
+    if match is None:
         return False
-    word = named[0].casefold()  # perhaps that of the ids of this table
+    word = match[0].casefold()  # perhaps that of the ids of this table
     lines = (sheet.row(row) for row in rows)
     return not any(
         len(line) > 1 and str(line[0].value).casefold().startswith(word)

@@ -29,8 +29,8 @@ _ByGround = dict[str, Row]  # lines of one type, by word of their ground; "" for
 
 def name_bare(name: str) -> str:
     """Name of a type without the ground that it may be named with."""
-    whole = _WITH_GROUND.fullmatch(name)
-    return whole[1] if whole else name
+    match = _WITH_GROUND.fullmatch(name)
+    return match[1] if match else name
 
 
 def name_by_ground(lines: Sequence[Row]) -> list[Row]:
@@ -73,37 +73,37 @@ def place_in_ground(
         by_id.setdefault(line["id"].word, {})[line["ground"].word] = line
     placed: list[Row] = []
     for row in rows:
-        named = {
+        anchors = {
             key: _resolve(reading, by_id, row["ground"], findings)
             for key, reading in row.items()
             if reading.field.refers_to == "anchor_types"
         }
-        placed.append({**row, **named})
+        placed.append({**row, **anchors})
     return placed
 
 
 def _resolve(
-    named: Reading,
+    type_cell: Reading,
     by_id: Mapping[str, _ByGround],
     ground: Reading,
     findings: list[Finding],
 ) -> Reading:
     """Cell that names a type, alone or with its ground: "A32 (scree)"."""
-    whole = _WITH_GROUND.fullmatch(named.word)
-    if named.word in by_id or whole is None or whole[1] not in by_id:
-        of_type = by_id.get(named.word)
-        return _choose(named, of_type, ground, findings) if of_type else named
-    bare = replace(named, value=whole[1])
-    chosen = _choose(bare, by_id[whole[1]], ground, findings)
-    if chosen.state == "faulty" or chosen.word == named.word:
+    match = _WITH_GROUND.fullmatch(type_cell.word)
+    if type_cell.word in by_id or match is None or match[1] not in by_id:
+        of_type = by_id.get(type_cell.word)
+        return _choose(type_cell, of_type, ground, findings) if of_type else type_cell
+    bare = replace(type_cell, value=match[1])
+    chosen = _choose(bare, by_id[match[1]], ground, findings)
+    if chosen.state == "faulty" or chosen.word == type_cell.word:
         return chosen
     rule = say("nets.other_ground", ground=chosen.word)
-    refuse(named, rule, quote(chosen.word), findings)
-    return replace(named, state="faulty")
+    refuse(type_cell, rule, quote(chosen.word), findings)
+    return replace(type_cell, state="faulty")
 
 
 def _choose(
-    named: Reading,
+    type_cell: Reading,
     of_type: _ByGround,
     ground: Reading,
     findings: list[Finding],
@@ -112,10 +112,10 @@ def _choose(
     word = ground.word
     if len(of_type) > 1 and word in of_type and word:
         line = _rename(of_type[word], of_type[word]["ground"])
-        return replace(named, value=line["id"].word)
+        return replace(type_cell, value=line["id"].word)
     (line, *others) = of_type.values()
     if not others and (word in ("", line["ground"].word) or not line["ground"].word):
-        return named
+        return type_cell
     grounds = tuple(
         type_line["ground"].text
         for type_line in of_type.values()
@@ -124,8 +124,8 @@ def _choose(
     rule = say("nets.no_ground")
     if word:
         rule = say("nets.other_ground", ground=ground.text)
-    refuse(named, rule, say("nets.grounds", grounds=grounds), findings)
-    return replace(named, state="faulty")
+    refuse(type_cell, rule, say("nets.grounds", grounds=grounds), findings)
+    return replace(type_cell, state="faulty")
 
 
 def count_in_tests(
@@ -173,8 +173,8 @@ def count_in_tests(
             rule = say("tests.no_line", type=name)
             refuse(ground, rule, say("tests.line_wanted"), findings)
         else:
-            at = of_ground[0]["type" if ground.cell is None else "ground"]
-            refuse(at, say("tests.no_ground"), say("tests.ground_wanted"), findings)
+            cell = of_ground[0]["type" if ground.cell is None else "ground"]
+            refuse(cell, say("tests.no_ground"), say("tests.ground_wanted"), findings)
     return counted
 
 
@@ -255,8 +255,8 @@ def name_values(
             continue
         ends = [end for span in spans for end in span]
         value = max(ends) if key in largest else min(ends)
-        named = replace(row[key], state="given", value=from_si(value, field.unit))
-        values[key] = replace(named, derivation=how, cell=row["id"].cell)
+        reading = replace(row[key], state="given", value=from_si(value, field.unit))
+        values[key] = replace(reading, derivation=how, cell=row["id"].cell)
     return values
 
 

@@ -191,15 +191,15 @@ def reduce_breaking(row: Row) -> tuple[float, Message | None]:
 
     A force that is said to include the ends stays as it is.
     """
-    kind, force = row["termination"].word or _DEFAULT_TERMINATION, row["rope"]
-    loss = find_termination(kind)
-    if kind == _INCLUDED:
+    termination, force = row["termination"].word or _DEFAULT_TERMINATION, row["rope"]
+    loss = find_termination(termination)
+    if termination == _INCLUDED:
         return force.si, None
     return loss.value * force.si, say(
         "derivation.breaking",
         force=force.number,
         loss=loss.value,
-        termination=name("termination", kind),
+        termination=name("termination", termination),
         origin=_describe_origin(loss),
     )
 

@@ -79,13 +79,13 @@ class Column:
 def load_columns(table: str) -> tuple[Column, ...]:
     """Columns of a sheet or block, in the order of the template."""
     data = load_file("office")
-    of = data["sheets"][table]["of"]
-    return tuple(_read_column(table, key, of) for key in data[table])
+    quantities = data["sheets"][table]["of"]
+    return tuple(_read_column(table, key, quantities) for key in data[table])
 
 
-def _read_column(table: str, key: str, of: str) -> Column:
+def _read_column(table: str, key: str, quantities: str) -> Column:
     own = load_file("office")[table][key]
-    stands_for = own.get("like", f"{of}.{key}")
+    stands_for = own.get("like", f"{quantities}.{key}")
     place, _, name = stands_for.rpartition(".")
     like = load_file("columns").get(place, {}).get(name, {})
     shown = {"like", "unit", *_PLAIN, *_TEXTS}
