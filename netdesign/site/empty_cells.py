@@ -26,7 +26,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import find_model_code_density
 from netdesign.snow.snowpack import Layer, compute_mean_density
 
-Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness, layers, on what
+Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness [m], layers, ground
 _SEVERE = {
     "slack": 0.0,
     "net_stiffness": 1.0,
@@ -34,7 +34,7 @@ _SEVERE = {
 }  # share of the range that pulls hardest
 _DISTANCES = ("uphill_anchor_distance", "downhill_anchor_distance")
 _OF_SITE = ("density", "friction_angle", "inclination")
-# Of these a panel has the worst that is built; no column says it.
+# No column holds these: a panel takes the worst that is built.
 _ALWAYS = ("panel_system", "net_cut")
 
 
@@ -49,7 +49,7 @@ def fill_in(
         Line of a net row without a fault, and the cells that name other types at its
         end.
     snow : tuple of float, tuple of Layer, GroundLaw
-        Thickness, layers, on what.
+        Thickness [m], layers, ground of its snow.
     lines : Lines
         Of all sheets.
 
@@ -171,7 +171,7 @@ def assume_density(
     return assume_ends("density", low, high)
 
 
-# Columns whose range is searched with the cases, and none of net and support.
+# Columns of snow and ground whose range is searched with the cases.
 _OF_CASES = ("snow", "glide_factor", "upslope_length")
 
 

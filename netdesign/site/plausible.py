@@ -66,7 +66,7 @@ def ask_about_numbers(
     }
 
 
-# Tables whose lines are named by net rows, or name what these name.
+# Tables whose lines are named by net rows, or name the types of net rows.
 _NAMED = {
     "net_types": ("id", "net_types"),
     "tests": ("type", "anchor_types"),
@@ -133,7 +133,7 @@ def _list_all_doubts(lines: Lines) -> Iterator[Doubt]:
 
 Doubt: TypeAlias = tuple[Reading, Message]
 
-_LEAST_STRUCK = 2  # cells of a line, of which most are struck out
+_LEAST_STRUCK = 2  # cells; a longer line is struck out where most of it is
 _TOLERANCE = 0.05  # of a value of the catalogue
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")

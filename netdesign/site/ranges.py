@@ -40,7 +40,7 @@ class SiteRanges:
 def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
     """Ranges of the three quantities; the assumed ones where a line is empty.
 
-    Behind them stand the documents that snow, glide factors and ground are from.
+    The inputs end with the documents that snow, glide factors and ground come from.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """What a net row leaves open, and what stands for it.
 
-What a row leaves empty of net, snow and support is a range: `empty_cells.py`. What its
-verdicts lack besides is listed once, `list_missing`.
+An empty cell of net, snow or support is a range: `empty_cells.py`. What verdicts lack
+else is listed once by `list_missing`.
 """
 
 from __future__ import annotations

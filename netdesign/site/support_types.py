@@ -54,7 +54,7 @@ from netdesign.words.message import Message, say
 
 AnyMember: TypeAlias = Member | EndMember | NetPart
 
-_ENDS = ("head_eccentricity", "foot_eccentricity")  # one column says both
+_ENDS = ("head_eccentricity", "foot_eccentricity")  # one column gives both
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By table of types: a member that takes its types, and what these may fail by.
 _CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = {
@@ -203,7 +203,7 @@ def find_net_parts(row: Row, types: Types) -> tuple[Resistance, ...]:
 def list_catalogue(types: Types) -> tuple[Resistance, ...]:
     """Resistances of every type of the workbook, for one member that may have it.
 
-    Those that follow the demand have no place here: they need a member.
+    Resistances that follow the demand are left out: they need a member.
     """
     return tuple(
         _describe_type(line, mode, member)

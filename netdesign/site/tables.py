@@ -80,7 +80,7 @@ def _read_field(
             return Reading(field=field, state="faulty")
         return read_nothing(field, None)
     cell = table.sheet.cell(row, column.number)
-    if column.unit is None:  # so is the unit
+    if column.unit is None:  # a finding already
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     return read_answered(table.sheet, cell, field, column.unit, findings)
 
@@ -142,7 +142,7 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     first = (sheet.row(row)[0] for row in table.rows if row in sheet.hidden_rows)
     rule = say("table.hidden_row")
     findings.extend(cell.finding(rule, severity="note") for cell in first)
-    # elsewhere each is asked about, of the net rows that rest on it
+    # cells of other sheets become questions about the net rows that rest on them
     inspected = table.rows if table.plan.name in _NOT_ASKED else (table.heading_row,)
     cells = (
         cell for row in inspected for cell in sheet.row(row) if cell.column in read

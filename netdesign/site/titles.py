@@ -21,7 +21,7 @@ from netdesign.site.columns.fields import (
 )
 from netdesign.words.message import Message, say
 
-# How alike a heading or the name of a sheet must be to a missing one, misspelt.
+# Least likeness to a missing heading or sheet that makes a name a misspelling of it.
 _MISSPELT = 0.8
 MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 

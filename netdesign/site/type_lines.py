@@ -195,7 +195,7 @@ def _group_tests(
     return groups
 
 
-_OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that say what tests say
+_OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that tests fill in
 
 
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:

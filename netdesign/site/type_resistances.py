@@ -229,7 +229,7 @@ def find_loop_loss(row: Row) -> float:
 def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
     """Largest load of a test that the tendon of an anchor type allows [N]; (R32).
 
-    Of a bar its tensile strength is that of its product, or no more than it yields at.
+    A bar breaks at the ultimate force of its product, else where its tendon yields.
 
     Parameters
     ----------

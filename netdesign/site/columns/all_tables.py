@@ -1,11 +1,10 @@
 """The quantities of a site as one table: their units, bounds, words, what is usual.
 
-What a quantity is: ``columns.toml``. The input workbook (`office`) takes its columns
-from there; sheets of add-ons are read as they stand there. Names of sheets and columns,
-and words of cells, stand in ``netdesign/words``. How offices write headings stands in
-``headings/``, for guesses of ``netdesign map``.
-A heading is known by its whole name, in which case, accents and punctuation do not
-count.
+``columns.toml`` says what each quantity is. The input workbook (`office`) takes its
+columns from there; sheets of add-ons are read as they stand there. Names of sheets and
+columns, and words of cells, stand in ``netdesign/words``. Spellings of headings in
+offices stand in ``headings/``, for guesses of ``netdesign map``. A heading is
+recognised by its whole name, in which case, accents and punctuation do not count.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ KNOWN_UNITS: frozenset[str] = frozenset(UNCLEAR_UNITS).union(
 def normalise_unit(text: str) -> str:
     """Fold a unit to the spelling of this table: ``kg/m³`` to ``kg/m3``.
 
-    ``mN`` and ``Mn`` stay as they are: of milli and mega none is guessed.
+    ``mN`` and ``Mn`` stay as they are: whether milli or mega is meant is not guessed.
     """
     composed = unicodedata.normalize("NFKC", text)
     compact = "".join(composed.replace("^", "").split())
@@ -132,8 +132,9 @@ LONGEST_HEADING = 100
 class Usual:
     """Least and largest number that is built or measured.
 
-    Alone it is in the first unit, and ``source`` is the key of a text in area
-    ``plausible``. Beside others it is over the product of ``powers`` of them, in SI.
+    Alone, both are in the first unit, and ``source`` is the key of a text in area
+    ``plausible``. Beside other columns, both are multiples of the product of
+    ``powers`` of these, in SI.
     """
 
     least: float

@@ -1,7 +1,7 @@
 """The input workbook that ``init`` writes: its sheets and columns, `office.toml`.
 
-A column has the key of that of `all_tables` which it stands for, and what that is:
-units, bounds, words, what is usual. The reader joins its lines to those of there.
+A column takes units, bounds, words and usual numbers from the quantity of
+`all_tables` that it stands for. The reader joins its lines to lines of quantities.
 """
 
 from __future__ import annotations
