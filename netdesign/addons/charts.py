@@ -38,12 +38,9 @@ _LEFT, _GAP = 34.0, 8.0  # of a panel: its numbers; beside the names of its line
 _ABOVE, _BELOW = 18.0, 20.0  # it: its title; its ticks [pt]
 _MARGIN = 0.1  # of the values, above and below them
 _APART = 1.15 * TEXT_PT  # names of two lines [pt]
-_REACH = 20.0  # names beginning that close may overlap [pt]
 _TICK = 3.0
 _DOT, _MOST_DOTS = 1.2, 150  # half the width of a dot [pt]; more of them are a band
 _SAMPLE = 12.0  # of a line, before its name at the side [pt]
-_RAISED = str.maketrans("-0123456789", "\u207b⁰¹²³⁴⁵⁶⁷⁸⁹")
-_PLAIN = 3  # powers of ten up to which a number is written out
 # From white to the darkest: as many as a print tells apart.
 GREYS = tuple(f"#{3 * f'{250 - 11 * level:02x}'}" for level in range(16))
 _MONTHS_FROM = 45.0  # days from which on months are named, not days
@@ -53,7 +50,7 @@ _MONTHS_FROM = 45.0  # days from which on months are named, not days
 class Line:
     """One line of a chart, broken where a value is NaN.
 
-    ``label`` stands at its end; ``style`` is a number in ``SHADES``; an accented line
+    ``label`` stands at the right; ``style`` is a number in ``SHADES``; an accented line
     is the one that the reader should look at. ``low`` and ``high`` are a band about it,
     or without it where ``y`` is empty.
     """
@@ -118,6 +115,7 @@ def draw_panels(
 ) -> str:
     """SVG of charts against time in days, side by side or one below the other.
 
+    Names stand at the right, in the order of the largest values.
     Time has a logarithmic scale with ticks in seconds to days, or that of a calendar.
 
     Parameters
@@ -133,16 +131,15 @@ def draw_panels(
     time_label : str
         Below each column.
     span : (datetime, datetime), optional
-        Ends of the time on calendar; days then count from the first, dates stand below
-        the last panel and names at the right, in the order of the largest values.
+        Ends of the time on calendar; days then count from the first, and dates stand
+        below the last panel.
     language : Language
         Of the numbers beside the axes.
     """
     sketch = Chart(language=language)
     times = _find_times(panels, span)
     words = [word for panel in panels for word in panel.words]
-    room = max(measure_words(word, TEXT_PT) for word in words) + _GAP
-    room += _SAMPLE if span else 0.0
+    room = max(measure_words(word, TEXT_PT) for word in words) + _GAP + _SAMPLE
     pitch, top = (WIDTH + _GAP) / across, 0.0
     for place, panel in enumerate(panels):
         height = panel.height_pt or panel_pt
@@ -233,8 +230,7 @@ class _Painter:
             self._draw_mark(mark, place)
         for line in panel.lines:
             self._draw_line(line)
-        named = [one for one in panel.lines if one.label and len(one.x)]
-        (self._list_names if self.is_dated else self._name_lines)(named)
+        self._list_names([line for line in panel.lines if line.label and line.x])
 
     def _at(self, time: float) -> float:
         return self.frame.x(time if self.is_dated else math.log(time))
@@ -317,24 +313,6 @@ class _Painter:
                 base = bottom + _TICK + TEXT_PT + 1.5
                 self.sketch.text(x, base, word, anchor="middle")
 
-    def _name_lines(self, lines: Sequence[Line]) -> None:
-        """Name each line at its end; names that would overlap are moved apart."""
-        ends = [(self._at(one.x[-1]), self.frame.y(one.y[-1]), one) for one in lines]
-        ends.sort(key=lambda end: end[0])
-        while ends:
-            first, last = ends[0][0], ends[-1][0]
-            group = [end for end in ends if end[0] - first < _REACH]
-            ends = ends[len(group) :]
-            # the longer lines go on above or below the name of one that ends early
-            drop = 7.0 if first < last - _REACH else 0.0
-            group.sort(key=lambda end: end[1])
-            heights = spread([y for _, y, _ in group], _APART)
-            for (x, _, line), y in zip(group, heights, strict=True):
-                stroke, _ = _look_of(line)
-                fill = stroke if stroke in (ACCENT, INK) else SOFT
-                at = (x + 3.0, y + TEXT_PT / 3 + drop)
-                self.sketch.text(*at, line.label, fill=fill)
-
 
 def _look_of(line: Line) -> tuple[str, str]:
     """Stroke and dashes."""
@@ -353,39 +331,12 @@ def _split(line: Line) -> list[list[tuple[float, float]]]:
     return [run for run in runs if run]
 
 
-def spread(heights: Sequence[float], gap: float) -> list[float]:
-    """Ascending heights moved apart to ``gap``, each group about its mean.
-
-    >>> spread([0.0, 0.0, 1.0], 0.25)
-    [-0.125, 0.125, 1.0]
-    """
-    groups: list[list[float]] = []
-    for height in heights:
-        groups.append([height])
-        while len(groups) > 1 and _reach(groups[-2], gap) > _begin(groups[-1], gap):
-            groups[-2:] = [groups[-2] + groups[-1]]
-    return [
-        _begin(group, gap) + place * gap
-        for group in groups
-        for place in range(len(group))
-    ]
-
-
-def _begin(group: Sequence[float], gap: float) -> float:
-    return sum(group) / len(group) - gap * (len(group) - 1) / 2
-
-
-def _reach(group: Sequence[float], gap: float) -> float:
-    """Least height that the next group may begin at."""
-    return _begin(group, gap) + gap * len(group)
-
-
 def draw_decades(chart: Chart, frame: Frame, *, across: bool) -> None:
     """Ticks across the page or up it, where the frame has logarithms to base 10."""
     ends = (frame.x_low, frame.x_high) if across else (frame.y_low, frame.y_high)
     bottom, path = frame.top + frame.height, ""
-    for power, factor in list_decades(min(ends), max(ends)):
-        place, word = power + math.log10(factor), _write_power(chart, power, factor)
+    for number in _list_decades(min(ends), max(ends)):
+        place, word = math.log10(number), chart.write_tick(number)
         if across:
             x, y = frame.x(place), bottom + TICK + TEXT_PT + 1.5
             path += f"M{show_place(x)} {show_place(bottom)}v{TICK}"
@@ -397,32 +348,12 @@ def draw_decades(chart: Chart, frame: Frame, *, across: bool) -> None:
     chart.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
 
 
-def _write_power(chart: Chart, power: int, factor: int) -> str:
-    if abs(power) <= _PLAIN or factor > 1:
-        return chart.write_tick(factor * 10.0**power)
-    return f"10{str(power).translate(_RAISED)}"
-
-
-def list_decades(low: float, high: float) -> list[tuple[int, int]]:
-    """Powers of ten between two logarithms, each with a factor: 2 and 5 of few.
-
-    Examples
-    --------
-    >>> list_decades(-0.1, 1.1)
-    [(0, 1), (0, 2), (0, 5), (1, 1)]
-    >>> list_decades(0.0, 14.0)[:3]
-    [(0, 1), (2, 1), (4, 1)]
-    """
-    first, last = math.floor(low), math.ceil(high)
+def _list_decades(low: float, high: float) -> list[float]:
+    """Round numbers between two logarithms: powers of ten; 2 and 5 of few decades."""
     factors = (1, 2, 5) if high - low < 2.0 else (1,)
-    step = max(1, (last - first) // 6)
-    powers = [power for power in range(first, last + 1) if power % step == 0]
-    every = [(power, factor) for power in powers for factor in factors]
-    return [
-        (power, factor)
-        for power, factor in every
-        if low - 1e-9 <= power + math.log10(factor) <= high + 1e-9
-    ]
+    powers = range(math.floor(low), math.ceil(high) + 1)
+    numbers = [factor * 10.0**power for power in powers for factor in factors]
+    return [x for x in numbers if low - 1e-9 <= math.log10(x) <= high + 1e-9]
 
 
 def shade(value: float, low: float, high: float) -> str:
