@@ -1,9 +1,8 @@
-"""Snow against a rigid wall or rake: forces on it, and the glide factor by them."""
+"""Snow against a rigid wall or rake, and its forces on it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, cast
 
@@ -12,7 +11,6 @@ import numpy as np
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
     STEADY_ERROR,
-    Estimate,
     SupportForces,
     find_support_forces,
     measure_looseness,
@@ -34,25 +32,14 @@ from netdesign.outcome import (
     require_within,
 )
 from netdesign.snow.contact import FlowState
-from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
-from netdesign.snow.snowpack import Snowpack
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.cable.net import Net
-
-# The recipe: snow adhering to a rigid wall normal to the slope, as high as the snow.
-# What these leave open: coupling/THEORY.md, section 1.
-_THICKNESS = 3.0  # [m]
-_UPSLOPE_LENGTH = 240.0  # [m]
-_SLOPE_ANGLE = math.radians(40.0)
-_DENSITY = 340.0  # [kg/m3]
-_FINE = SolverSettings(accuracy=0.001)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,36 +87,20 @@ class WallSolution:
 
     Attributes
     ----------
-    scene : Scene
-        What was solved.
     force : EndPull
         Resultant of the snow on the wall.
-    moment_about_foot : float
-        Of the snow's forces about the wall's foot, positive where they tip its
-        upper edge downslope [N m per m].
-    wall_nodes, wall_forces : ndarray, shape (2, n)
-        Positions [m] and forces [N/m], foot to upper edge.
+    wall_forces : ndarray, shape (2, n)
+        Of its nodes, foot to upper edge [N/m].
     wall_slides : ndarray of bool, shape (n,)
         Where the snow slips on the wall.
-    largest_velocity : float
-        Of the snow [m/s].
     balance
         As in ``Solution``.
     """
 
-    scene: Scene
     force: EndPull
-    moment_about_foot: float
-    wall_nodes: Floats
     wall_forces: Floats
     wall_slides: Mask
-    largest_velocity: float
     balance: Balance
-
-    @property
-    def outcome(self) -> Outcome:
-        """Always converged: anything else is a ``FailedSolution``."""
-        return Outcome.CONVERGED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -184,24 +155,10 @@ def _solve(scene: Scene, settings: SolverSettings) -> WallSolution:
         settings.balance_tolerance,
         friction_tolerance=settings.stress_tolerance,
     )
-    return _build_solution(scene, states, force, balance)
-
-
-def _build_solution(
-    scene: Scene, states: Sequence[_WallState], force: Estimate, balance: Balance
-) -> WallSolution:
-    """The finest state in SI."""
-    end, scale, thickness = states[-1], scene.force_scale, scene.snowpack.thickness
-    nodes = end.mesh.nodes[:, end.mesh.template.net]
-    moment = (nodes[1] * end.forces.on_net[0] - nodes[0] * end.forces.on_net[1]).sum()
     return WallSolution(
-        scene=scene,
-        force=EndPull.of_estimate(force, scale),
-        moment_about_foot=float(moment) * scale * thickness,
-        wall_nodes=nodes * thickness,
-        wall_forces=end.forces.on_net * scale,
+        force=EndPull.of_estimate(force, scene.force_scale),
+        wall_forces=end.forces.on_net * scene.force_scale,
         wall_slides=np.append(False, end.state.contact.sign != 0),
-        largest_velocity=end.state.largest_velocity(end.mesh) * scene.velocity_scale,
         balance=balance,
     )
 
@@ -223,52 +180,7 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _WallState
             flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
         )
     state, forces = find_support_forces(problem, mesh, flow.state)
-    return _WallState(
-        problem=problem,
-        mesh=mesh,
-        state=state,
-        forces=forces,
-    )
-
-
-def measure_glide_factor(law: CreepLaw, slip_ratio: float) -> float:
-    """Ratio of snow pressures on a rigid wall with and without sliding.
-
-    Parameters
-    ----------
-    law : CreepLaw
-        Creep law.
-    slip_ratio : float
-        Slip length over snow thickness [-].
-
-    Returns
-    -------
-    float
-        N [-].
-
-    Raises
-    ------
-    SolveError
-        If one of the two scenes has no solution.
-    """
-    sliding = GroundLaw(kind="sliding", slip_length=slip_ratio * _THICKNESS)
-    rough = GroundLaw(kind="no-slip")
-    return _wall_force(law, sliding) / _wall_force(law, rough)
-
-
-def _wall_force(law: CreepLaw, ground: GroundLaw) -> float:
-    scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=_SLOPE_ANGLE,
-            thickness=_THICKNESS,
-            upslope_length=_UPSLOPE_LENGTH,
-            density=_DENSITY,
-        ),
-        ground=ground,
-        net=cast("Net", Wall(height_normal=_THICKNESS)),
-        creep_law=law,
-    )
-    return require_solved(solve_rigid(scene, _FINE)).force.x
+    return _WallState(problem=problem, mesh=mesh, state=state, forces=forces)
 
 
 def solve_wall(

@@ -7,20 +7,20 @@ from itertools import product
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.verification import rigid
+from netdesign.addons.evidence.scene import build_scene
 from netdesign.addons.evidence.verification.rigid import (
     Wall,
     WallSolution,
-    measure_glide_factor,
     put_wall,
     solve_rigid,
+    solve_wall,
 )
 from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.outcome import Outcome
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS
-from netdesign.snow.ground import compute_slip_length, load_glide_tables
+from netdesign.snow.ground import GroundLaw, compute_slip_length, load_glide_tables
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.each import each
 
@@ -31,6 +31,21 @@ COARSE = SolverSettings(
     levels=MESH_LEVELS[1:3],
 )
 PRESSED = {"ground": "no-slip", "inclination_deg": 0.0}
+FINE = SolverSettings(accuracy=0.001)
+ROUGH = GroundLaw(kind="no-slip")
+
+
+def press_by_recipe(law, ground, length):
+    """Force on a wall normal to the slope and as high as the snow, which adheres."""
+    scene = build_scene((3.0, 340.0), slope=40.0, length=length, ground=ground, lean=0)
+    return solve_wall(replace(scene, creep_law=CREEP_LAWS[law]), FINE).force.x
+
+
+def measure_glide_factor(law, slip_ratio, length=240.0):
+    """Ratio of snow pressures on a rigid wall with and without sliding."""
+    sliding = GroundLaw(kind="sliding", slip_length=3.0 * slip_ratio)
+    pressed = [press_by_recipe(law, ground, length) for ground in (sliding, ROUGH)]
+    return pressed[0] / pressed[1]
 
 
 def walled(a_scene, friction_angle=None, inclination=0.0, **given):
@@ -88,22 +103,11 @@ def test_adhering_snow_hangs_on_the_wall(a_scene):
     assert not solution.wall_slides.any()
 
 
-def test_moment_is_that_of_the_nodal_forces(a_scene):
-    solution = press(a_scene, inclination=0.3, ground="no-slip")
-    (x, y), (force_x, force_y) = solution.wall_nodes, solution.wall_forces
-    moment = (y * force_x - x * force_y).sum()
-    assert solution.moment_about_foot == pytest.approx(moment, rel=1e-12)
-    # it tips the upper edge downslope, about the foot
-    assert 0.0 < solution.moment_about_foot / solution.force.size < 4.0
-
-
 def test_fluidity_leaves_the_force(a_scene):
     scene = walled(a_scene, **PRESSED)
     slow = solve_rigid(scene, COARSE)
     fast = solve_rigid(replace(scene, fluidity=9.0 * scene.creep_fluidity), COARSE)
     assert fast.force.x == slow.force.x
-    expected = 9.0 * slow.largest_velocity
-    assert fast.largest_velocity == pytest.approx(expected, rel=1e-12)
 
 
 def test_wall_holds_layered_snow(a_scene):
@@ -159,13 +163,12 @@ def test_too_few_newton_steps(a_scene):
 
 
 @pytest.mark.long
-def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
-    recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
-    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 341.0)
-    longer = measure_glide_factor(BOUTILLIER_2004, 31.5)
-    assert longer == pytest.approx(recipe, rel=5e-4)
-    monkeypatch.setattr(rigid, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
-    assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe
+def test_a_longer_snowpack_leaves_the_largest_glide_factor():
+    law = BOUTILLIER_2004.name
+    recipe = measure_glide_factor(law, 31.5)
+    assert measure_glide_factor(law, 31.5, 341.0) == pytest.approx(recipe, rel=5e-4)
+    # too short: 20 thicknesses
+    assert measure_glide_factor(law, 31.5, 61.0) < 0.99 * recipe
 
 
 @pytest.mark.long
@@ -173,14 +176,14 @@ def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
 def test_recipe_gives_the_stored_table(law, ratio):
     table = load_glide_tables()[law]
     place = table.slip_ratios.index(ratio)
-    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    measured = measure_glide_factor(law, ratio)
     assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
 
 
 @pytest.mark.long
 @each("law, ratio", [*product(load_glide_tables(), (0.0281, 3.58, 14.1))][1::2])
 def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
-    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    measured = measure_glide_factor(law, ratio)
     table = load_glide_tables()[law]
     assert table.find_glide_factor(ratio) == pytest.approx(measured, rel=2e-3)
     assert compute_slip_length(measured, 1.0, law) == pytest.approx(ratio, rel=0.01)
