@@ -52,7 +52,7 @@ def alter_leaf(document, path, draw):
 
 # Another value of a field that takes only a few.
 _OTHERS = {
-    "sense": {"at least": "at most", "at most": "has", "has": "at least"},
+    "sense": {"at least": "has", "has": "at least"},
     "position": {"intermediate": "edge", "edge": "intermediate"},
     "anchor": {
         "foot_anchor": "downhill_anchor",

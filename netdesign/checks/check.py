@@ -64,11 +64,11 @@ class AssumedPoint:
 class Change:
     """The smallest change of one quantity that flips a check."""
 
-    quantity: Text  # "characteristic resistance", "post spacing", "type B", ...
+    quantity: Text  # "characteristic resistance", "type B of the workbook"
     unit: str
     now: float | None
-    bound: float | None  # None where no value flips the check
-    sense: Literal["at least", "at most", "has"]
+    bound: float
+    sense: Literal["at least", "has"]
     note: Text | None = None
 
 

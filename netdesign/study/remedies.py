@@ -1,7 +1,7 @@
-"""Resistance, type and post spacing with which a check passes.
+"""Resistance and type with which a check passes.
 
-Forces follow resistance and spacing in exact proportion: no case is solved. The type is
-the weakest one of the workbook that does.
+No case is solved: neither changes a force, but for a border rope's type, which says so.
+The type is the weakest one of the workbook that does.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from netdesign.checks.check import Change
 from netdesign.checks.comparison import find_partial_factor
 from netdesign.site.model import Resistance, Site
 from netdesign.structure.members import END_ANCHORS, NAMED_BY, NetPart
-from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.case_records import PullRecord
 from netdesign.study.member_checks import MemberCheck, find_lasting
@@ -36,13 +35,6 @@ def list_remedies(member_check: MemberCheck) -> list[Change]:
     if is_of_ground or is_of_head or not _is_worth_telling(basis, member_check):
         return []  # sliding goes with what presses the base; a ground is as it is
     changes = _list_resistance_remedies(basis, member_check)
-    _, used = member_check.check.utilisation_band
-    if used is None:
-        return _annotate(member_check, changes)
-    # ropes' forces are in no proportion to the spacing, and the maker's is as it is
-    if not basis.row.panels and member_check.check.governs != "maker":
-        spacing = basis.row.layout.post_spacing
-        changes.append(find_spacing_remedy(spacing, member_check.width, used))
     return _annotate(member_check, changes)
 
 
@@ -91,30 +83,6 @@ def _list_resistance_remedies(basis: Basis, member_check: MemberCheck) -> list[C
         return [change]  # another rope has another stiffness, and so another force
     kind = find_type_change(basis, member_check.resistance, demand, member_check.pull)
     return [change, kind] if kind else [change]
-
-
-def find_spacing_remedy(
-    post_spacing: float, width: LoadedWidth, utilisation: float
-) -> Change:
-    """Largest post spacing at which a check passes: every force is in proportion."""
-    is_edge = width.position == "edge"
-    part = 0.5 if is_edge else 1.0
-    left = width.width / utilisation
-    if is_edge:
-        left -= width.end_factor * width.end_length
-    # the part of an end effect that begins at another support falls with the spacing
-    reached = width.end_factor * width.share * post_spacing**2
-    root = left**2 - 4.0 * part * reached
-    widest = (left + math.sqrt(root)) / (2.0 * part) if left > 0.0 <= root else 0.0
-    bound = math.floor(100.0 * widest + 1e-9) / 100.0
-    return Change(
-        quantity=say("change.post_spacing"),
-        unit="m",
-        now=post_spacing,
-        bound=bound if bound > 0.0 else None,
-        sense="at most",
-        note=None if bound > 0.0 else say("change.end_effect_too_much"),
-    )
 
 
 def find_ground(site: Site, type_id: str) -> str:

@@ -215,14 +215,6 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile():
     # Resistance that would do, for the pull-out: 159.27 * 2.3625 = 376.3 kN.
     needed = checks["foot_anchor.pull_out.end"].changes[0]
     assert needed.bound == pytest.approx(159.27 * 2.3625, **CLOSE)
-    # Widest spacing: the edge may have 5.5 / 2.4644 = 2.2318 m, and its end effect
-    # takes 3.5 m of them: no spacing does.
-    spacing = next(
-        c
-        for c in checks["foot_anchor.pull_out.end"].changes
-        if c.quantity.key == "change.post_spacing"
-    )
-    assert spacing.bound is None
 
 
 def test_row_3_head_drawn_upslope_under_the_onr_style_profile():

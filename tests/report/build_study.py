@@ -350,12 +350,12 @@ def build_check(
                 sense="has",
             ),
             Change(
-                quantity=say("change.post_spacing"),
-                unit="m",
-                now=4.0,
-                bound=None,
-                sense="at most",
-                note=say("change.end_effect_too_much"),
+                quantity=say("change.type_of_workbook", type="HEB 200"),
+                unit="kN",
+                now=characteristic,
+                bound=812.3,
+                sense="has",
+                note=say("change.as_far_as_solved"),
             ),
         ],
     )

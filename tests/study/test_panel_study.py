@@ -19,7 +19,6 @@ from netdesign.structure.members import END_ANCHORS, END_MODES
 from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
 from tests.grid import solve_site
@@ -213,18 +212,6 @@ def test_the_panel_alone_leaves_a_guy_unproven():
     assert verdicts[0]["uphill_guy.rope"].verdict is Verdict.PASS
     assert verdicts[1]["uphill_guy.rope"].verdict is Verdict.NOT_PROVEN
     assert verdicts[1]["uphill_guy.rope"].utilisation > 1.0
-
-
-def test_changes_that_mend_a_check_follow_the_panel(pair):
-    """A spacing in proportion is none of them."""
-    by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
-    resistance = 0.97 * by_panel.demand_kN * by_panel.read("γ_R") * 1e3
-    row = with_panel(a_panel(), resistances=resist(uphill_guy__rope=resistance))
-    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
-    check = checks_of(study)["uphill_guy.rope.end"]
-    assert check.verdict is not Verdict.PASS
-    changes = {one.quantity.key: one for one in check.changes}
-    assert "change.post_spacing" not in changes
 
 
 def test_a_search_bounds_both_sets():

@@ -80,20 +80,9 @@ def test_weak_anchor_fails_and_every_change_is_told(found, changes):
     assert set(changes) == {
         "characteristic resistance",
         "type strong of the workbook",
-        "post spacing",
     }
     others = [one for one in found.checks if one.id != "foot_anchor.tendon"]
     assert all(one.changes == [] for one in others)
-
-
-def test_spacing_flips_the_check_and_a_little_more_does_not(changes):
-    def verdict(value):
-        layout = replace(ROW.layout, post_spacing=value)
-        return check(study(replace(ROW, layout=layout))).verdict
-
-    bound = changes["post spacing"].bound
-    assert verdict(bound) is Verdict.PASS
-    assert verdict(bound + 0.03) is not Verdict.PASS
 
 
 def test_resistance_that_is_told_is_enough_and_no_more(changes):

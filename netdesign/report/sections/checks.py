@@ -141,10 +141,8 @@ def name_few(checks: Sequence[Check], words: Words) -> str:
 
 
 _LOADS = ("coupled", "panel", "truss", "guideline", "maker")
-_FAR = 2.0  # times today's value, or its half: beyond it the change is no proposal
 _SENSES = {
     "at least": "show.change_at_least",
-    "at most": "show.change_at_most",
     "has": "show.change_has",
 }
 
@@ -152,32 +150,20 @@ _SENSES = {
 def list_flips(check: Check, words: Words) -> tuple[str, ...]:
     """Changes that turn one check, in short; none where no change alone does.
 
-    ``post spacing at most 1.42 m, now 4 m (as far as the calculated cases show)``
+    ``characteristic resistance ≥ 142 kN, now 120 kN (as far as the calculated cases
+    show)``
     """
-    useful = filter(is_useful, check.changes)
     return tuple(
-        _add_note(_compare_now(change, words), change, words) for change in useful
+        _add_note(_compare_now(change, words), change, words)
+        for change in check.changes
     )
-
-
-def is_useful(change: Change) -> bool:
-    """A change that can be built: a resistance or type, or a number near today's.
-
-    A post spacing of 0.3 m in the place of 3.5 m is none.
-    """
-    if change.bound is None:
-        return False
-    if change.unit == "kN" or not change.now:
-        return True
-    return 1.0 / _FAR <= change.bound / change.now <= _FAR
 
 
 def _compare_now(change: Change, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
-    now = round(change.now, 3) if change.unit == "m" else change.now  # cos of a slope
-    shown = words.show_quantity(now, change.unit)
+    shown = words.show_quantity(change.now, change.unit)
     return words("show.change_now", change=text, now=shown)
 
 
@@ -188,21 +174,17 @@ def _add_note(text: str, change: Change, words: Words) -> str:
 
 
 def describe_change(change: Change, words: Words) -> str:
-    """One change in words: ``snow density at most 219 kg/m3``."""
+    """One change in words: ``characteristic resistance ≥ 219 kN``."""
     quantity = words.show(change.quantity)
-    if change.bound is None:
-        return words("show.change_none", quantity=quantity)
     bound = words.show_quantity(change.bound, change.unit)  # rounded by the search
-    if change.unit == "kN" and change.sense == "at least":
+    if change.sense == "at least":
         bound = append_unit(words.show_minimum(change.bound), "kN")
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 
 def _explain_change(change: Change, words: Words) -> str:
     """One change with the condition that it has."""
-    text = _compare_now(change, words)
-    if change.bound is not None:
-        text = words("show.passes_with", change=text)
+    text = words("show.passes_with", change=_compare_now(change, words))
     return _add_note(text, change, words)
 
 
@@ -223,7 +205,6 @@ def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
         )
         for row, check in rows
         for change in check.changes
-        if is_useful(change)
     ]
     if lines:
         return lines
