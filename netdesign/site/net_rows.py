@@ -186,10 +186,10 @@ def _judge_count(count: int) -> Refusal | None:
 def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow | None:
     count_before = len(findings)
     has_end = line["gap"].given_si != 0.0
-    snow = lines.snow.get(line["id"].word, ())
+    layer_lines = lines.snow.get(line["id"].word, ())
     end = lines.ends[line["id"].word] if has_end else {}
-    layers = build_layers(snow, line["slope_angle"], findings)
-    thickness = _understand_thickness(line, snow, layers, findings)
+    layers = build_layers(layer_lines, line["slope_angle"], findings)
+    thickness = _understand_thickness(line, layer_lines, layers, findings)
     ground = _understand_ground(line["glide_factor"], thickness, findings)
     _ask_for_length(line, findings)
     for cells in (line, end):
@@ -199,8 +199,8 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         return None
     if thickness is None or ground is None:
         return None
-    held = (thickness, layers, ground)
-    row, assumed = fill_in(line, end, held, lines)
+    snow = (thickness, layers, ground)
+    row, assumed = fill_in(line, end, snow, lines)
     rounded = _round_net_height(line["net_height"], thickness, findings)
     if is_overtopped(rounded.si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
@@ -212,8 +212,8 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
         for key, reading in end.items()
         if key != "ground"
     )
-    inputs = (*echoes, *echo_layers(snow), *at_end)
-    built = _compose_net_row(row, end, lines.types, held, inputs)
+    inputs = (*echoes, *echo_layers(layer_lines), *at_end)
+    built = _compose_net_row(row, end, lines.types, snow, inputs)
     return replace(built, assumed=assumed, ranges=find_own_ranges(assumed, row))
 
 

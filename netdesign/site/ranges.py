@@ -64,10 +64,10 @@ def build_ranges(lines: Mapping[str, Reading]) -> SiteRanges:
         ),
         inputs=tuple(
             reading.echo()
-            for reading in (*(end for both in ends for end in both), *documents)
+            for reading in (*(end for pair in ends for end in pair), *documents)
         ),
         assumed=assumed,
-        lines=tuple({end.field.key: end} for both in ends for end in both),
+        lines=tuple({end.field.key: end} for pair in ends for end in pair),
     )
 
 

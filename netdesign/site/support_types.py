@@ -319,9 +319,9 @@ def _slide(base: _Typed) -> Resistance:
 
 def _hold_foot(foot: _Typed) -> Resistance:
     """Resistance of a post's foot to tension, as declared; 0 of a loose foot."""
-    held = foot.line["foot_tension"] if foot.line else None
-    if held is None or held.state != "given":
+    strength = foot.line["foot_tension"] if foot.line else None
+    if strength is None or strength.state != "given":
         return foot.leave_open("tension", lack=say("check.no_foot_tension"))
-    lack = None if held.si > 0.0 else say("check.foot_loose")
-    tension = foot.leave_open("tension", lack=lack, source=held.place)
-    return replace(tension, value=None if lack else held.si, basis="declared")
+    lack = None if strength.si > 0.0 else say("check.foot_loose")
+    tension = foot.leave_open("tension", lack=lack, source=strength.place)
+    return replace(tension, value=None if lack else strength.si, basis="declared")

@@ -126,11 +126,11 @@ def list_derived(table: str) -> tuple[Field, ...]:
 
 def is_heading(text: str) -> bool:
     """A text is a heading of some sheet."""
-    return split_heading(text)[0] in _known_headings()
+    return split_heading(text)[0] in _list_headings()
 
 
 @cache
-def _known_headings() -> frozenset[str]:
+def _list_headings() -> frozenset[str]:
     plans = (*SHEETS, *map(load_plan, TABLES))
     fields = (field for plan in plans for field in plan.fields)
     return frozenset(name for field in fields for name in field.names)
