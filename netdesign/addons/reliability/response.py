@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign.addons.reliability.check_by_case import TRIED_DENSITIES, CheckByCase
-from netdesign.envelope.ranges import Case, Interval
+from netdesign.envelope.ranges import PARAMETERS, Case, Interval
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import ModelError
@@ -199,16 +199,12 @@ class Rater:
         """Load of the support by its end, of what is moved over that of the row."""
         if self.check.row.ground.kind != "sliding":
             return 1.0
-        now = self._find_width({})
-        moved = {name: value for name, value in moved.items() if name in _WIDENING}
-        return self._find_width(moved) / now if now else 1.0
-
-    def _find_width(self, moved: Mapping[str, float]) -> float:
-        """Load of the support by its end, as ``CheckByCase.widen`` gives it."""
         ranges = self.check.ranges
-        for name, value in moved.items():
-            ranges = ranges.with_value(name, value)
-        return self.check.widen(ranges)
+        now = self.check.widen(ranges)
+        for name in _WIDENING:
+            if name in moved:
+                ranges = ranges.with_value(name, moved[name])
+        return self.check.widen(ranges) / now if now else 1.0
 
     def solve(
         self, case: Case, moved: Sequence[Mapping[str, float]]
@@ -227,9 +223,10 @@ class Rater:
 
 
 def move(case: Case, moved: Mapping[str, float]) -> Case:
-    """Case with some quantities moved."""
-    for name, value in moved.items():
-        case = case.with_value(name, value)
+    """Case with some quantities moved, the thickness before the glide."""
+    for name in PARAMETERS:
+        if name in moved:
+            case = case.with_value(name, moved[name])
     return case
 
 

@@ -32,7 +32,7 @@ from netdesign.addons.reliability.variables import (
     MODEL,
     RESISTANCE,
     LimitState,
-    RowVariable,
+    Variable,
     list_lines,
     list_variables,
 )
@@ -168,7 +168,7 @@ class _State:
     row's vertical snow height [m], to which the density refers.
     """
 
-    variables: tuple[RowVariable, ...]
+    variables: tuple[Variable, ...]
     response: Response
     factor: float
     slope_cosine: float
@@ -179,8 +179,7 @@ class _State:
         return [variable.name for variable in self.variables]
 
     def build(self) -> LimitState:
-        variables = tuple(entry.variable for entry in self.variables)
-        return LimitState(variables=variables, margin=self._find_margin)
+        return LimitState(variables=self.variables, margin=self._find_margin)
 
     def _find_margin(self, values: Floats) -> Floats:
         columns = dict(zip(self.names, values.T, strict=True))
@@ -203,17 +202,12 @@ class _State:
 
     def read_point(self, values: Sequence[float]) -> dict[str, float]:
         """Quantities of a design point as they are solved [SI]."""
-        named = dict(zip(self.names, values, strict=True))
-        height = next(
-            variable for variable in self.variables if variable.name == HEIGHT
-        )
-        named[HEIGHT] = min(named[HEIGHT], height.variable.cap)
-        arrays = {
-            name: np.array([value])
-            for name, value in named.items()
-            if name not in (MODEL, RESISTANCE)
+        named = {
+            variable.name: np.array([min(value, variable.cap)])
+            for variable, value in zip(self.variables, values, strict=True)
         }
-        return {k: float(v[0]) for k, v in self._name_solved(arrays).items()}
+        del named[MODEL], named[RESISTANCE]
+        return {k: float(v[0]) for k, v in self._name_solved(named).items()}
 
     def require_within(self, values: Sequence[float]) -> None:
         """Refuse a design point beyond what was solved."""
@@ -224,14 +218,13 @@ class _State:
 
     def with_error(self, error: float) -> _State:
         """State whose model factor has another error beside its own, (U8)."""
-        variables = []
-        for entry in self.variables:
-            variable = entry.variable
-            if entry.name == MODEL:
-                deviation = math.hypot(variable.deviation, error * variable.mean)
-                entry = replace(entry, variable=replace(variable, deviation=deviation))
-            variables.append(entry)
-        return replace(self, variables=tuple(variables))
+        variables = tuple(
+            replace(entry, deviation=math.hypot(entry.deviation, error * entry.mean))
+            if entry.name == MODEL
+            else entry
+            for entry in self.variables
+        )
+        return replace(self, variables=variables)
 
 
 def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, float]:
@@ -259,7 +252,7 @@ def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, floa
 
 
 def _solve(rater: Rater, values: Mapping[str, float]) -> float:
-    (solved,) = rater.solve(rater.check.governing, [_order(values)])
+    (solved,) = rater.solve(rater.check.governing, [values])
     if solved is None:
         raise ModelError(say("reliability.no_solve"))
     return solved
@@ -287,14 +280,9 @@ def _record(
         resistance_factor=1.0 / values[RESISTANCE],
         profile_action_factor=check.read("γ_E"),
         profile_resistance_factor=check.read("γ_R"),
-        design_point=record_point(move(governing, _order(point))),
+        design_point=record_point(move(governing, point)),
         samples=reliability.samples,
     )
-
-
-def _order(values: Mapping[str, float]) -> dict[str, float]:
-    """Quantities as a case takes them: the thickness before the glide."""
-    return {name: values[name] for name in PARAMETERS if name in values}
 
 
 def _record_variables(
@@ -302,25 +290,26 @@ def _record_variables(
 ) -> list[VariableRecord]:
     """Variables, with the values that were solved at the design point."""
     records = []
-    for entry, share, value in zip(
+    for variable, share, value in zip(
         state.variables,
         reliability.alpha_squared,
         reliability.design_point,
         strict=True,
     ):
-        variable, parameter = entry.variable, PARAMETERS.get(entry.name)
+        parameter = PARAMETERS.get(variable.name)
         show = parameter.show if parameter else float
+        at_design_point = point.get(variable.name, min(value, variable.cap))
         records.append(
             VariableRecord(
-                name=entry.name,
+                name=variable.name,
                 key=parameter.key if parameter else "",
                 distribution=variable.kind,
                 mean=show(variable.mean),
                 variation=variable.deviation / variable.mean,
-                source=entry.source,
-                is_assumed=entry.is_assumed,
+                source=variable.source,
+                is_assumed=variable.is_assumed,
                 alpha_squared=share,
-                at_design_point=show(point.get(entry.name, min(value, variable.cap))),
+                at_design_point=show(at_design_point),
             )
         )
     return records

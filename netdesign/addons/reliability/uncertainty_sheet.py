@@ -11,7 +11,7 @@ from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import Site
 from netdesign.site.readings import refuse
 from netdesign.site.tables import read_rows
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +33,9 @@ class UncertainQuantity:
     period : float or None
         Return period of the snow height of the workbook [a].
     source : str
-        Where it is from, as typed.
+        Where it is from, as typed; of an assumed one the key of the text that says so.
+    is_assumed : bool
+        Of ``assumed.toml``, not typed.
     """
 
     row_id: str
@@ -43,6 +45,14 @@ class UncertainQuantity:
     distribution: str = ""
     mean_ratio: float | None = None
     period: float | None = None
+    is_assumed: bool = False
+
+    @property
+    def source_in_words(self) -> Message:
+        """Where it is from."""
+        if self.is_assumed:
+            return say(f"source.{self.source}")
+        return say("source.typed", text=self.source)
 
 
 def read_uncertain(

@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from importlib.resources import files
-from typing import Literal
 
 import numpy as np
 
@@ -35,8 +34,8 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.words.message import Message, say
 
-DistributionKind = Literal["gumbel", "lognormal", "normal"]
-KINDS: tuple[DistributionKind, ...] = ("gumbel", "lognormal", "normal")
+KINDS = ("gumbel", "lognormal", "normal")
+_OF_RANGE = say("source.range")
 _STEP = 1e-4  # in standard normal space, of central differences
 
 
@@ -54,13 +53,19 @@ class Variable:
         In the unit of the variable; deviation 0 is a constant.
     cap : float
         Value beyond which the variable has no more effect; infinite for none.
+    source : Message
+        Where the distribution is from; a range of the workbook unless it is said.
+    is_assumed : bool
+        No line of sheet Uncertainty gives it.
     """
 
     name: str
-    kind: DistributionKind
+    kind: str
     mean: float
     deviation: float
     cap: float = math.inf
+    source: Message = _OF_RANGE
+    is_assumed: bool = True
 
     def __post_init__(self) -> None:
         """Refuse a distribution that does not exist."""
@@ -102,18 +107,6 @@ class Variable:
         scale = math.sqrt(6.0) / math.pi * self.deviation
         mode = self.mean - np.euler_gamma * scale
         return float(ndtri_exp(-math.exp(-(value - mode) / scale)))
-
-
-def read_kind(name: str) -> DistributionKind:
-    """Kind of distribution of a name in a document.
-
-    Raises
-    ------
-    ModelError
-        If no kind has it.
-    """
-    require_one_of("distribution", name, KINDS)
-    return next(kind for kind in KINDS if kind == name)
 
 
 def _find_log_deviation(variation: float) -> float:
@@ -202,41 +195,14 @@ class LimitState:
         return margins[:, 0], (up - down) / (2.0 * _STEP)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Assumed:
-    """One assumed distribution.
-
-    Attributes
-    ----------
-    distribution : str
-        Its kind.
-    variation : float
-        Coefficient of variation [-].
-    source : str
-        Key of the text that says where it is from.
-    period : float or None
-        Return period of the value of the workbook [a].
-    mean_ratio : float or None
-        Mean over the characteristic value [-].
-    """
-
-    distribution: DistributionKind
-    variation: float
-    source: str
-    period: float | None = None
-    mean_ratio: float | None = None
-
-    @property
-    def source_in_words(self) -> Message:
-        """Its source in words."""
-        return say(f"source.{self.source}")
-
-
 @lru_cache(maxsize=1)
-def load_assumed() -> Mapping[str, Assumed]:
-    """Assumed distributions by the names of their variables."""
+def load_assumed() -> Mapping[str, UncertainQuantity]:
+    """Assumed distributions by the names of their variables, each for all rows."""
     text = files(__package__).joinpath("assumed.toml").read_text(encoding="utf-8")
-    return {name: Assumed(**entry) for name, entry in tomllib.loads(text).items()}
+    return {
+        name: UncertainQuantity(row_id="", name=name, is_assumed=True, **entry)
+        for name, entry in tomllib.loads(text).items()
+    }
 
 
 HEIGHT, MODEL, RESISTANCE = "snow_height", "model", "resistance"
@@ -257,27 +223,13 @@ _HEIGHT_BEND = -0.5  # measured: -0.8 to 0; that of the others is 0.1 at most
 _TOO_NEAR = 0.1  # to the row's value, in logarithms
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowVariable:
-    """A random variable, and where its distribution is from."""
-
-    variable: Variable
-    source: Message
-    is_assumed: bool
-
-    @property
-    def name(self) -> str:
-        """Key of the variable."""
-        return self.variable.name
-
-
 # Line of sheet Uncertainty that holds for a quantity of one net row.
 _Find = Callable[[str], UncertainQuantity | None]
 
 
 def list_variables(
     site: Site, check: CheckByCase, record: Check
-) -> tuple[RowVariable, ...]:
+) -> tuple[Variable, ...]:
     """Random variables of a check; those of its case are in SI units.
 
     Raises
@@ -288,10 +240,13 @@ def list_variables(
     find, case = partial(find_uncertain, site, check.row.id), check.governing
     variables = [_find_height(find, check.row)]
     for name, span in check.ranges.intervals:
-        if span.low < span.high:
-            variables.append(_find_ranged(find, name, span.low, span.high))
-        elif name in _SHARES and case.values[name] > 0.0:
-            variables.append(_find_single(find, name, case.values[name]))
+        if span.low == span.high:
+            if name in _SHARES and case.values[name] > 0.0:
+                variables.append(_find_single(find, name, case.values[name]))
+        elif find(name) is None:
+            variables.append(_build_ranged(name, span.low, span.high))
+        else:
+            variables.append(_find_single(find, name, 0.5 * (span.low + span.high)))
     if not set(_GLIDES) & set(check.ranges.axes):
         variables += _list_glide(find, check.row)
     variables.append(_find_single(find, MODEL, 1.0))
@@ -299,7 +254,7 @@ def list_variables(
     return tuple(variables)
 
 
-def _list_glide(find: _Find, row: NetRow) -> list[RowVariable]:
+def _list_glide(find: _Find, row: NetRow) -> list[Variable]:
     """Glide of a row whose ground slides, by the quantity that was typed."""
     if row.glide_factor is not None:
         return [_find_single(find, "glide_factor", row.glide_factor)]
@@ -308,93 +263,87 @@ def _list_glide(find: _Find, row: NetRow) -> list[RowVariable]:
     return []
 
 
-def _find_height(find: _Find, row: NetRow) -> RowVariable:
-    """Annual maximum of the vertical snow height, capped by the net."""
-    typed, assumed = find(HEIGHT), load_assumed()[HEIGHT]
-    variation = typed.variation if typed else assumed.variation
-    cosine = math.cos(row.slope_angle)
-    height, cap = row.snow_thickness / cosine, row.net_height / cosine
-    if typed and typed.mean_ratio is not None:
-        kind = typed.distribution or assumed.distribution
-        variable = _build(HEIGHT, kind, typed.mean_ratio * height, variation, cap)
-    else:
-        period = (typed.period if typed else None) or assumed.period or math.nan
-        variable = build_annual_maximum(HEIGHT, height, period, variation, cap)
-    return _tell(variable, typed, assumed.source_in_words)
-
-
-def _tell(
-    variable: Variable, typed: UncertainQuantity | None, assumed: Message
-) -> RowVariable:
-    return RowVariable(
-        variable=variable,
-        source=say("source.typed", text=typed.source) if typed else assumed,
-        is_assumed=typed is None,
-    )
-
-
-def _find_single(find: _Find, name: str, value: float) -> RowVariable:
-    """Variable whose mean is a single value of the workbook, or in a ratio to it."""
-    typed, assumed = find(name), load_assumed().get(name)
-    if typed is not None:
-        return _tell(_build_typed(typed, name, value), typed, say("source.range"))
-    if assumed is None:
+def _complete(find: _Find, name: str, assumed_as: str = "") -> UncertainQuantity:
+    """Line of the workbook, completed by the assumed one, which counts without it."""
+    typed, assumed = find(name), load_assumed().get(assumed_as or name)
+    if typed is not None and assumed is not None:
+        return replace(
+            typed,
+            distribution=typed.distribution or assumed.distribution,
+            period=typed.period or assumed.period,
+        )
+    line = typed or assumed
+    if line is None:
         refusal = say("reliability.no_distribution", name=PARAMETERS[name].label)
         raise ModelError(refusal)
-    variable = _build(name, assumed.distribution, value, assumed.variation)
-    return _tell(variable, None, assumed.source_in_words)
+    return line
 
 
-def _build_typed(typed: UncertainQuantity, name: str, value: float) -> Variable:
-    """Variable of a line of the workbook, by the value that its ratio refers to."""
-    mean = value * (1.0 if typed.mean_ratio is None else typed.mean_ratio)
-    return _build(name, typed.distribution, mean, typed.variation)
+def _find_height(find: _Find, row: NetRow) -> Variable:
+    """Annual maximum of the vertical snow height, capped by the net."""
+    line, cosine = _complete(find, HEIGHT), math.cos(row.slope_angle)
+    height, cap = row.snow_thickness / cosine, row.net_height / cosine
+    if line.mean_ratio is not None:
+        return _build(HEIGHT, line, line.mean_ratio * height, cap)
+    period = line.period or math.nan
+    variable = build_annual_maximum(HEIGHT, height, period, line.variation, cap)
+    return _note_source(variable, line)
+
+
+def _note_source(variable: Variable, line: UncertainQuantity) -> Variable:
+    return replace(variable, source=line.source_in_words, is_assumed=line.is_assumed)
+
+
+def _find_single(find: _Find, name: str, value: float) -> Variable:
+    """Variable whose mean is a single value of the workbook, or in a ratio to it."""
+    line = _complete(find, name)
+    ratio = 1.0 if line.mean_ratio is None else line.mean_ratio
+    return _build(name, line, value * ratio)
 
 
 def _build(
-    name: str, kind: str, mean: float, variation: float, cap: float = math.inf
+    name: str, line: UncertainQuantity, mean: float, cap: float = math.inf
 ) -> Variable:
-    """Variable by its coefficient of variation; lognormal where ``kind`` is empty."""
-    kind, deviation = read_kind(kind or "lognormal"), variation * mean
-    return Variable(name=name, kind=kind, mean=mean, deviation=deviation, cap=cap)
+    """Variable by its coefficient of variation; lognormal where no kind is typed."""
+    variable = Variable(
+        name=name,
+        kind=line.distribution or "lognormal",
+        mean=mean,
+        deviation=line.variation * mean,
+        cap=cap,
+    )
+    return _note_source(variable, line)
 
 
-def _find_ranged(find: _Find, name: str, low: float, high: float) -> RowVariable:
-    """Variable of a range of the workbook: its middle nine tenths, unless typed."""
-    typed, middle = find(name), 0.5 * (low + high)
-    if typed is not None:
-        variable = _build_typed(typed, name, middle)
-    elif low > 0.0 and name != "inclination":
+def _build_ranged(name: str, low: float, high: float) -> Variable:
+    """Variable of which a range of the workbook is the middle nine tenths."""
+    if low > 0.0 and name != "inclination":
         spread = math.log(high / low) / (2.0 * _WITHIN)
         variation = math.sqrt(math.expm1(spread**2))
-        variable = build_by_share(name, math.sqrt(low * high), 0.0, variation)
-    else:
-        deviation = (high - low) / (2.0 * _WITHIN)
-        variable = Variable(name=name, kind="normal", mean=middle, deviation=deviation)
-    return _tell(variable, typed, say("source.range"))
+        return build_by_share(name, math.sqrt(low * high), 0.0, variation)
+    middle, deviation = 0.5 * (low + high), (high - low) / (2.0 * _WITHIN)
+    return Variable(name=name, kind="normal", mean=middle, deviation=deviation)
 
 
-def _find_resistance(find: _Find, check: Check) -> RowVariable:
+def _find_resistance(find: _Find, check: Check) -> Variable:
     """Resistance over its characteristic value."""
-    typed = find(RESISTANCE)
-    assumed = load_assumed()["ground" if check.mode in _OF_GROUND else "steel"]
-    variation = typed.variation if typed else assumed.variation
-    ratio, tests, least = assumed.mean_ratio, check.tests, check.read("R_k")
-    if typed is not None and typed.mean_ratio is not None:
-        ratio = typed.mean_ratio
-    elif tests is not None and least and tests.mean_kN > least:
-        # the mean of so few tests is not known exactly
-        ratio = tests.mean_kN / least
-        variation *= math.sqrt(1.0 + 1.0 / tests.count)
-    if ratio is None:
-        variable = build_by_share(RESISTANCE, 1.0, _CHARACTERISTIC, variation)
-    else:
-        kind = typed.distribution if typed else ""
-        variable = _build(RESISTANCE, kind, ratio, variation)
-    return _tell(variable, typed, assumed.source_in_words)
+    kind = "ground" if check.mode in _OF_GROUND else "steel"
+    line = _complete(find, RESISTANCE, kind)
+    ratio, tests, least = line.mean_ratio, check.tests, check.read("R_k")
+    if ratio is None or line.is_assumed:
+        ratio = load_assumed()[kind].mean_ratio
+        if tests is not None and least and tests.mean_kN > least:
+            # the mean of so few tests is not known exactly
+            ratio = tests.mean_kN / least
+            variation = line.variation * math.sqrt(1.0 + 1.0 / tests.count)
+            line = replace(line, variation=variation)
+    if ratio is not None:
+        return _build(RESISTANCE, line, ratio)
+    variable = build_by_share(RESISTANCE, 1.0, _CHARACTERISTIC, line.variation)
+    return _note_source(variable, line)
 
 
-def list_lines(check: CheckByCase, variables: tuple[RowVariable, ...]) -> list[Line]:
+def list_lines(check: CheckByCase, variables: tuple[Variable, ...]) -> list[Line]:
     """Lines to be solved.
 
     That is every variable but those over which the search went.

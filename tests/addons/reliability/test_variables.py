@@ -12,7 +12,6 @@ from netdesign.addons.reliability.variables import (
     build_annual_maximum,
     build_by_share,
     load_assumed,
-    read_kind,
 )
 from netdesign.outcome import ModelError
 from netdesign.words.catalogue import render
@@ -76,6 +75,6 @@ def test_what_is_no_distribution_is_refused(faulty):
 
 def test_every_assumed_distribution_says_where_it_is_from():
     for name, one in load_assumed().items():
-        assert read_kind(one.distribution) == one.distribution
+        assert one.distribution in KINDS
         assert 0.0 < one.variation < 0.5, name
         assert "assumed" in render(one.source_in_words, "en")
