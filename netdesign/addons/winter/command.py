@@ -153,7 +153,7 @@ def _solve(
         list_measured_pulls,
         name_measured_winters,
     )
-    from netdesign.addons.winter.season import follow_station, follow_winters
+    from netdesign.addons.winter.season import StationPacks, follow_winters
     from netdesign.addons.winter.settling import MODELS as KNOWN
     from netdesign.coupling.scene import SolverSettings
 
@@ -163,7 +163,7 @@ def _solve(
         require_plausible_heights(rows, site.rows, station)
     first = asked["model"]
     others = [model for name, model in KNOWN.items() if name != first]
-    packs = follow_station(station.series, [KNOWN[first], *others])
+    packs = StationPacks(series=station.series, models=[KNOWN[first], *others])
     settings = SolverSettings(accuracy=asked["accuracy"])
     results = []
     for row, measured in zip(rows, pulls, strict=True):

@@ -61,20 +61,18 @@ def _write_compared(comparison: Comparison, series: HeightSeries) -> dict[str, A
     """Readings, computed forces with their band, and how far they are apart."""
     return {
         "winter": comparison.winter,
-        "member": comparison.member,
-        "source": comparison.pulls.source,
+        "member": comparison.series.member,
+        "source": comparison.series.source,
         "temperature_amplitude_assumed": any(
             day.is_assumed for day in comparison.computed
         ),
         "readings": [
             {"time": moment.isoformat(), "force_kN": kilonewton_from_newton(force)}
-            for moment, force in zip(
-                comparison.pulls.moments, comparison.pulls.forces, strict=True
-            )
+            for moment, force in comparison.pulls
         ],
         "air_temperatures": [
             {"time": moment.isoformat(), "air_C": celsius_from_kelvin(kelvin)}
-            for moment, kelvin in comparison.pulls.air_temperatures
+            for moment, kelvin in comparison.air
         ],
         "computed": [_write_computed(day, series) for day in comparison.computed],
     }

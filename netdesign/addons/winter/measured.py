@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime, timedelta
 
 from netdesign.addons.winter.day import RowDay, WinterRow, build_day_scene
 from netdesign.addons.winter.heights import HeightSeries, name_winter
 from netdesign.addons.winter.monitoring_sheet import (
     MonitoringSeries,
+    Readings,
     list_monitoring,
 )
 from netdesign.addons.winter.season import RowWinters, Season
@@ -21,32 +21,6 @@ from netdesign.checks.inputs import Band
 from netdesign.coupling.scene import Scene
 from netdesign.site.model import Site
 from netdesign.words.message import Message, say
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeasuredPulls:
-    """Readings at one member of a row.
-
-    Attributes
-    ----------
-    member : str
-        As in ``RowDay.member_forces``.
-    moments : tuple of datetime, shape (n,)
-        Ascending, local time.
-    forces : tuple of float, shape (n,)
-        Per anchor [N].
-    source : str
-        First cell; "" of pulls made up.
-    air_temperatures : tuple of (datetime, float)
-        Read beside them [K].
-    """
-
-    member: str
-    moments: tuple[datetime, ...]
-    forces: tuple[float, ...]
-    source: str = ""
-    air_temperatures: tuple[tuple[datetime, float], ...] = ()
-
 
 EXPANSION = 1.2e-5  # of steel [1/K]
 ASSUMED_AMPLITUDE = 5.0  # [K]; a clear day in spring, where no temperature is known
@@ -135,29 +109,32 @@ class Comparison:
 
     Attributes
     ----------
-    winter, member : str
+    winter : str
         Which.
-    pulls : MeasuredPulls
-        Its readings in this winter.
+    series : MonitoringSeries
+        All that was measured at the member.
+    pulls, air : list of (datetime, float)
+        Its readings in this winter [N], [K].
     computed : tuple of ComputedForce
         Of the days of the curve that have a force, ascending.
     """
 
     winter: str
-    member: str
-    pulls: MeasuredPulls
+    series: MonitoringSeries
+    pulls: Readings
+    air: Readings
     computed: tuple[ComputedForce, ...]
 
 
 def compare_season(
-    pulls: MeasuredPulls, season: Season, row: WinterRow, series: HeightSeries
+    measured: MonitoringSeries, season: Season, row: WinterRow, series: HeightSeries
 ) -> Comparison | None:
     """Readings of a member beside the season's curve; None without any in its days.
 
     Parameters
     ----------
-    pulls : MeasuredPulls
-        Of one member.
+    measured : MonitoringSeries
+        At one member.
     season : Season
         With its curve.
     row : WinterRow
@@ -165,46 +142,29 @@ def compare_season(
     series : HeightSeries
         Of the station, with its air temperatures.
     """
-    first, last = season.days.start, season.days.stop
-    within = _cut(pulls, series, first, last)
+    pulls, air = (
+        [
+            (moment, value)
+            for moment, value in readings
+            if season.days.start <= series.place(moment) < season.days.stop
+        ]
+        for readings in (measured.pulls, measured.air)
+    )
+    if not pulls:
+        return None
     warmth = [
         (place + _NOON, kelvin)
         for place, kelvin in enumerate(series.air_temperatures)
         if kelvin is not None
     ]
-    warmth += [
-        (series.place(moment), kelvin) for moment, kelvin in within.air_temperatures
-    ]
+    warmth += [(series.place(moment), kelvin) for moment, kelvin in air]
     computed = tuple(
         force
         for day in season.curve
-        if (force := _compute(day, pulls.member, row, warmth)) is not None
+        if (force := _compute(day, measured.member, row, warmth)) is not None
     )
-    if not within.forces:
-        return None
     return Comparison(
-        winter=season.name,
-        member=pulls.member,
-        pulls=within,
-        computed=computed,
-    )
-
-
-def _cut(
-    pulls: MeasuredPulls, series: HeightSeries, first: int, last: int
-) -> MeasuredPulls:
-    """Readings on the days from first to before last."""
-
-    def holds(moment: datetime) -> bool:
-        return first <= series.place(moment) < last
-
-    chosen = [k for k, moment in enumerate(pulls.moments) if holds(moment)]
-    air = tuple(reading for reading in pulls.air_temperatures if holds(reading[0]))
-    return replace(
-        pulls,
-        moments=tuple(pulls.moments[k] for k in chosen),
-        forces=tuple(pulls.forces[k] for k in chosen),
-        air_temperatures=air,
+        winter=season.name, series=measured, pulls=pulls, air=air, computed=computed
     )
 
 
@@ -234,7 +194,7 @@ def _compute(
     )
 
 
-def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:
+def list_measured_pulls(site: Site, row_id: str) -> tuple[MonitoringSeries, ...]:
     """Forces measured on a row, one value for each member.
 
     Readings without a date, and series of air temperature alone, are left out.
@@ -246,24 +206,24 @@ def list_measured_pulls(site: Site, row_id: str) -> tuple[MeasuredPulls, ...]:
     row_id : str
         Of the row.
     """
-    dated = [_date_readings(series) for series in list_monitoring(site, row_id)]
-    return tuple(pulls for pulls in dated if pulls is not None and pulls.forces)
+    return tuple(series for series in list_monitoring(site, row_id) if series.pulls)
 
 
-def name_measured_winters(pulls: Sequence[MeasuredPulls]) -> frozenset[str]:
+def name_measured_winters(measured: Sequence[MonitoringSeries]) -> frozenset[str]:
     """Winters with readings, as "1999/2000".
 
     Parameters
     ----------
-    pulls : sequence of MeasuredPulls
+    measured : sequence of MonitoringSeries
         Of a row.
     """
-    days = {moment.date() for readings in pulls for moment in readings.moments}
-    return frozenset(map(name_winter, days))
+    return frozenset(
+        name_winter(moment) for series in measured for moment, _ in series.pulls
+    )
 
 
 def compare_row(
-    pulls: Sequence[MeasuredPulls],
+    measured: Sequence[MonitoringSeries],
     winters: RowWinters,
     row: WinterRow,
     series: HeightSeries,
@@ -272,8 +232,8 @@ def compare_row(
 
     Parameters
     ----------
-    pulls : sequence of MeasuredPulls
-        Of the row.
+    measured : sequence of MonitoringSeries
+        At members of the row.
     winters : RowWinters
         With the curves of the measured winters.
     row : WinterRow
@@ -282,9 +242,9 @@ def compare_row(
         Of the station.
     """
     comparisons = [
-        compare_season(readings, season, row, series)
+        compare_season(at_member, season, row, series)
         for season in winters.seasons
-        for readings in pulls
+        for at_member in measured
     ]
     return tuple(pair for pair in comparisons if pair is not None)
 
@@ -304,7 +264,7 @@ def explain_unused(
         What stands beside a curve.
     """
     messages = []
-    used = {comparison.pulls.source for comparison in compared if comparison.computed}
+    used = {comparison.series.source for comparison in compared if comparison.computed}
     for series in list_monitoring(site, row_id):
         if series.source in used:
             continue
@@ -313,24 +273,3 @@ def explain_unused(
         key = "monitoring.undated" if series.start is None else "monitoring.outside"
         messages.append(say(key, place=series.source))
     return tuple(messages)
-
-
-def _date_readings(series: MonitoringSeries) -> MeasuredPulls | None:
-    if series.start is None:
-        return None
-    readings = [
-        (series.start + timedelta(seconds=time), force)
-        for time, force in zip(series.times, series.tensions, strict=True)
-        if force is not None
-    ]
-    return MeasuredPulls(
-        member=series.member,
-        moments=tuple(moment for moment, _ in readings),
-        forces=tuple(force for _, force in readings),
-        source=series.source,
-        air_temperatures=tuple(
-            (series.start + timedelta(seconds=time), kelvin)
-            for time, kelvin in zip(series.times, series.air_temperatures, strict=True)
-            if kelvin is not None
-        ),
-    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from itertools import pairwise
@@ -17,6 +17,8 @@ from netdesign.site.readings import Reading, Row, refuse, refuse_beside
 from netdesign.site.tables import read_rows
 from netdesign.structure.members import Member
 from netdesign.words.message import say
+
+Readings = list[tuple[datetime, float]]
 
 _EPOCH = datetime(1970, 1, 1)
 _MEMBERS = {normalise(one): str(one) for one in Member}  # by their words
@@ -49,6 +51,25 @@ class MonitoringSeries:
     air_temperatures: tuple[float | None, ...]
     source: str
     start: datetime | None = None
+
+    @property
+    def pulls(self) -> Readings:
+        """Tensions with their local times, ascending [N]; none without a date."""
+        return self._date(self.tensions)
+
+    @property
+    def air(self) -> Readings:
+        """Air temperatures with their local times [K]; none without a date."""
+        return self._date(self.air_temperatures)
+
+    def _date(self, values: Sequence[float | None]) -> Readings:
+        if self.start is None:
+            return []
+        return [
+            (self.start + timedelta(seconds=time), value)
+            for time, value in zip(self.times, values, strict=True)
+            if value is not None
+        ]
 
 
 def read_monitoring(

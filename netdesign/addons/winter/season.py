@@ -9,6 +9,7 @@ from bisect import bisect
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
+from functools import cached_property
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from netdesign.addons.winter.settling import (
     SettlingModel,
     follow_heights,
 )
-from netdesign.addons.winter.statistics import Sample, choose_sample
+from netdesign.addons.winter.statistics import Sample
 from netdesign.addons.winter.uniform_table import UniformTable
 
 HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
@@ -244,7 +245,7 @@ SHOWN = 3  # largest winters of a table that are solved with their layers
 _COVERED = ((12, 1), (4, 30))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class StationPacks:
     """Snowpacks of a station's winters, the same for all rows.
 
@@ -252,13 +253,17 @@ class StationPacks:
     ----------
     series : HeightSeries
         Of the station.
-    packs : mapping of str to mapping
-        By settling model, then by winter, then by place in the series; the first model
-        is that of the curves.
+    models : sequence of SettlingModel
+        At least one; the first is that of the curves.
     """
 
     series: HeightSeries
-    packs: Mapping[str, Mapping[str, Mapping[int, DayPack]]]
+    models: Sequence[SettlingModel]
+
+    @cached_property
+    def packs(self) -> Mapping[str, Mapping[str, Mapping[int, DayPack]]]:
+        """Packs by settling model, then by winter, then by place in the series."""
+        return {model.name: split_packs(self.series, model) for model in self.models}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -350,24 +355,6 @@ def list_complete(series: HeightSeries) -> tuple[str, ...]:
     return tuple(complete)
 
 
-def follow_station(
-    series: HeightSeries, models: Sequence[SettlingModel]
-) -> StationPacks:
-    """Packs of a station's winters by some settling models.
-
-    Parameters
-    ----------
-    series : HeightSeries
-        Of the station.
-    models : sequence of SettlingModel
-        At least one; the first is that of the curves.
-    """
-    return StationPacks(
-        series=series,
-        packs={model.name: split_packs(series, model) for model in models},
-    )
-
-
 def follow_winters(
     station: StationPacks,
     solver: DaySolver,
@@ -408,13 +395,14 @@ def follow_winters(
                 for winter in winters
             )
         maxima[chosen] = tuple(season.maximum for season in seasons)
-    sample = choose_sample(maxima[chosen], list_complete(station.series))
+    complete = list_complete(station.series)
+    sample = [maximum for maximum in maxima[chosen] if maximum.winter in complete]
     return RowWinters(
         row_id=solver.row.id,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,
         others={model: maxima[model] for model in rest},
-        sample=sample,
+        sample=Sample(maxima=tuple(sample)),
         cut=station.series.cut,
     )

@@ -9,7 +9,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
@@ -114,8 +113,8 @@ class Ageing:
 
     low: float
     high: float
-    slope: float
-    middle: float
+    slope: float = 0.0
+    middle: float = 0.0
 
     def find_largest(self, ages: Ints) -> Floats:
         """Largest density of each layer [kg/m3], (n_layers,).
@@ -139,8 +138,8 @@ class DeltaSnow:
         Of the set of constants.
     new_density : float
         rho_0 of new snow [kg/m3].
-    largest_density : float or Ageing
-        rho_max [kg/m3].
+    largest_density : Ageing
+        rho_max; of one value where its bounds are equal.
     viscosity : float
         eta_0 of snow without density [Pa s].
     stiffening : float
@@ -156,7 +155,7 @@ class DeltaSnow:
     name: str
     source: str
     new_density: float
-    largest_density: float | Ageing
+    largest_density: Ageing
     viscosity: float
     stiffening: float
     tolerance: float
@@ -174,7 +173,7 @@ class DeltaSnow:
             Observed today [m], above 0.
         """
         ages = before.ages + 1
-        limits = self._find_limits(ages)
+        limits = self.largest_density.find_largest(ages)
         settled = self._settle(before, limits)
         gap = height - float(settled.sum())
         if gap > self.tolerance:
@@ -182,11 +181,6 @@ class DeltaSnow:
         if gap < -self.tolerance:
             return _drench(before, settled, limits, height)
         return _scale(before, limits, height)
-
-    def _find_limits(self, ages: Ints) -> Floats:
-        if isinstance(self.largest_density, Ageing):
-            return self.largest_density.find_largest(ages)
-        return np.full(ages.size, self.largest_density)
 
     def _settle(self, pack: DayPack, limits: Floats) -> Floats:
         """Heights [m] after a day of dry settling, eq. (D1)."""
@@ -253,7 +247,7 @@ DELTA_SNOW = DeltaSnow(
     name="delta-snow",
     source="Winkler et al. (2021)",
     new_density=81.19417,
-    largest_density=401.2588,
+    largest_density=Ageing(low=401.2588, high=401.2588),
     viscosity=8523356.0,
     stiffening=0.02993175,
     tolerance=0.02362476,
@@ -379,33 +373,7 @@ def _melt(before: DayPack, settled: Floats, height: float) -> DayPack:
 HS2SWE = Hs2swe()
 
 
-class SettlingModel(Protocol):
-    """Rule that takes a snowpack from one day to the next."""
-
-    @property
-    def name(self) -> str:
-        """Name of the model and its constants."""
-
-    @property
-    def source(self) -> str:
-        """Publication of the constants."""
-
-    @property
-    def new_density(self) -> float:
-        """Density of new snow [kg/m3]."""
-
-    def step(self, before: DayPack, height: float) -> DayPack:
-        """Snowpack a day later.
-
-        Parameters
-        ----------
-        before : DayPack
-            Of yesterday, not bare.
-        height : float
-            Observed today [m], above 0.
-        """
-
-
+SettlingModel = DeltaSnow | Hs2swe
 # The first is the default: addons/winter/THEORY.md, section 15.
 MODELS: dict[str, SettlingModel] = {
     model.name: model for model in (DELTA_SNOW_AGEING, HS2SWE, DELTA_SNOW)

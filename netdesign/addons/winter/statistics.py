@@ -6,7 +6,7 @@ Theory: addons/winter/THEORY.md, sections 4 and 8 to 10.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -82,7 +82,7 @@ class Gumbel:
         tests/verification/test_return_values.py
         """
         means, deviations = _draw_moments(self.count)
-        pivots = (_reduce_gumbel(period) - means) / deviations
+        pivots = (_reduce(period) - means) / deviations
         return _find_ends(pivots, self.mean, self.deviation)
 
     def find_tail(self, period: float, shape: float) -> tuple[float, float]:
@@ -107,10 +107,10 @@ class Gumbel:
         tests/verification/test_return_values.py
         """
         first, second = math.gamma(1.0 - shape), math.gamma(1.0 - 2.0 * shape)
-        reduced = _reduce_tail(period, shape)
+        reduced = _reduce(period, shape)
         spread = math.sqrt(second - first**2) / shape
         factor = (reduced - (first - 1.0) / shape) / spread
-        means, deviations = _draw_tails(self.count, shape)
+        means, deviations = _draw_moments(self.count, shape)
         ends = _find_ends((reduced - means) / deviations, self.mean, self.deviation)
         return self.mean + factor * self.deviation, ends[1]
 
@@ -142,24 +142,16 @@ class Gumbel:
         return self.variation * factor / exact
 
 
-@lru_cache(maxsize=4)
-def _draw_moments(count: int) -> tuple[Floats, Floats]:
-    """Means and deviations of samples of ``count`` draws of Gumbel's distribution."""
-    samples = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
-    return samples.mean(axis=1), samples.std(axis=1, ddof=1)
-
-
 @lru_cache(maxsize=8)
-def _draw_tails(count: int, shape: float) -> tuple[Floats, Floats]:
-    """Means and deviations of samples of ``count`` draws with a heavier tail."""
-    reduced = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
-    samples = np.expm1(shape * reduced) / shape
+def _draw_moments(count: int, shape: float = 0.0) -> tuple[Floats, Floats]:
+    """Means and deviations of samples of ``count`` draws: Gumbel's, or a heavier tail.
+
+    ``shape`` is that of the tail [-].
+    """
+    samples = np.random.default_rng(_SEED).gumbel(size=(_SAMPLES, count))
+    if shape:
+        samples = np.expm1(shape * samples) / shape
     return samples.mean(axis=1), samples.std(axis=1, ddof=1)
-
-
-def _reduce_tail(period: float, shape: float) -> float:
-    """Reduced value exceeded once in ``period`` years, with a heavier tail, (Y15)."""
-    return math.expm1(shape * _reduce_gumbel(period)) / shape
 
 
 def _find_ends(pivots: Floats, value: float, unit: float) -> tuple[float, float]:
@@ -170,12 +162,13 @@ def _find_ends(pivots: Floats, value: float, unit: float) -> tuple[float, float]
 
 def _find_factor(period: float) -> float:
     """Standard deviations by which a value exceeds the mean, eq. (Y6)."""
-    return math.sqrt(6.0) / math.pi * (_reduce_gumbel(period) - _EULER)
+    return math.sqrt(6.0) / math.pi * (_reduce(period) - _EULER)
 
 
-def _reduce_gumbel(period: float) -> float:
-    """Reduced value of Gumbel's distribution exceeded once in ``period`` years."""
-    return -math.log(-math.log(1.0 - 1.0 / period))
+def _reduce(period: float, shape: float = 0.0) -> float:
+    """Reduced value exceeded once in ``period`` years; (Y15) with a heavier tail."""
+    gumbel = -math.log(-math.log(1.0 - 1.0 / period))
+    return math.expm1(shape * gumbel) / shape if shape else gumbel
 
 
 _BOOTSTRAP = 1000  # samples of a fit above a limit
@@ -230,7 +223,7 @@ class LimitedGumbel:
         (float, float)
             Estimate and its standard error, in the unit of the maxima.
         """
-        reduced = _reduce_gumbel(period)
+        reduced = _reduce(period)
         error = float(np.std(self.locations + reduced * self.scales))
         return self.location + reduced * self.scale, error
 
@@ -251,7 +244,7 @@ class LimitedGumbel:
         -----------
         tests/verification/test_limited_gumbel.py
         """
-        reduced = _reduce_gumbel(period)
+        reduced = _reduce(period)
         value = self.location + reduced * self.scale
         of_samples = self.locations + reduced * self.scales
         return _find_ends((value - of_samples) / self.scales, value, self.scale)
@@ -409,18 +402,3 @@ class Sample:
         if len(self.left_out) > LEFT_OUT * len(self.maxima):
             return say("winter_sample.unbounded", winters=tuple(self.left_out))
         return None
-
-
-def choose_sample(maxima: Sequence[AnnualMaximum], complete: Collection[str]) -> Sample:
-    """Sample of the complete winters.
-
-    Parameters
-    ----------
-    maxima : sequence of AnnualMaximum
-        Of one row.
-    complete : collection of str
-        Names of the complete winters.
-    """
-    return Sample(
-        maxima=tuple(maximum for maximum in maxima if maximum.winter in complete)
-    )

@@ -7,8 +7,7 @@ import pytest
 
 from netdesign.addons.winter.height_file import HeightColumns, read_height_file
 from netdesign.addons.winter.heights import smooth, split_winters
-from netdesign.addons.winter.season import follow_station, list_complete
-from netdesign.addons.winter.settling import MODELS
+from netdesign.addons.winter.season import list_complete
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import TextFormat
 from tests.each import each
@@ -137,5 +136,4 @@ def test_a_gauge_that_stands_still_or_loses_its_snow_makes_a_winter_incomplete(
     assert station.series.cut == (() if kind == "sound" else ("2015/2016",))
     told = " ".join(str(one.message) for one in remarks)
     assert ("incomplete: 2015/2016" in told) == (kind != "sound")
-    packs = follow_station(station.series, [MODELS["delta-snow-ageing"]])
-    assert smooth(station.series).cut == station.series.cut == packs.series.cut
+    assert smooth(station.series).cut == station.series.cut

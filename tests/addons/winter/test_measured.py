@@ -13,7 +13,6 @@ from netdesign.addons.winter.figure import (
 from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
-    MeasuredPulls,
     compare_season,
     explain_unused,
     find_swing,
@@ -57,13 +56,15 @@ def a_season(*days):
     )
 
 
-def readings(*pairs, air=()):
-    begin = datetime(2003, 2, 1)
-    return MeasuredPulls(
+def readings(*pairs):
+    return MonitoringSeries(
+        row_id="A",
         member="foot_anchor",
-        moments=tuple(begin + timedelta(days=day) for day, _ in pairs),
-        forces=tuple(force for _, force in pairs),
-        air_temperatures=tuple((begin + timedelta(days=d), k) for d, k in air),
+        times=tuple(86400.0 * day for day, _ in pairs),
+        tensions=tuple(force for _, force in pairs),
+        air_temperatures=(None,) * len(pairs),
+        source="Monitoring!A2",
+        start=datetime(2003, 2, 1),
     )
 
 
@@ -116,8 +117,8 @@ def a_site(**changes):
 
 def test_readings_keep_their_moments():
     (pulls,) = list_measured_pulls(a_site(), "R1")
-    assert pulls.forces == (11e3, 17e3, 23e3)
-    assert pulls.moments[1] == datetime(2003, 2, 18, 23)
+    assert [force for _, force in pulls.pulls] == [11e3, 17e3, 23e3]
+    assert pulls.pulls[1][0] == datetime(2003, 2, 18, 23)
     assert list_measured_pulls(a_site(), "R2") == ()
 
 

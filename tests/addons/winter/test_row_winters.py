@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.season import (
-    follow_station,
+    StationPacks,
     follow_winters,
     list_complete,
     split_packs,
@@ -45,7 +45,7 @@ def test_snow_goes_on_settling_through_september():
 
 def test_many_winters_have_return_values_and_curves_of_the_largest():
     tops = [1.0 + 0.07 * ((7 * k) % 16) for k in range(16)]
-    station = follow_station(a_series(tops), [HS2SWE, MODELS["delta-snow"]])
+    station = StationPacks(series=a_series(tops), models=[HS2SWE, MODELS["delta-snow"]])
     found = follow_winters(station, a_formula_solver(), step=60)
     assert len(found.maxima) == found.sample.fit.count == 16
     largest = sorted(found.maxima, key=lambda one: -one.foot)[:3]
@@ -63,8 +63,18 @@ def test_many_winters_have_return_values_and_curves_of_the_largest():
 def test_one_winter_above_the_net_and_there_are_no_return_values():
     tops = [1.0 + 0.07 * k for k in range(16)]
     tops[5] = 4.3
-    station = follow_station(a_series(tops), [HS2SWE])
+    station = StationPacks(series=a_series(tops), models=[HS2SWE])
     found = follow_winters(station, a_formula_solver(), step=0)
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
     assert "1995/1996" in str(found.sample.lack)
     assert found.sample.fit is None
+
+
+def test_an_incomplete_winter_counts_for_no_return_value():
+    """Its snow stands above the net, and its series begins in January."""
+    whole = a_series([4.3, *(1.0 + 0.07 * k for k in range(15))])
+    series = HeightSeries(first_day=date(1991, 1, 9), heights=whole.heights[130:])
+    station = StationPacks(series=series, models=[HS2SWE])
+    found = follow_winters(station, a_formula_solver(), step=0)
+    assert [one.winter for one in found.maxima if not one.is_proven] == ["1990/1991"]
+    assert (found.sample.fit.count, found.sample.lack) == (15, None)
