@@ -1,12 +1,13 @@
 """A study of the paper made up from formulas."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from netdesign.addons.evidence.paper.study import (
     PaperRun,
     PaperSettings,
     PaperStudy,
-    Shape,
     Track,
     list_cases,
 )
@@ -32,14 +33,14 @@ def build_study(pull=None, *, failing=()):
 
 
 def build_run(case, size):
-    shape = Shape(
-        nodes=TRIANGLE,
-        triangles=np.array([[0], [1], [2]]),
-        density=np.array([366.8]),
-        curve=CURVE,
+    solution = SimpleNamespace(
+        mesh_nodes=TRIANGLE,
+        mesh_triangles=np.array([[0], [1], [2]]),
+        mesh_density=np.array([366.8]),
+        net_curve=CURVE,
     )
     if case.method == "steady":
-        return PaperRun(case=case, foot=size, head=size, shape=shape)
+        return PaperRun(case=case, foot=size, head=size, solution=solution)
     times = np.geomspace(1.0, case.until or 1e5, 101)
     foot = size * (1.0 - np.exp(-times / 20.0))
     index = int(np.searchsorted(times, PLATEAU)) if times[-1] > PLATEAU else None
@@ -61,5 +62,5 @@ def build_run(case, size):
         foot_error=1e3,
         head_error=1e3,
         track=track,
-        shape=shape,
+        solution=solution,
     )

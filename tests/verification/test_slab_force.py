@@ -17,7 +17,6 @@ from netdesign.addons.evidence.verification.exact_solutions import (
 )
 from netdesign.addons.evidence.verification.rigid import Wall, put_wall, solve_rigid
 from netdesign.coupling.scene import SolverSettings
-from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.snowpack import GRAVITY
 from tests.scenes import ICE
@@ -64,43 +63,29 @@ def integrate(slab, slip, length):
 def test_force_is_weight_less_drag(slip, length):
     force = compute_slab_force(SLAB, slip_length=slip, upslope_length=length)
     expected = integrate(SLAB, slip, length)
-    assert force.total / WEIGHT == pytest.approx(expected, rel=2e-5)
+    assert force / WEIGHT == pytest.approx(expected, rel=2e-5)
 
 
 def test_without_drag_the_face_holds_all_of_the_snow():
-    free = compute_slab_force(SLAB, slip_length=math.inf, upslope_length=17.7)
-    assert free.total == pytest.approx(WEIGHT * 17.7, rel=1e-14)
     nearly = compute_slab_force(SLAB, slip_length=9e5, upslope_length=17.7)
-    assert nearly.total == pytest.approx(free.total, rel=1e-4)
+    assert nearly == pytest.approx(WEIGHT * 17.7, rel=1e-4)
 
 
 def test_long_slabs_are_endless():
     endless = compute_slab_force(SLAB, slip_length=1.1)
-    length = endless.influence_length
+    length = compute_influence_length(SLAB, 1.1)
     long = compute_slab_force(SLAB, slip_length=1.1, upslope_length=25.0 * length)
-    assert long.total == pytest.approx(endless.total, rel=1e-10)
-    assert endless.total / WEIGHT == pytest.approx(length + SLAB.side_length)
+    assert long == pytest.approx(endless, rel=1e-10)
+    assert endless / WEIGHT == pytest.approx(length + SLAB.side_length)
 
 
 def test_glide_factor_is_the_ratio_of_forces():
     for factor in (1.0, 1.7, 3.1):
         slip = scale_slip_length(SLAB, 0.0, factor)
-        ratio = (
-            compute_slab_force(SLAB, slip_length=slip).total
-            / compute_slab_force(SLAB, slip_length=0.0).total
+        ratio = compute_slab_force(SLAB, slip_length=slip) / compute_slab_force(
+            SLAB, slip_length=0.0
         )
         assert ratio == pytest.approx(factor, rel=1e-12)
-
-
-def test_what_is_out_of_range_is_refused():
-    with pytest.raises(ModelError, match="presses with more than"):
-        scale_slip_length(SLAB, 0.3, 0.5)
-    with pytest.raises(ModelError, match="upslope length"):
-        compute_slab_force(SLAB, slip_length=math.inf)
-    with pytest.raises(ModelError, match="upslope length"):
-        compute_slab_force(SLAB, slip_length=1.0, upslope_length=0.0)
-    with pytest.raises(ModelError, match="slip length"):
-        compute_slab_force(SLAB, slip_length=-0.1)
 
 
 def solve_in_two_dimensions(a_scene, slip_ratio, aspect, friction_angle):
@@ -127,7 +112,7 @@ def test_page_holds_what_two_dimensions_give(a_scene, row, column, friction_angl
     slip, aspect, closed = (float(texts[i]) for i in range(3))
     slab = Slab(thickness=3.0, slope_angle=math.radians(40.0), density=300.0)
     force = compute_slab_force(slab, slip_length=3.0 * slip, upslope_length=3 * aspect)
-    scaled = force.total / (300.0 * GRAVITY * 9.0)
+    scaled = force / (300.0 * GRAVITY * 9.0)
     assert scaled == pytest.approx(closed, abs=6e-4)
     flow = solve_in_two_dimensions(a_scene, slip, aspect, friction_angle)
     assert scaled / flow == pytest.approx(float(texts[column]), abs=2e-3)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -29,7 +29,6 @@ from netdesign.addons.evidence.paper.study import (
     THICKNESS,
     PaperCase,
     PaperStudy,
-    Shape,
     Track,
     find_exchange,
     find_history,
@@ -38,6 +37,7 @@ from netdesign.addons.evidence.paper.study import (
     list_tables,
 )
 from netdesign.addons.history.moments import CRITERION
+from netdesign.coupling.solution import Solution
 from netdesign.numerics.arrays import Floats
 from netdesign.report.blocks import (
     Block,
@@ -68,12 +68,12 @@ _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
 _OUTLIERS = 0.005
 
 
-def draw_meshes(named: Sequence[tuple[str, Shape]]) -> str:
+def draw_meshes(named: Sequence[tuple[str, Solution]]) -> str:
     """SVG of deformed meshes below each other, to one scale of length and density."""
-    pictures = [shape for _, shape in named]
-    wide = max(float(np.ptp(picture.nodes[0])) for picture in pictures)
-    tall = max(float(picture.nodes[1].max()) for picture in pictures)
-    right = max(float(picture.curve[0].max()) for picture in pictures)
+    pictures = [solution for _, solution in named]
+    wide = max(float(np.ptp(picture.mesh_nodes[0])) for picture in pictures)
+    tall = max(float(picture.mesh_nodes[1].max()) for picture in pictures)
+    right = max(float(picture.net_curve[0].max()) for picture in pictures)
     shown = 1.0 if len(pictures) == 1 else _STACKED
     scale = shown * (WIDTH - 22.0) / (1.02 * wide)
     each = scale * tall * 1.06 + 22.0
@@ -94,15 +94,16 @@ def draw_meshes(named: Sequence[tuple[str, Shape]]) -> str:
     )
 
 
-def _find_ends(picture: Shape) -> tuple[float, float]:
+def _find_ends(picture: Solution) -> tuple[float, float]:
     """Low and high density; nearly all of the snow's area lies between them."""
-    first, second, third = picture.nodes[:, picture.triangles].transpose(1, 0, 2)
+    corners, density = picture.mesh_triangles, picture.mesh_density
+    first, second, third = (picture.mesh_nodes[:, corner] for corner in corners)
     side, other = second - first, third - first
     areas = np.abs(side[0] * other[1] - side[1] * other[0])
-    order = np.argsort(picture.density)
+    order = np.argsort(density)
     shares = np.cumsum(areas[order]) / areas.sum()
     low, high = np.searchsorted(shares, [_OUTLIERS, 1.0 - _OUTLIERS])
-    return float(picture.density[order[low]]), float(picture.density[order[high]])
+    return float(density[order[low]]), float(density[order[high]])
 
 
 def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
@@ -113,15 +114,16 @@ def _place_points(points: Floats, base: Floats, scale: float) -> list[Point]:
 
 def _draw_mesh(
     sketch: Chart,
-    picture: Shape,
+    picture: Solution,
     base: Floats,
     scale: float,
     limits: tuple[float, float],
 ) -> None:
     """Triangles, those of one shade in one path, with ground and net."""
-    corners = _place_points(picture.nodes, base, scale)
+    corners = _place_points(picture.mesh_nodes, base, scale)
     paths: dict[str, str] = {}
-    for triangle, density in zip(picture.triangles.T, picture.density, strict=True):
+    triangles, densities = picture.mesh_triangles.T, picture.mesh_density
+    for triangle, density in zip(triangles, densities, strict=True):
         fill = _shade(float(density), limits)
         path = "L".join(
             f"{show_place(corners[k][0])} {show_place(corners[k][1])}" for k in triangle
@@ -131,9 +133,9 @@ def _draw_mesh(
         sketch.shapes.append(
             f'<path d="{path}" fill="{fill}" stroke="#fff" stroke-width="0.25"/>'
         )
-    ends = [float(picture.nodes[0].min()), float(picture.curve[0].max())]
+    ends = [float(picture.mesh_nodes[0].min()), float(picture.net_curve[0].max())]
     sketch.line(_place_points(np.array([ends, [0.0, 0.0]]), base, scale), width=1.0)
-    face = _place_points(picture.curve, base, scale)
+    face = _place_points(picture.net_curve, base, scale)
     sketch.line(face, stroke=ACCENT, width=1.5)
     for at in (face[0], face[-1]):
         sketch.dot(at, 1.5, fill=ACCENT, stroke=ACCENT)
@@ -171,14 +173,7 @@ _NODES = ("lower", "upper")
 _SETTLED = 1e-5
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Plate:
-    """One drawing of the page: its id there, heading, what it shows."""
-
-    name: str
-    heading: str
-    caption: str
-    svg: str
+Plate = tuple[str, Figure]  # heading and drawing
 
 
 def draw_plates(study: PaperStudy) -> list[Plate]:
@@ -215,14 +210,14 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
         across=2,
         time_label=ENGLISH("paper_plate.since"),
         panel_pt=122.0,
-        language="en",
     )
-    return Plate(
-        name=f"node-forces-{kind}",
-        heading=heading,
-        caption=f"{shown} {ENGLISH(f'paper_plate.nodes_{kind}_caption', drag=drag)}",
-        svg=svg,
-    )
+    caption = f"{shown} {ENGLISH(f'paper_plate.nodes_{kind}_caption', drag=drag)}"
+    return _build_plate(f"node-forces-{kind}", heading, caption, svg)
+
+
+def _build_plate(name: str, heading: str, caption: str, svg: str) -> Plate:
+    figure = Figure(svg=svg, caption=caption, id=f"plate-{name}", look="plate")
+    return heading, figure
 
 
 def _list_node_panels(
@@ -253,18 +248,14 @@ def _plate_meshes(study: PaperStudy) -> Plate | None:
     cases += [find_history(NORMAL_NET_DEG, phi) for phi in reversed(FRICTIONS_DEG)]
     cases.append(find_history(DESIGN_NET_DEG))
     pictures = [
-        (_name_mesh(run.case, run.track), run.shape)
+        (_name_mesh(run.case, run.track), run.solution)
         for run in map(study.__getitem__, cases)
-        if run.shape is not None and run.track is not None
+        if run.solution is not None and run.track is not None
     ]
     if not pictures:
         return None
-    return Plate(
-        name="meshes",
-        heading=ENGLISH("paper_plate.meshes"),
-        caption=ENGLISH("paper_plate.meshes_caption"),
-        svg=draw_meshes(pictures),
-    )
+    heading, caption = (ENGLISH(f"paper_plate.meshes{x}") for x in ("", "_caption"))
+    return _build_plate("meshes", heading, caption, draw_meshes(pictures))
 
 
 def _name_mesh(case: PaperCase, track: Track) -> str:
@@ -279,20 +270,10 @@ def _plate_methods(study: PaperStudy) -> Plate | None:
     panels = [_compare_ways(study, net) for net in NETS_DEG]
     if not any(panel.lines for panel in panels):
         return None
-    heading = ENGLISH("paper_plate.methods")
-    return Plate(
-        name="methods",
-        heading=heading,
-        caption=ENGLISH("paper_plate.methods_caption"),
-        svg=draw_panels(
-            panels,
-            heading,
-            across=1,
-            panel_pt=137.0,
-            time_label=ENGLISH("paper_plate.since"),
-            language="en",
-        ),
-    )
+    heading, caption = (ENGLISH(f"paper_plate.methods{x}") for x in ("", "_caption"))
+    since = ENGLISH("paper_plate.since")
+    svg = draw_panels(panels, heading, panel_pt=137.0, time_label=since)
+    return _build_plate("methods", heading, caption, svg)
 
 
 def _compare_ways(study: PaperStudy, net: float) -> Panel:
@@ -397,11 +378,6 @@ def _tell_histories(study: PaperStudy) -> str:
 
 
 def _show_plates(plates: Sequence[Plate]) -> Iterator[Block]:
-    for number, plate in enumerate(plates, 1):
-        yield Heading(text=f"{number}. {plate.heading}", level=3)
-        yield Figure(
-            svg=plate.svg,
-            caption=plate.caption,
-            id=f"plate-{plate.name}",
-            look="plate",
-        )
+    for number, (heading, figure) in enumerate(plates, 1):
+        yield Heading(text=f"{number}. {heading}", level=3)
+        yield figure

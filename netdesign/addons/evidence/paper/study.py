@@ -33,7 +33,7 @@ from netdesign.addons.history.transient import solve_transient
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Method, Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import SolveError
 from netdesign.report.blocks import Table, text_cell
 from netdesign.report.words import ENGLISH
@@ -189,16 +189,6 @@ class Track:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Shape:
-    """Snow and net at the end: nodes, curve (2, n) [m], triangles, density [kg/m3]."""
-
-    nodes: Floats
-    triangles: Ints
-    density: Floats
-    curve: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PaperRun:
     """Result of one case, or why there is none.
 
@@ -212,7 +202,7 @@ class PaperRun:
         Pulls of the steady state, or where the plateau begins [N/m]; None without.
     foot_error, head_error : float
         Difference from the coarser mesh, with a floor [N/m]; 0 where not known.
-    track, shape : Track, Shape or None
+    track, solution : Track, Solution or None
         History; state at the end.
     """
 
@@ -223,7 +213,7 @@ class PaperRun:
     foot_error: float = 0.0
     head_error: float = 0.0
     track: Track | None = None
-    shape: Shape | None = None
+    solution: Solution | None = None
 
     @property
     def plateau_time(self) -> float | None:
@@ -255,7 +245,7 @@ def _run_steady(case: PaperCase) -> PaperRun:
         head=solution.head.size,
         foot_error=solution.foot.error,
         head_error=solution.head.error,
-        shape=_shape_of(solution),
+        solution=solution,
     )
 
 
@@ -277,7 +267,7 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
         _record(case, solution.history, solution.net_curve[1, 1:]),
         foot_error=solution.foot.error,
         head_error=solution.head.error,
-        shape=_shape_of(solution),
+        solution=solution,
     )
 
 
@@ -322,15 +312,6 @@ def _track_of(history: History, heights: Floats) -> Track:
         upper=np.array([-moment.on_net[:, upper] for moment in moments]).T,
         heights=(float(heights[lower]), float(heights[upper])),
         plateau=history.plateau.index,
-    )
-
-
-def _shape_of(solution: Solution) -> Shape:
-    return Shape(
-        nodes=solution.mesh_nodes,
-        triangles=solution.mesh_triangles,
-        density=solution.mesh_density,
-        curve=solution.net_curve,
     )
 
 

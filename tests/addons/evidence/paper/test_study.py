@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -10,7 +11,6 @@ import pytest
 from netdesign.addons.evidence.paper.page import draw_meshes
 from netdesign.addons.evidence.paper.study import (
     PaperSettings,
-    Shape,
     find_exchange,
     find_history,
     find_steady,
@@ -42,7 +42,7 @@ def test_history_is_in_balance_with_its_nodes():
     assert track.heights[0] == pytest.approx(1.0, abs=0.5)
     assert track.heights[1] == pytest.approx(3.0, abs=0.5)
     assert track.at(600.0, "foot") == pytest.approx(track.foot[-1])
-    assert run.shape.density.mean() > 366.8
+    assert run.solution.mesh_density.mean() > 366.8
 
 
 def test_steady_run_is_that_of_the_scene():
@@ -99,8 +99,12 @@ def picture(density):
     nodes = np.array([[-4.0, 0.0, 0.0, -4.0], [0.0, 0.0, 2.0, 2.0]])
     triangles = np.array([[0, 0], [1, 2], [2, 3]])
     density = np.asarray(density)
-    curve = nodes[:, 1:3]
-    return "one", Shape(nodes=nodes, triangles=triangles, density=density, curve=curve)
+    return "one", SimpleNamespace(
+        mesh_nodes=nodes,
+        mesh_triangles=triangles,
+        mesh_density=density,
+        net_curve=nodes[:, 1:3],
+    )
 
 
 @pytest.mark.parametrize(
