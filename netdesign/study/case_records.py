@@ -184,7 +184,7 @@ class HeldSidewaysRecord:
     pull_low_kN: float  # largest pull on a head, over the cases
     pull_kN: float
     pull_high_kN: float
-    least_tension_kN: float  # over the cases and the guideline's load
+    least_tension_kN: float  # over the cases; 0, since none is counted on
     uphill_part: float  # c of the uphill guy
     downhill_part: float
     post_part: float  # w

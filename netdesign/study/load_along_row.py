@@ -89,16 +89,15 @@ def _record(
         if member in extremes
     }
     pull = heads.bound_size(sum(hidden.values()))
-    of_floor = 0.0 if is_layout_assumed(row) else _find_floor_tension(row, floor)
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
         pull_low_kN=kilonewton_from_newton(pull.low),
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
-        least_tension_kN=0.0,
+        least_tension_kN=0.0,  # panel/THEORY.md, 6: none is counted on
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
-        floor_tension_kN=kilonewton_from_newton(of_floor if floor else 0.0),
+        floor_tension_kN=kilonewton_from_newton(_find_floor_tension(row, floor)),
         **weigh_places(_place_heads(row, heads)),
     )
 
@@ -119,11 +118,11 @@ def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
 def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
     """Least tension of the guys at work under the guideline's load [N].
 
-    It is 0 where the altitude is not known, since a lower row has less snow.
+    It is 0 where the altitude is not known, since a lower row has less snow. So it is
+    between two layouts as they may be built: a guy can give way to that beyond.
     """
-    if floor is None:
-        return math.inf
-    return 0.0 if row.altitude is None else floor.least_tension
+    is_open = row.altitude is None or is_layout_assumed(row)
+    return 0.0 if floor is None or is_open else floor.least_tension
 
 
 _INCLINATIONS = 8  # parts of their range: what the guy brings changes smoothly

@@ -173,7 +173,7 @@ def _find_end_force(
 ) -> MemberForce | None:
     """Force of a border rope, or on a member that holds its pull at the row's end.
 
-    None where the row has no panel or no end, or where no case has a panel.
+    None where the row has no end, or where no case has a panel.
     """
     rope = forces.largest.get(ROPE_OF[member])
     is_endless = forces.row.row_end is None and member in tuple(EndMember)
