@@ -26,6 +26,7 @@ from netdesign.addons.terrain.surface import (
     find_mean,
     find_relief,
     follow_fall,
+    measure_along,
 )
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import TerrainError
@@ -131,19 +132,19 @@ class _DrawnRow:
     below: FallLines
 
 
-def measure_rows(
-    surface: Surface,
+def measure_plan(
+    grid: Grid,
     plan: Plan,
     *,
     most: float,
     on_row: Callable[[object], None] | None = None,
-) -> list[MeasuredRow]:
-    """Measure the net rows of a plan.
+) -> tuple[Surface, list[MeasuredRow]]:
+    """Measure all rows of a plan on a grid; and the surface that served.
 
     Parameters
     ----------
-    surface : Surface
-        Ground.
+    grid : Grid
+        Heights.
     plan : Plan
         Rows, and the starting zones.
     most : float
@@ -161,12 +162,13 @@ def measure_rows(
     -----------
     tests/addons/terrain/test_measure.py
     """
+    surface = choose_window(grid, np.concatenate([line.points for line in plan.lines]))
     rows = []
     for drawn in _draw_rows(surface, plan, most):
         rows.append(_measure_row(surface, plan, drawn, most))
         if on_row is not None:
             on_row(drawn.line)
-    return rows
+    return surface, rows
 
 
 def _draw_rows(surface: Surface, plan: Plan, most: float) -> list[_DrawnRow]:
@@ -228,7 +230,7 @@ def _measure_row(
     return MeasuredRow(
         line=line,
         posts=posts,
-        length=_measure(posts),
+        length=float(measure_along(posts)[-1]),
         slopes=slopes,
         slope=_band_slope(surface, slopes, reliefs, ends),
         flattest=_find_flattest(surface, places),
@@ -284,17 +286,15 @@ def place_posts(surface: Surface, line: NetLine) -> Floats:
 
     What is left of the line stands out half at each end: its direction says nothing.
     """
-    step = 0.5 * surface.grid.cell
-    fine = _divide(line.points, step)
+    drawn = shapely.LineString(line.points)
+    fine = shapely.get_coordinates(shapely.segmentize(drawn, 0.5 * surface.grid.cell))
     heights = surface.at(fine).height
     if np.isnan(heights).any():
         at = fine[int(np.flatnonzero(np.isnan(heights))[0])]
         refusal = f"row {line.id} leaves the grid, or meets a hole in it, at"
         raise TerrainError(f"{refusal} {at[0]:.1f}, {at[1]:.1f}")
     ground = np.column_stack((fine, heights))
-    along = np.concatenate(
-        ([0.0], np.cumsum(np.linalg.norm(np.diff(ground, axis=0), axis=1)))
-    )
+    along = measure_along(ground)
     count = math.floor(along[-1] / line.post_spacing + 1e-6) + 1
     if count < 2:
         refusal = (
@@ -312,20 +312,6 @@ def find_bends(places: Floats) -> Floats:
     headings = np.arctan2(steps[:, 1], steps[:, 0])
     turned = np.diff(headings)
     return np.abs((turned + math.pi) % (2.0 * math.pi) - math.pi)
-
-
-def _divide(points: Floats, step: float) -> Floats:
-    """Points of a line, no farther apart than a step, shape (n, 2) [m]."""
-    parts = [points[:1]]
-    for start, end in pairwise(points):
-        count = max(1, math.ceil(float(np.linalg.norm(end - start)) / step))
-        shares = np.arange(1, count + 1)[:, None] / count
-        parts.append(start + shares * (end - start))
-    return np.concatenate(parts)
-
-
-def _measure(posts: Floats) -> float:
-    return float(np.linalg.norm(np.diff(posts, axis=0), axis=1).sum())
 
 
 def _end_above(
@@ -417,35 +403,6 @@ def describe_kinks(row: MeasuredRow) -> str:
     bend, limit = math.degrees(float(row.bends.max())), math.degrees(KINK)
     sentence = f"row {row.line.id} bends by up to {bend:.1f}° at post {posts}: beyond"
     return f"{sentence} {limit:g}° check such a post as the end of a row on both sides"
-
-
-def measure_plan(
-    grid: Grid,
-    plan: Plan,
-    *,
-    most: float,
-    on_row: Callable[[object], None] | None = None,
-) -> tuple[Surface, list[MeasuredRow]]:
-    """Measure all rows of a plan on a grid; and the surface that served.
-
-    Parameters
-    ----------
-    grid : Grid
-        Heights.
-    plan : Plan
-        Rows and zones.
-    most : float
-        Cap on the upslope length [m].
-    on_row : callable, optional
-        Called after each row.
-
-    Raises
-    ------
-    TerrainError
-        With the faults of all rows at once.
-    """
-    surface = choose_window(grid, np.concatenate([line.points for line in plan.lines]))
-    return surface, measure_rows(surface, plan, most=most, on_row=on_row)
 
 
 def describe_steep_above(row: MeasuredRow) -> str:

@@ -20,7 +20,7 @@ from netdesign.addons.terrain.measure import (
     describe_steep_above,
 )
 from netdesign.addons.terrain.plan import Plan
-from netdesign.addons.terrain.surface import Surface
+from netdesign.addons.terrain.surface import Surface, measure_along
 from netdesign.numerics.arrays import Floats
 from netdesign.report.blocks import (
     Column,
@@ -160,9 +160,7 @@ def draw_profile(row: MeasuredRow) -> str:
     end = row.ends[post].length.value
     keep = is_known & (above.lengths[:, post] <= end + _ALONG)
     points, heights = above.points[keep, post], above.heights[keep, post]
-    out = np.concatenate(
-        ([0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
-    )
+    out = measure_along(points)
     slope, high = float(row.slopes[post]), row.line.net_height
     head = (high * math.sin(slope), heights[0] + high * math.cos(slope))
     span, rise = float(out[-1]) + 4.0, float(np.ptp(heights)) + high + 2.0

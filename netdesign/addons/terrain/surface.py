@@ -461,6 +461,11 @@ def _measure(path: shapely.LineString, lengths: Floats, places: Floats) -> Float
     if not len(places):
         return np.empty(0)
     at = shapely.line_locate_point(path, shapely.points(places))
-    steps = np.diff(shapely.get_coordinates(path), axis=0)
-    own = np.concatenate(([0.0], np.cumsum(np.hypot(*steps.T))))
+    own = measure_along(shapely.get_coordinates(path))
     return np.asarray(np.interp(at, own, lengths))
+
+
+def measure_along(points: Floats) -> Floats:
+    """Lengths from the first of some points to each, along their line [m]."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return np.concatenate(([0.0], np.cumsum(steps)))

@@ -11,6 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from netdesign.addons.terrain.geojson import Feature, MeasuredPlace
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
@@ -111,8 +113,9 @@ def _map_posts(
     row: RowStudy, points: SupportPoints, place: MeasuredPlace
 ) -> Iterator[Feature]:
     """Feet of the net and of the posts, with the verdict of each support."""
-    for number, post in enumerate(place.posts, 1):
-        position = _find_position(number, len(place.posts) + 1 - number)
+    last = len(place.posts)
+    for number in range(1, last + 1):
+        position = _find_position(number, last + 1 - number)
         checks = list_checks_at(row, position)
         verdict = merge_verdicts(check.verdict for check in checks).value
         for kind, part, x in (
@@ -120,7 +123,7 @@ def _map_posts(
             ("post", "Base of the post", points.post_base[0]),
         ):
             bore = Bore(start=(x, 0.0, 0.0), direction=(0.0, -1.0, 0.0), length=None)
-            head, _, _ = turn_to_map(bore, post, place, number)
+            head, _, _ = turn_to_map(bore, place, number)
             yield _point(
                 head,
                 {
@@ -246,7 +249,7 @@ def _map_anchor(
     factor = standard.find(ACCEPTANCE_TEST)
     proof = None if design is None or factor is None else factor.value * design
     types = [check.resistance_type for check in checks if check.resistance_type]
-    head, azimuth, dip = turn_to_map(bore, place.posts[number - 1], place, number)
+    head, azimuth, dip = turn_to_map(bore, place, number)
     return _point(
         head,
         {
@@ -278,16 +281,14 @@ def _find_inclination(row: RowStudy) -> float:
 
 
 def turn_to_map(
-    bore: Bore, post: tuple[float, float, float], place: MeasuredPlace, number: int
-) -> tuple[tuple[float, float, float], float, float]:
+    bore: Bore, place: MeasuredPlace, number: int
+) -> tuple[Sequence[float], float, float]:
     """Head of an anchor on the map [m], its azimuth and dip below horizontal [deg].
 
     Parameters
     ----------
     bore : Bore
         In the axes of the slope at the net's foot of a post.
-    post : tuple of float
-        That foot, east, north, height [m].
     place : MeasuredPlace
         The row.
     number : int
@@ -297,28 +298,18 @@ def turn_to_map(
     -----------
     tests/addons/terrain/test_verdict_map.py
     """
-    down = (math.sin(place.aspect), math.cos(place.aspect))
-    other = place.posts[number if number < len(place.posts) else number - 2]
-    sign = 1.0 if number < len(place.posts) else -1.0
-    along = tuple(sign * (b - a) for a, b in zip(post, other, strict=True))
-    size = math.sqrt(sum(part**2 for part in along))
+    posts = np.array(place.posts)
+    end = min(number, len(posts) - 1)  # of the bay after a post; the last has none
+    along = posts[end] - posts[end - 1]
+    down = np.array((math.sin(place.aspect), math.cos(place.aspect)))
     cosine, sine = math.cos(place.slope), math.sin(place.slope)
-    axes = (
-        (down[0] * cosine, down[1] * cosine, -sine),
-        (down[0] * sine, down[1] * sine, cosine),
-        tuple(part / size for part in along),
+    axes = np.array(
+        ((*down * cosine, -sine), (*down * sine, cosine), along / np.linalg.norm(along))
     )
-    head, way = (
-        tuple(
-            sum(part * axis[k] for part, axis in zip(vector, axes, strict=True))
-            for k in range(3)
-        )
-        for vector in (bore.start, bore.direction)
-    )
+    head, way = np.array((bore.start, bore.direction)) @ axes
     azimuth = math.degrees(math.atan2(way[0], way[1])) % 360.0
     dip = math.degrees(math.asin(max(-1.0, min(1.0, -way[2]))))
-    east, north, height = (a + b for a, b in zip(post, head, strict=True))
-    return (east, north, height), azimuth, dip
+    return (posts[number - 1] + head).tolist(), azimuth, dip
 
 
 def _point(place: Sequence[float], properties: dict[str, Any]) -> Feature:

@@ -8,9 +8,8 @@ import pytest
 
 from netdesign.addons.terrain.coverage import find_coverage
 from netdesign.addons.terrain.grid import require_ground
-from netdesign.addons.terrain.measure import measure_plan, measure_rows
+from netdesign.addons.terrain.measure import measure_plan
 from netdesign.addons.terrain.site_lines import derive_cells, find_gap
-from netdesign.addons.terrain.surface import choose_window
 from netdesign.outcome import TerrainError
 from tests.addons.terrain.surfaces import (
     SPACING,
@@ -28,8 +27,7 @@ ALONG_CONTOUR = [(-13.0, -20.0), (14.0, -20.0)]
 
 
 def measure(grid, *lines, zones=(), most=60.0, at=0):
-    surface = choose_window(grid, np.vstack([one.points for one in lines]))
-    return measure_rows(surface, plan_of(*lines, zones=zones), most=most)[at]
+    return measure_plan(grid, plan_of(*lines, zones=zones), most=most)[1][at]
 
 
 @each("cell", CELLS)

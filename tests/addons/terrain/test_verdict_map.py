@@ -47,7 +47,7 @@ def test_an_uphill_anchor_lies_up_the_slope_and_dips_into_it(aspect_deg):
         length=5.0,
     )
     where = place(aspect)
-    head, azimuth, dip = turn_to_map(bore, where.posts[0], where, 1)
+    head, azimuth, dip = turn_to_map(bore, where, 1)
     out = 4.0 * math.cos(SLOPE)
     assert head[0] == pytest.approx(500.0 - out * math.sin(aspect))
     assert head[1] == pytest.approx(300.0 - out * math.cos(aspect))
@@ -60,11 +60,11 @@ def test_an_uphill_anchor_lies_up_the_slope_and_dips_into_it(aspect_deg):
 def test_an_anchor_of_the_bay_stands_half_way_to_the_next_post():
     where = place(math.radians(150.0))
     bore = Bore(start=(0.0, 0.0, 1.5), direction=(0.0, -1.0, 0.0), length=5.0)
-    head, _, dip = turn_to_map(bore, where.posts[0], where, 1)
+    head, _, dip = turn_to_map(bore, where, 1)
     middle = [(a + b) / 2 for a, b in zip(*where.posts, strict=True)]
     assert head == pytest.approx(middle)
     assert dip == pytest.approx(90.0 - 37.0)  # square to the slope
-    last, _, _ = turn_to_map(bore, where.posts[1], where, 2)
+    last, _, _ = turn_to_map(bore, where, 2)
     beyond = [b + (b - a) / 2 for a, b in zip(*where.posts, strict=True)]
     assert last == pytest.approx(beyond)
 
