@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from netdesign.addons.history.body import SnowBody
 from netdesign.addons.history.net_pulls import NetResponse, hold_net, join_points
 from netdesign.addons.history.snow import SnowIterate
 from netdesign.addons.history.state import (
@@ -78,6 +79,31 @@ class Instant:
     creep_rate: float
     residual: float
     linear_solves: int
+
+    def end_state(
+        self, state: TransientState, body: SnowBody, step: float
+    ) -> TransientState:
+        """State at the step's end with its body, the net as at the step's start.
+
+        Parameters
+        ----------
+        state : TransientState
+            At the step's start.
+        body : SnowBody
+            At its end.
+        step : float
+            Duration [time scale].
+        """
+        return replace(
+            state,
+            time=state.time + step,
+            body=body,
+            velocity=self.velocity,
+            moved=self.displaced - state.body.vertices,
+            step=step,
+            stress=self.stress,
+            base_shear=self.base_shear,
+        )
 
 
 def advance(
@@ -287,7 +313,7 @@ def _measure_residual(
 
 def _mean_creep_rate(equations: StepEquations, stress: Floats) -> float:
     snow, material = equations.problem.snow, equations.load.material
-    weights = equations.weights
+    weights = equations.snow.weights
     rate = material.fluidity_ratio * squared_invariant(snow, material, stress) ** (
         snow.exponent / 2.0
     )

@@ -94,8 +94,6 @@ class Plateau:
     ----------
     reached : bool
         The criterion was met over a span, and the pulls have not left it since.
-    time : float or None
-        Begin of that span [time scale, or s]; None without one.
     index, end : int or None
         Number of its first moment, and of that which proves it.
     drift : float or None
@@ -104,7 +102,6 @@ class Plateau:
     """
 
     reached: bool
-    time: float | None = None
     index: int | None = None
     end: int | None = None
     drift: float | None = None
@@ -131,9 +128,7 @@ def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
         if begin is None:
             begin = place - 1
         if np.log(moments[place].time / moments[begin].time) >= _EFOLDS:
-            return Plateau(
-                reached=True, time=moments[begin].time, index=begin, end=place
-            )
+            return Plateau(reached=True, index=begin, end=place)
     return Plateau(reached=False)
 
 
@@ -198,22 +193,6 @@ def select_counted(
     return moments[begin : max(least + 1, bisect_right(strains, COUNTED_STRAIN))]
 
 
-def largest_pull(pulls: Sequence[Floats]) -> Floats:
-    """The vector of largest size.
-
-    Parameters
-    ----------
-    pulls : sequence of ndarray, shape (2,)
-        Any unit.
-
-    Returns
-    -------
-    ndarray, shape (2,)
-        In that unit.
-    """
-    return max(pulls, key=lambda pull: float(np.hypot(*pull)))
-
-
 def _is_steady(before: HistoryPoint, after: HistoryPoint) -> bool:
     if not before.strain >= LEAST_STRAIN:
         return False
@@ -239,7 +218,7 @@ class History:
     moments : tuple of HistoryPoint
         [s, N/m, m, m/s].
     plateau : Plateau
-        [s].
+        Of its moments.
     start : str
         ``steady``, ``sagged`` or ``straight``.
     densifies : bool
@@ -278,9 +257,7 @@ class History:
             "history": [_write_moment(entry) for entry in self.moments],
             "plateau": {
                 "reached": plateau.reached,
-                "time_d": None
-                if plateau.time is None
-                else day_from_second(plateau.time),
+                "time_d": None if moment is None else day_from_second(moment.time),
                 "criterion": render(CRITERION, language),
                 "drift_per_efold": plateau.drift,
                 "foot_kN_per_m": None if moment is None else _size(moment.foot),

@@ -13,7 +13,6 @@ from netdesign.addons.history.moments import (
     History,
     HistoryPoint,
     Plateau,
-    largest_pull,
     select_counted,
 )
 from netdesign.addons.history.net_pulls import compute_node_forces
@@ -135,10 +134,8 @@ def measure_run(run: Run) -> list[Floats]:
     list of ndarray, shape (2,)
         On foot and head [rho g d^2].
     """
-    return [
-        largest_pull([moment.foot for moment in run.counted]),
-        largest_pull([moment.head for moment in run.counted]),
-    ]
+    pulls = zip(*((moment.foot, moment.head) for moment in run.counted), strict=True)
+    return [max(of_end, key=lambda pull: float(np.hypot(*pull))) for of_end in pulls]
 
 
 def _net_normals(points: Floats) -> Floats:
@@ -157,12 +154,9 @@ def scale_history(run: Run, scene: Scene) -> History:
     scene : Scene
         Its scales.
     """
-    plateau = run.plateau
-    if plateau.time is not None:
-        plateau = replace(plateau, time=plateau.time * scene.time_scale)
     return History(
         moments=tuple(_scale_moment(moment, scene) for moment in run.moments),
-        plateau=plateau,
+        plateau=run.plateau,
         start=run.start,
         densifies=run.problem.settling.densifies,
         fallen_share=run.fallen,

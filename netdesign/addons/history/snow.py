@@ -98,9 +98,6 @@ class Condensed(NamedTuple):
     answer: Callable[[Floats], SnowIterate]
 
 
-Condense = Callable[[SnowIterate], Condensed]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BodyLoad:
     """Laws and load of the snow where equilibrium is taken.

@@ -21,7 +21,6 @@ from netdesign.addons.history.body import move_body
 from netdesign.addons.history.instant import Instant, advance_under
 from netdesign.addons.history.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.addons.history.net_pulls import (
-    NetResponse,
     compute_tensions,
     join_points,
     measure_arcs,
@@ -43,7 +42,6 @@ from netdesign.addons.history.state import (
     TransientState,
     build_problem,
     build_start,
-    find_start,
 )
 from netdesign.cable.net import compute_turning_angles
 from netdesign.coupling.interface import ErrorModel, Estimate
@@ -55,7 +53,6 @@ from netdesign.coupling.solution import (
 )
 from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import ModelError, Outcome, SolveError
-from netdesign.snow.mesh import build_template
 from netdesign.words.message import say
 
 # Of the step: whole and halved.
@@ -90,26 +87,22 @@ def solve_staggered(
     -----------
     tests/addons/history/test_staggered.py, ``netdesign verify``
     """
-    return end_solve(lambda: _solve(scene, settings or StaggeredSettings()))
-
-
-def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
-    """Solution, or its failure with what to try."""
-    try:
-        return _halve(scene, settings)
-    except SolveError as failure:
-        advice = say("staggered.advice", reason=failure.reason)
-        raise SolveError(failure.outcome, advice) from None
+    return end_solve(lambda: _halve(scene, settings or StaggeredSettings()))
 
 
 def _halve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    """Solution by two steps, or its failure with what to try."""
     half = replace(settings, step_share=settings.step_share / 2.0)
-    runs = [run_exchange(scene, settings), run_exchange(scene, half)]
-    pulls = _ERROR.estimate([measure_run(run) for run in runs])
-    if scene.ground.kind == "free":
-        pulls = [add_drag(pull, *measure_drag(runs[-1])) for pull in pulls]
-    tolerances = _BALANCE_TOLERANCE, _FRICTION_TOLERANCE
-    return build_solution(scene, runs, pulls, "staggered", *tolerances)
+    try:
+        runs = [run_exchange(scene, settings), run_exchange(scene, half)]
+        pulls = _ERROR.estimate([measure_run(run) for run in runs])
+        if scene.ground.kind == "free":
+            pulls = [add_drag(pull, *measure_drag(runs[-1])) for pull in pulls]
+        tolerances = _BALANCE_TOLERANCE, _FRICTION_TOLERANCE
+        return build_solution(scene, runs, pulls, "staggered", *tolerances)
+    except SolveError as failure:
+        advice = say("staggered.advice", reason=failure.reason)
+        raise SolveError(failure.outcome, advice) from None
 
 
 def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
@@ -130,23 +123,22 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     if scene.ground.kind == "no-slip":
         raise ModelError(say("staggered.base_drag"))
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
-    aspect = scene.snowpack.aspect
-    template = build_template(aspect, settings.size, scene.layer_tops)
-    start = find_start(scene, settings.size, settings.start)
-    state = build_start(problem, template, start)
+    state = build_start(scene, problem, settings.size, settings.start)
     arcs = measure_arcs(join_points(state.net_nodes, problem.head))
     lengths = np.minimum(state.lengths, arcs)
     cable = build_cable_state(arcs, lengths, problem.stiffness)
-    step = settings.step_share * _longest_step(problem, aspect)
+    step = settings.step_share * _longest_step(problem, scene.snowpack.aspect)
     moments: list[HistoryPoint] = []
     way: Floats | float = 0.0
     solves, mass = 0, float(state.body.mass.sum())
     while state.time < settings.horizon:
+        points = join_points(state.net_nodes, problem.head)
+        net = pull_nodes(points, cable.unstressed_lengths, cable.tensions)
         instant = advance_under(
             problem,
             state,
             step,
-            _respond(problem, state, cable),
+            net,
             tolerance=EXCHANGE_TOLERANCE,
             max_iterations=MOST_EXCHANGE_ITERATIONS,
         )
@@ -214,14 +206,6 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
     return _STABLE_SHARE * problem.base_drag * aspect * chord / problem.stiffness
 
 
-def _respond(
-    problem: TransientProblem, state: TransientState, cable: CableState
-) -> NetResponse:
-    """The net as it is, its forces taken as they are."""
-    points = join_points(state.net_nodes, problem.head)
-    return pull_nodes(points, cable.unstressed_lengths, cable.tensions)
-
-
 def _follow(
     problem: TransientProblem,
     state: TransientState,
@@ -233,16 +217,7 @@ def _follow(
     if state.top != "on-net":
         net[:, -1] = problem.head
     body, _ = move_body(state.body, instant.displaced, net, problem.head)
-    moved = replace(
-        state,
-        time=state.time + step,
-        body=body,
-        velocity=instant.velocity,
-        moved=instant.displaced - state.body.vertices,
-        step=step,
-        stress=instant.stress,
-        base_shear=instant.base_shear,
-    )
+    moved = instant.end_state(state, body, step)
     points = join_points(moved.net_nodes, problem.head)
     cable = advance_increment(
         cable,

@@ -21,7 +21,7 @@ from netdesign.numerics.arrays import Floats, Ints, Signs
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import ModelError, Outcome, SolveError
 from netdesign.snow.law import FlowProblem
-from netdesign.snow.mesh import MeshSize, MeshTemplate
+from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template
 from netdesign.words.message import say
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
@@ -161,55 +161,22 @@ _LARGEST_SAG = 0.6  # over the chord
 _ROUNDS = 5  # for the sag of a polygon; each gains some two digits
 
 
-def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
-    """Start in the form that ``build_start`` takes.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    size : MeshSize
-        Of the history's mesh.
-    start : str
-        ``steady``, ``straight`` or ``sagged``.
-
-    Returns
-    -------
-    str or NetAtRest
-        Of a steady start the net as it hangs at rest.
-
-    Raises
-    ------
-    SolveError
-        If there is no steady state.
-    """
-    if start != "steady":
-        return start
-    try:
-        return find_net_at_rest(scene, size)
-    except SolveError as failure:
-        raise SolveError(
-            failure.outcome,
-            say("history.no_start", reason=failure.reason),
-        ) from None
-
-
 def build_start(
-    problem: TransientProblem, template: MeshTemplate, start: Start | NetAtRest
+    scene: Scene, problem: TransientProblem, size: MeshSize, start: Start
 ) -> TransientState:
     """Snow and net at time 0.
 
     Parameters
     ----------
-    problem : TransientProblem
-        Scene.
-    template : MeshTemplate
-        Reference mesh.
-    start : str or NetAtRest
+    scene, problem : Scene, TransientProblem
+        Snow, ground and net; the same, dimensionless.
+    size : MeshSize
+        Of the history's mesh.
+    start : str
         ``straight``: the net has no tension, a straight line or, if it has slack, the
         parabola that takes up the slack. ``sagged``: it hangs under the snow's mean
-        pressure. The net of a steady state: it hangs as it does there. The snow,
-        undeformed, lies against it.
+        pressure. ``steady``: it hangs as at rest. The snow, undeformed, lies against
+        it.
 
     Returns
     -------
@@ -219,11 +186,12 @@ def build_start(
     Raises
     ------
     SolveError
-        If the net would lie on the ground.
+        If there is no steady state to start from, or the net would lie on the ground.
     """
-    fractions = template.net_fractions
-    if isinstance(start, NetAtRest):
-        curve, lengths = hang_polygon(start, problem, fractions)
+    template = build_template(scene.snowpack.aspect, size, scene.layer_tops)
+    if start == "steady":
+        rest = find_net_at_rest(scene, size)
+        curve, lengths = hang_polygon(rest, problem, template.net_fractions)
     else:
         curve = _hang_parabola(problem, template, start)
         lengths = _spread_length(problem, curve)
@@ -326,7 +294,11 @@ def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
     SolveError
         If there is no steady state.
     """
-    problem, net = find_net_equilibrium(scene, size, SolverSettings())
+    try:
+        problem, net = find_net_equilibrium(scene, size, SolverSettings())
+    except SolveError as failure:
+        reason = say("history.no_start", reason=failure.reason)
+        raise SolveError(failure.outcome, reason) from None
     places = locate_nodes(problem.template, net)
     strain = net.cable.tension.mean(axis=0) / problem.stiffness
     return NetAtRest(

@@ -16,7 +16,6 @@ from netdesign.addons.history.body import SnowBody, build_material
 from netdesign.addons.history.snow import (
     BodyLoad,
     CompiledSnow,
-    Condense,
     Condensed,
     PlainSnow,
     SnowIterate,
@@ -80,10 +79,8 @@ class StepEquations:
     ----------
     problem : TransientProblem
         What stays the same.
-    condense : callable
-        Snow where equilibrium is assembled, condensed to the net's nodes.
-    weights : ndarray, shape (n_triangles, n_points)
-        Of the quadrature there [thickness^2].
+    snow : CompiledSnow or PlainSnow
+        Where equilibrium is assembled.
     load : BodyLoad
         Laws and weight there.
     template : MeshTemplate
@@ -102,8 +99,7 @@ class StepEquations:
     """
 
     problem: TransientProblem
-    condense: Condense
-    weights: Floats
+    snow: CompiledSnow | PlainSnow
     load: BodyLoad
     template: MeshTemplate
     carried: Ints
@@ -279,11 +275,9 @@ def assemble_step(
         last = problem.head - vertices[:, body.topology.net[-2]]
         top_axis = last / np.hypot(*last)
     load = _describe_load(problem, replace(body, vertices=vertices))
-    condense, weights = _place_snow(load, template, vertices)
     return StepEquations(
         problem=problem,
-        condense=condense,
-        weights=weights,
+        snow=_place_snow(load, template, vertices),
         load=load,
         template=template,
         carried=state.carried,
@@ -313,8 +307,8 @@ def _describe_load(problem: TransientProblem, body: SnowBody) -> BodyLoad:
 
 def _place_snow(
     load: BodyLoad, template: MeshTemplate, vertices: Floats
-) -> tuple[Condense, Floats]:
-    """The snow on placed vertices, by the core if it can, and quadrature weights."""
+) -> CompiledSnow | PlainSnow:
+    """The snow on placed vertices, by the core if it can."""
     middles = vertices[:, template.edges].mean(axis=1)
     nodes = np.concatenate([vertices, middles], axis=1)
     snow: CompiledSnow | PlainSnow | None = prepare_snow(load, template, nodes)
@@ -325,7 +319,7 @@ def _place_snow(
         snow = PlainSnow(load=load, mesh=replace(mesh, axes=axes))
     if not snow.is_valid:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("history.mesh_folds_in_step"))
-    return snow.condense, snow.weights
+    return snow
 
 
 def condense_step(
@@ -349,7 +343,7 @@ def condense_step(
     """
     moves, sums = equations.span()
     try:
-        condensed = equations.condense(iterate)
+        condensed = equations.snow.condense(iterate)
         inverse = np.linalg.inv(sums.T @ condensed.root @ moves)
     except (SingularError, np.linalg.LinAlgError):
         raise SolveError(Outcome.NONFINITE, say("history.nothing_holds")) from None

@@ -7,7 +7,7 @@ keeps its mass and may densify. Theory: coupling/THEORY.md, section 6.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -39,7 +39,6 @@ from netdesign.addons.history.state import (
     TransientState,
     build_problem,
     build_start,
-    find_start,
 )
 from netdesign.coupling.interface import ErrorModel, refine
 from netdesign.coupling.scene import Scene
@@ -51,7 +50,7 @@ from netdesign.coupling.solution import (
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.snow.mesh import MeshSize
 from netdesign.words.message import say
 
 # First step, in creep time. A straight net takes up its load from the corners inward,
@@ -138,14 +137,13 @@ def run_history(
         If not even the first step succeeds.
     """
     problem = build_problem(scene, densifies=settings.densifies)
-    template = build_template(scene.snowpack.aspect, size, scene.layer_tops)
     first = _FIRST_SAGGED
     if settings.start == "straight":
         first = _FIRST_STRAIGHT * size.corner**2
     walk = _Walk(
         problem=problem,
         settings=settings,
-        state=build_start(problem, template, find_start(scene, size, settings.start)),
+        state=build_start(scene, problem, size, settings.start),
         step=first,
         step_share=step_share,
         horizon=horizon,
@@ -309,7 +307,8 @@ def _refine(scene: Scene, settings: TransientSettings) -> Solution:
     def run(size: MeshSize, _: Run | None) -> Run:
         share = _LEVEL_RATIO ** (1 - settings.levels.index(size))
         history = run_history(scene, size, settings, horizon, step_share=share)
-        rests.append(history.plateau.time or history.moments[-1].time)
+        begin = history.plateau.index
+        rests.append(history.moments[-1 if begin is None else begin].time)
         return history
 
     runs, estimates = refine(
@@ -364,19 +363,11 @@ def follow(
     # the upper corner may have become a node of the net, or none any more
     signs = np.append(instant.response.slide_signs, np.zeros(1, dtype=np.int8))
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
-    following = TransientState(
-        time=state.time + step,
-        body=body,
-        lengths=net.lengths,
-        top=net.top,
-        velocity=instant.velocity,
-        moved=instant.displaced - state.body.vertices,
-        step=step,
-        stress=instant.stress,
-        base_shear=instant.base_shear,
-        slide_signs=signs[: net.lengths.size - 1],
-    )
-    return following, fallen
+    signs = signs[: net.lengths.size - 1]
+    following = instant.end_state(state, body, step)
+    return replace(
+        following, lengths=net.lengths, top=net.top, slide_signs=signs
+    ), fallen
 
 
 def _move_top(

@@ -90,7 +90,7 @@ def test_a_history_is_the_same(number, in_numpy):
 def condense(problem, state, iterate, forces, moved, drag=0.0):
     step = 0.5 * state.step or 1e-6
     equations = assemble_step(replace(problem, base_drag=drag), state, step)
-    condensed = equations.condense(iterate)
+    condensed = equations.snow.condense(iterate)
     net = condense_step(equations, iterate, forces)
     return condensed.root, condensed.missing, condensed.answer(moved), net.per_force
 
@@ -135,7 +135,7 @@ def test_arrays_of_an_iterate_are_not_those_of_the_next():
     )
     kept = [np.copy(one) for one in iterate[:2]]
     net = np.ones(2 * equations.template.net.size)
-    one, two = (equations.condense(iterate).answer(net) for _ in range(2))
+    one, two = (equations.snow.condense(iterate).answer(net) for _ in range(2))
     for before, after in zip(kept, iterate[:2], strict=True):
         np.testing.assert_array_equal(before, after)
     np.testing.assert_array_equal(one.stress, two.stress)

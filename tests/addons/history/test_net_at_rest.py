@@ -11,9 +11,8 @@ from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import (
     build_problem,
-    build_start,
     find_net_at_rest,
-    find_start,
+    hang_polygon,
 )
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
@@ -76,11 +75,11 @@ def test_mesh_of_another_size_gets_a_net_of_the_same_shape(a_scene):
     scene = a_scene(slack=0.03, ground="no-slip", inclination_deg=20.0)
     problem = build_problem(scene, densifies=True)
     rest = find_net_at_rest(scene, TRANSIENT_LEVELS[2])
-    states = [
-        build_start(problem, build_template(5.0, size), rest)
+    curves = [
+        hang_polygon(rest, problem, build_template(5.0, size).net_fractions)[0]
         for size in TRANSIENT_LEVELS[:2]
     ]
-    sags = [state.body.vertices[0, state.body.topology.net].max() for state in states]
+    sags = [curve[0, ::2].max() for curve in curves]
     assert sags[0] == pytest.approx(sags[1], rel=0.03)
 
 
@@ -88,12 +87,12 @@ def test_a_scene_without_a_steady_state_says_what_to_choose(a_scene, monkeypatch
     def fail(*_, **__):
         raise SolveError(Outcome.NO_EQUILIBRIUM, "the net has none.")
 
-    monkeypatch.setattr(state, "find_net_at_rest", fail)
+    monkeypatch.setattr(state, "find_net_equilibrium", fail)
     scene = a_scene()
     with pytest.raises(SolveError, match=r"none\): choose the start sagged") as failure:
-        find_start(scene, SIZE, "steady")
+        begin(scene, "steady", SIZE)
     assert failure.value.outcome is Outcome.NO_EQUILIBRIUM
-    assert find_start(scene, SIZE, "straight") == "straight"
+    assert begin(scene, "straight", SIZE)[1].time == 0.0
 
 
 THIN_GROUNDS = (

@@ -86,7 +86,7 @@ def test_snow_answers_forces_as_the_forms_do(
     )
     _, found = answer(problem, state, forces)
     monkeypatch.setenv(SWITCH, SWITCHED_OFF)
-    snow = assemble_step(problem, state, STEP).condense.__self__
+    snow = assemble_step(problem, state, STEP).snow
     assert isinstance(snow, PlainSnow)
     expected = solve_forms(snow, state.carried, forces)
     np.testing.assert_allclose(
