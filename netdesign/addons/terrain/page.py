@@ -254,14 +254,8 @@ def _draw_contours(chart: Chart, extract: Extract) -> float:
     """Draw contours at a round distance, 25 at most; the distance [m]."""
     heights = extract.heights[np.isfinite(extract.heights)]
     low, high = float(heights.min()), float(heights.max())
-    step = next(
-        (
-            distance
-            for distance in _CONTOURS
-            if (high - low) / distance <= _MOST_CONTOURS
-        ),
-        _CONTOURS[-1],
-    )
+    few = (high - low) / _MOST_CONTOURS
+    step = next((step for step in _CONTOURS if step >= few), _CONTOURS[-1])
     frame = extract.frame
     lines, columns = extract.heights.shape
     east = frame.x_low + extract.side * (np.arange(columns) + 0.5)

@@ -361,11 +361,8 @@ def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
     ``cost_order``: p in time ~ degrees of freedom^p; ``error_order``: q in error ~
     degrees of freedom^-q/2. Both are medians unless named otherwise.
     """
-    by_scene: dict[str, list[Row]] = defaultdict(list)
-    for row in rows:
-        if row.method == "steady":
-            by_scene[row.scene].append(row)
-    fitted = [group for group in by_scene.values() if len(group) > 2]
+    steady = [row for row in rows if row.method == "steady"]
+    fitted = [group for group in _group_by_scene(steady) if len(group) > 2]
     costs = [_fit(group, "wall_s") for group in fitted]
     orders = [-2.0 * _fit(group, "error") for group in fitted]
     return {
@@ -373,6 +370,13 @@ def summarise(rows: Sequence[Row]) -> dict[str, float | None]:
         "worst_cost_order": max(costs, default=None),
         "error_order": median(orders) if orders else None,
     }
+
+
+def _group_by_scene(rows: Sequence[Row]) -> list[list[Row]]:
+    groups: dict[str, list[Row]] = defaultdict(list)
+    for row in rows:
+        groups[row.scene].append(row)
+    return list(groups.values())
 
 
 def _fit(rows: Sequence[Row], name: str) -> float:
@@ -424,8 +428,9 @@ def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str) -> 
     for x, y in map(_place, rows):
         chart.dot((frame.x(x), frame.y(y)), 1.2, fill=stroke, stroke=stroke)
     if rows[0].method == "steady":
-        groups = [list(map(_place, group)) for group in _group_by_resolution(rows)]
-        middles = [map(median, zip(*group, strict=True)) for group in groups]
+        levels = zip(*_group_by_scene(rows), strict=True)
+        groups = [zip(*map(_place, level), strict=True) for level in levels]
+        middles = [map(median, group) for group in groups]
         line = [(frame.x(x), frame.y(y)) for x, y in middles]
         chart.line(line, stroke=stroke, width=1.2)
 
@@ -433,13 +438,3 @@ def _draw_rows(chart: Chart, frame: Frame, rows: Sequence[Row], stroke: str) -> 
 def _place(row: Row) -> tuple[float, float]:
     """Logarithms of error [%] and run time [ms]."""
     return math.log10(100.0 * row.error), math.log10(1e3 * row.wall_s)
-
-
-def _group_by_resolution(rows: Sequence[Row]) -> list[list[Row]]:
-    """First rows of all scenes, second rows, ...: one group a mesh level."""
-    seen: dict[str, int] = defaultdict(int)
-    groups: dict[int, list[Row]] = defaultdict(list)
-    for row in rows:
-        groups[seen[row.scene]].append(row)
-        seen[row.scene] += 1
-    return [groups[place] for place in sorted(groups)]

@@ -189,15 +189,8 @@ def draw_plates(study: PaperStudy) -> list[Plate]:
 
 def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     drag = study.settings.exchange_drag
-    is_staggered = kind == "staggered"
-    runs = [
-        study[
-            find_exchange(NORMAL_NET_DEG, phi)
-            if is_staggered
-            else find_history(NORMAL_NET_DEG, phi)
-        ]
-        for phi in FRICTIONS_DEG
-    ]
+    find = {"staggered": find_exchange, "implicit": find_history}[kind]
+    runs = [study[find(NORMAL_NET_DEG, phi)] for phi in FRICTIONS_DEG]
     tracks = [(run.case, run.track) for run in runs if run.track is not None]
     if len(tracks) < len(runs):
         return None
@@ -205,7 +198,7 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     heading = ENGLISH(f"paper_plate.nodes_{kind}")
     shown = ENGLISH("paper_plate.nodes", lower=lower, upper=upper)
     svg = draw_panels(
-        _list_node_panels(tracks, is_thin=is_staggered),
+        _list_node_panels(tracks, is_thin=kind == "staggered"),
         heading,
         across=2,
         time_label=ENGLISH("paper_plate.since"),
@@ -224,18 +217,19 @@ def _list_node_panels(
     tracks: Sequence[tuple[PaperCase, Track]], *, is_thin: bool
 ) -> list[Panel]:
     """Both parts of both nodes' forces, a line for each friction angle."""
-
-    def draw(style: int, case: PaperCase, track: Track, node: str, part: int) -> Line:
-        values = [force / 1e3 for force in getattr(track, node)[part]]
-        line = _line(case, track, values, f"{case.friction_deg:.0f}°", 2 - style)
-        return replace(line, is_thin=is_thin)
-
     return [
         Panel(
             title=ENGLISH(f"paper_plate.{node}_node", axis=axis.upper()),
             lines=[
-                draw(style, case, track, node, part)
-                for style, (case, track) in enumerate(tracks)
+                _line(
+                    case,
+                    track,
+                    getattr(track, node)[part] / 1e3,
+                    f"{case.friction_deg:.0f}°",
+                    len(tracks) - style,
+                    is_thin=is_thin,
+                )
+                for style, (case, track) in enumerate(tracks, 1)
             ],
         )
         for node in _NODES
@@ -287,8 +281,8 @@ def _compare_ways(study: PaperStudy, net: float) -> Panel:
     lines = []
     for way, (case, style) in ways.items():
         if (track := study[case].track) is not None:
-            pulls, label = [pull / 1e3 for pull in track.foot], f"paper_plate.{way}"
-            lines.append(_line(case, track, pulls, ENGLISH(label), style))
+            label = ENGLISH(f"paper_plate.{way}")
+            lines.append(_line(case, track, track.foot / 1e3, label, style))
     steady, marks = study[find_steady(straight)].foot, []
     if steady is not None and lines:
         x = [min(line.x[0] for line in lines), max(line.x[-1] for line in lines)]
@@ -303,13 +297,20 @@ def _compare_ways(study: PaperStudy, net: float) -> Panel:
 
 
 def _line(
-    case: PaperCase, track: Track, values: Sequence[float], label: str, style: int
+    case: PaperCase,
+    track: Track,
+    values: Floats,
+    label: str,
+    style: int,
+    *,
+    is_thin: bool = False,
 ) -> Line:
     """Line from when a straight net has its first shape."""
     settled = _SETTLED * case.scene.time_scale
     first = min(int((track.times <= settled).sum()), len(track.times) - 1)
     times = [day_from_second(float(time)) for time in track.times[first:]]
-    return Line(label=label, x=times, y=list(values[first:]), style=style)
+    y = values[first:].tolist()
+    return Line(label=label, x=times, y=y, style=style, is_thin=is_thin)
 
 
 PAGE_FILE = "index.html"

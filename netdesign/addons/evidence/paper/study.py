@@ -122,12 +122,7 @@ def find_exchange(
 
 def find_steady(case: PaperCase) -> PaperCase:
     """Steady state of a run's scene."""
-    return PaperCase(
-        method="steady",
-        inclination_deg=case.inclination_deg,
-        friction_deg=case.friction_deg,
-        gravity=case.gravity,
-    )
+    return replace(case, method="steady", start="straight", until=0.0)
 
 
 def find_paper_time() -> PaperCase:

@@ -315,10 +315,7 @@ def _solve_net(point: Mapping[str, float]) -> CaseForces:
 def _find_band(
     member: str, measured: Measurement, forces: Sequence[CaseForces]
 ) -> MemberBand:
-    solved = [case[member] for case in forces if member in case]
-    if not solved:
-        raise ModelError(say("measured.no_member", member=member[:200]))
-    values: Floats = np.array(solved)
+    values: Floats = np.array([case[member] for case in forces if member in case])
     low, high = np.percentile(values, _MIDDLE)
     return MemberBand(
         member=member,

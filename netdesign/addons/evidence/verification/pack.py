@@ -62,6 +62,9 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
 )
 
 
+_NUMBERS = ("expected", "got", "error", "tolerance", "order", "least_order")
+
+
 def run_pack(
     on_group: Callable[[int], None] | None = None,
 ) -> list[VerificationCase]:
@@ -84,12 +87,7 @@ def write_pack(cases: Sequence[VerificationCase]) -> dict[str, Any]:
                 "id": case.id,
                 "kind": case.kind,
                 "reference": texts[f"reference.{case.reference}"],
-                "expected": case.expected,
-                "got": case.got,
-                "error": case.error,
-                "tolerance": case.tolerance,
-                "order": case.order,
-                "least_order": case.least_order,
+                **{name: getattr(case, name) for name in _NUMBERS},
                 "pass": case.passes,
             }
             for case in cases
