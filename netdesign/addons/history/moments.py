@@ -112,6 +112,9 @@ class Plateau:
         return self.index is not None and not self.reached
 
 
+NO_PLATEAU = Plateau(reached=False)
+
+
 def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
     """First span of one e-fold of time over which the criterion holds.
 
@@ -129,7 +132,7 @@ def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
             begin = place - 1
         if np.log(moments[place].time / moments[begin].time) >= _EFOLDS:
             return Plateau(reached=True, index=begin, end=place)
-    return Plateau(reached=False)
+    return NO_PLATEAU
 
 
 def judge_plateau(moments: Sequence[HistoryPoint], plateau: Plateau) -> Plateau:

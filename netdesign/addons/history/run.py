@@ -10,6 +10,7 @@ import numpy as np
 from netdesign.addons.history.body import largest_density
 from netdesign.addons.history.instant import Instant
 from netdesign.addons.history.moments import (
+    NO_PLATEAU,
     History,
     HistoryPoint,
     Plateau,
@@ -28,38 +29,43 @@ from netdesign.words.message import Message
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Run:
-    """A whole history on one mesh, dimensionless.
+    """A history on one mesh, dimensionless: whole, or as far as it has come.
 
     Attributes
     ----------
     problem : TransientProblem
         Scene.
+    start : str
+        ``steady``, ``sagged`` or ``straight``.
+    state : TransientState
+        At the end.
+    instant : Instant or None
+        At the end; None before the first step.
     moments : tuple of HistoryPoint
         After every step.
+    ways : ndarray, shape (n,), or float
+        Ways of the net's vertices [thickness]; 0 before the first step.
+    fallen_mass : float
+        Of the snow that fell over the head [mean density times d^2].
     plateau : Plateau
         Whether it came to rest.
-    state, instant : TransientState, Instant
-        At the end.
-    fallen : float
-        Share of the snow's mass that fell over the head.
     ended : Message or None
         Why the run ended before its horizon; None if it did not.
     linear_solves, rejected : int
         Solves taken; steps that were repeated.
-    start : str
-        ``steady``, ``sagged`` or ``straight``.
     """
 
     problem: TransientProblem
-    moments: tuple[HistoryPoint, ...]
-    plateau: Plateau
-    state: TransientState
-    instant: Instant
-    fallen: float
-    ended: Message | None
-    linear_solves: int
-    rejected: int
     start: Start
+    state: TransientState
+    instant: Instant | None = None
+    moments: tuple[HistoryPoint, ...] = ()
+    ways: Floats | float = 0.0
+    fallen_mass: float = 0.0
+    plateau: Plateau = NO_PLATEAU
+    ended: Message | None = None
+    linear_solves: int = 0
+    rejected: int = 0
 
     @property
     def counted(self) -> Sequence[HistoryPoint]:
@@ -67,58 +73,62 @@ class Run:
         is_guessed = self.start != "steady"
         return select_counted(self.moments, self.plateau, is_guessed=is_guessed)
 
+    @property
+    def fallen(self) -> float:
+        """Share of the snow's mass that fell over the head."""
+        return self.fallen_mass / (float(self.state.body.mass.sum()) + self.fallen_mass)
 
-def record_moment(
-    problem: TransientProblem,
-    state: TransientState,
-    instant: Instant,
-    way: Floats | float,
-    moments: Sequence[HistoryPoint],
-    step: float,
-) -> tuple[HistoryPoint, Floats]:
-    """Point of a history at the end of a step.
+    @property
+    def end(self) -> Instant:
+        """Equilibrium at the end of the last step."""
+        assert self.instant is not None
+        return self.instant
 
-    Parameters
-    ----------
-    problem : TransientProblem
-        What stays the same.
-    state : TransientState
-        After the step.
-    instant : Instant
-        Equilibrium at the step's end.
-    way : ndarray, shape (n,), or float
-        Ways of the net's vertices before the step [thickness]; 0 at first.
-    moments : sequence of HistoryPoint
-        Those before the step.
-    step : float
-        Duration [time scale].
+    def follow(
+        self, instant: Instant, state: TransientState, fallen: float, step: float
+    ) -> Run:
+        """Run with one step more.
 
-    Returns
-    -------
-    HistoryPoint, ndarray, shape (n,)
-        And the ways after the step [thickness].
-    """
-    net = state.body.topology.net
-    axes = _net_normals(state.body.vertices[:, net])
-    across = np.abs((instant.velocity[:, net] * axes).sum(axis=0))
-    ways = way + across * step
-    tensions = instant.response.tensions
-    ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
-    strain = moments[-1].strain if moments else 0.0
-    moment = HistoryPoint(
-        time=state.time,
-        foot=instant.foot_pull,
-        head=instant.head_pull,
-        tension_min=float(min(tensions.min(), *ends)),
-        tension_max=float(max(tensions.max(), *ends)),
-        on_net=instant.on_net,
-        max_relative_density=largest_density(problem.settling, state.body),
-        way=float(ways.max()),
-        speed=float(across.max()),
-        strain=strain + instant.creep_rate * step,
-        residual=instant.residual,
-    )
-    return moment, ways
+        Parameters
+        ----------
+        instant : Instant
+            Equilibrium at the step's end.
+        state : TransientState
+            After the step.
+        fallen : float
+            Mass that fell over the head in it [mean density times d^2].
+        step : float
+            Duration [time scale].
+        """
+        net = state.body.topology.net
+        axes = _net_normals(state.body.vertices[:, net])
+        across = np.abs((instant.velocity[:, net] * axes).sum(axis=0))
+        ways = self.ways + across * step
+        tensions = instant.response.tensions
+        ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
+        strain = self.moments[-1].strain if self.moments else 0.0
+        moment = HistoryPoint(
+            time=state.time,
+            foot=instant.foot_pull,
+            head=instant.head_pull,
+            tension_min=float(min(tensions.min(), *ends)),
+            tension_max=float(max(tensions.max(), *ends)),
+            on_net=instant.on_net,
+            max_relative_density=largest_density(self.problem.settling, state.body),
+            way=float(ways.max()),
+            speed=float(across.max()),
+            strain=strain + instant.creep_rate * step,
+            residual=instant.residual,
+        )
+        return replace(
+            self,
+            state=state,
+            instant=instant,
+            moments=(*self.moments, moment),
+            ways=ways,
+            fallen_mass=self.fallen_mass + fallen,
+            linear_solves=self.linear_solves + instant.linear_solves,
+        )
 
 
 def measure_run(run: Run) -> list[Floats]:
@@ -200,7 +210,7 @@ def build_solution(
     template = body.topology.template
     vertices = body.vertices
     nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
-    points = run.instant.points
+    points = run.end.points
     along = run.problem.head / np.hypot(*run.problem.head)
     balance = _measure_balance(run, scene)
     check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
@@ -220,7 +230,7 @@ def build_solution(
         mesh_nodes=nodes * thickness,
         mesh_triangles=body.topology.triangles.T,
         mesh_density=body.density * scene.snowpack.density,
-        mesh_velocity=run.instant.velocity * scene.velocity_scale,
+        mesh_velocity=run.end.velocity * scene.velocity_scale,
         balance=balance,
         cost=Cost(
             linear_solves=sum(part.linear_solves for part in runs),
@@ -234,17 +244,17 @@ def build_solution(
 
 def _list_forces(run: Run) -> Floats:
     """Forces of the snow on the net's nodes, shape (2, n), foot to head."""
-    on_net = run.instant.on_net
+    on_net = run.end.on_net
     corner = -on_net.sum(axis=1)
-    corner += run.instant.foot_pull + run.instant.head_pull
+    corner += run.end.foot_pull + run.end.head_pull
     return np.column_stack([corner, on_net])
 
 
 def _find_slides(run: Run) -> Mask:
     """Net nodes at which the snow slips, foot to head."""
-    signs = run.instant.response.slide_signs
+    signs = run.end.response.slide_signs
     slides = np.append(False, signs != 0)
-    if run.instant.on_net.shape[1] > signs.size:
+    if run.end.on_net.shape[1] > signs.size:
         slides = np.append(slides, True)  # a corner held at the head slips freely
     return slides
 
@@ -266,8 +276,8 @@ def _scale_moment(moment: HistoryPoint, scene: Scene) -> HistoryPoint:
 
 def _measure_balance(run: Run, scene: Scene) -> Balance:
     weight = float(run.state.body.mass.sum())
-    tensions = run.instant.response.tensions
-    normal, tangential = compute_node_forces(run.instant.points, tensions)
+    tensions = run.end.response.tensions
+    normal, tangential = compute_node_forces(run.end.points, tensions)
     friction = run.problem.snow.friction
     excess = np.abs(tangential) - friction * np.maximum(normal, 0.0)
     size = weight * float(np.hypot(*run.problem.snow.gravity))
@@ -277,5 +287,5 @@ def _measure_balance(run: Run, scene: Scene) -> Balance:
         friction_excess=max(0.0, float(excess.max())) / size,
         smallest_tension=float(tensions.min()) * scene.force_scale,
         suction_share=negative_share(normal),
-        ground_tension_share=negative_share(run.instant.ground_normal),
+        ground_tension_share=negative_share(run.end.ground_normal),
     )

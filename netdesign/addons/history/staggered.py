@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from netdesign.addons.history.body import move_body
 from netdesign.addons.history.instant import Instant, advance_under
-from netdesign.addons.history.moments import HistoryPoint, find_plateau, judge_plateau
+from netdesign.addons.history.moments import find_plateau, judge_plateau
 from netdesign.addons.history.net_pulls import (
     compute_tensions,
     join_points,
@@ -30,7 +30,6 @@ from netdesign.addons.history.run import (
     Run,
     build_solution,
     measure_run,
-    record_moment,
 )
 from netdesign.addons.history.settings import (
     EXCHANGE_TOLERANCE,
@@ -39,7 +38,6 @@ from netdesign.addons.history.settings import (
 )
 from netdesign.addons.history.state import (
     TransientProblem,
-    TransientState,
     build_problem,
     build_start,
 )
@@ -123,41 +121,26 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     if scene.ground.kind == "no-slip":
         raise ModelError(say("staggered.base_drag"))
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
-    state = build_start(scene, problem, settings.size, settings.start)
-    arcs = measure_arcs(join_points(state.net_nodes, problem.head))
-    lengths = np.minimum(state.lengths, arcs)
+    start = build_start(scene, problem, settings.size, settings.start)
+    run = Run(problem=problem, start=settings.start, state=start)
+    arcs = measure_arcs(join_points(start.net_nodes, problem.head))
+    lengths = np.minimum(start.lengths, arcs)
     cable = build_cable_state(arcs, lengths, problem.stiffness)
     step = settings.step_share * _longest_step(problem, scene.snowpack.aspect)
-    moments: list[HistoryPoint] = []
-    way: Floats | float = 0.0
-    solves, mass = 0, float(state.body.mass.sum())
-    while state.time < settings.horizon:
-        points = join_points(state.net_nodes, problem.head)
+    while run.state.time < settings.horizon:
+        points = join_points(run.state.net_nodes, problem.head)
         net = pull_nodes(points, cable.unstressed_lengths, cable.tensions)
         instant = advance_under(
             problem,
-            state,
+            run.state,
             step,
             net,
             tolerance=EXCHANGE_TOLERANCE,
             max_iterations=MOST_EXCHANGE_ITERATIONS,
         )
-        state, cable = _follow(problem, state, cable, instant, step)
-        moment, way = record_moment(problem, state, instant, way, moments, step)
-        moments.append(moment)
-        solves += instant.linear_solves
-    return Run(
-        problem=problem,
-        moments=tuple(moments),
-        plateau=judge_plateau(moments, find_plateau(moments)),
-        state=state,
-        instant=instant,
-        fallen=1.0 - float(state.body.mass.sum()) / mass,
-        ended=None,
-        linear_solves=solves,
-        rejected=0,
-        start=settings.start,
-    )
+        run, cable = _follow(run, cable, instant, step)
+    plateau = judge_plateau(run.moments, find_plateau(run.moments))
+    return replace(run, plateau=plateau)
 
 
 def measure_drag(run: Run) -> tuple[float, float]:
@@ -207,16 +190,13 @@ def _longest_step(problem: TransientProblem, aspect: float) -> float:
 
 
 def _follow(
-    problem: TransientProblem,
-    state: TransientState,
-    cable: CableState,
-    instant: Instant,
-    step: float,
-) -> tuple[TransientState, CableState]:
+    run: Run, cable: CableState, instant: Instant, step: float
+) -> tuple[Run, CableState]:
+    problem, state = run.problem, run.state
     net = instant.displaced[:, state.body.topology.net].copy()
     if state.top != "on-net":
         net[:, -1] = problem.head
-    body, _ = move_body(state.body, instant.displaced, net, problem.head)
+    body, fallen = move_body(state.body, instant.displaced, net, problem.head)
     moved = instant.end_state(state, body, step)
     points = join_points(moved.net_nodes, problem.head)
     cable = advance_increment(
@@ -226,7 +206,7 @@ def _follow(
         friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
-    return moved, cable
+    return run.follow(instant, moved, fallen, step), cable
 
 
 Nodes = NDArray[np.intp]

@@ -7,25 +7,19 @@ keeps its mass and may densify. Theory: coupling/THEORY.md, section 6.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.addons.history.body import move_body
 from netdesign.addons.history.instant import Instant, advance
-from netdesign.addons.history.moments import (
-    HistoryPoint,
-    Plateau,
-    find_plateau,
-    judge_plateau,
-)
+from netdesign.addons.history.moments import find_plateau, judge_plateau
 from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.run import (
     Run,
     build_solution,
     measure_run,
-    record_moment,
 )
 from netdesign.addons.history.settings import (
     MOST_ITERATIONS,
@@ -140,19 +134,19 @@ def run_history(
     first = _FIRST_SAGGED
     if settings.start == "straight":
         first = _FIRST_STRAIGHT * size.corner**2
+    start = build_start(scene, problem, size, settings.start)
     walk = _Walk(
-        problem=problem,
+        run=Run(problem=problem, start=settings.start, state=start),
         settings=settings,
-        state=build_start(scene, problem, size, settings.start),
         step=first,
         step_share=step_share,
         horizon=horizon,
     )
     if on_state is not None:
-        on_state(walk.state)
+        on_state(start)
     while not walk.is_over:
         if walk.take_step() and on_state is not None:
-            on_state(walk.state)
+            on_state(walk.run.state)
     return walk.finish()
 
 
@@ -160,36 +154,30 @@ def run_history(
 class _Walk:
     """A run under way: the one place with a state that changes."""
 
-    problem: TransientProblem
+    run: Run
     settings: TransientSettings
-    state: TransientState
     step: float
     step_share: float
     horizon: float
-    moments: list[HistoryPoint] = field(default_factory=list)
-    instant: Instant | None = None
-    way: Floats | float = 0.0
-    fallen: float = 0.0
-    solves: int = 0
     rejected: int = 0
     failure: SolveError | None = None
-    plateau: Plateau = field(default_factory=lambda: Plateau(reached=False))
 
     @property
     def is_over(self) -> bool:
         """Nothing more to do."""
-        if self.failure is not None or self.state.time >= self.horizon * (1 - 1e-12):
+        is_done = self.run.state.time >= self.horizon * (1 - 1e-12)
+        if self.failure is not None or is_done:
             return True
-        return self.settings.stops_at_plateau and self.plateau.reached
+        return self.settings.stops_at_plateau and self.run.plateau.reached
 
     def take_step(self) -> bool:
         """Try one step; True if it was accepted."""
-        if len(self.moments) >= self.settings.max_steps:
+        if len(self.run.moments) >= self.settings.max_steps:
             self.failure = SolveError(
-                Outcome.MAX_ITERATIONS, f"{len(self.moments)} steps were not enough"
+                Outcome.MAX_ITERATIONS, f"{len(self.run.moments)} steps were not enough"
             )
             return False
-        step = min(self.step, self.horizon - self.state.time)
+        step = min(self.step, self.horizon - self.run.state.time)
         try:
             instant = self._advance(step)
             error = self._estimate_error(instant, step)
@@ -197,11 +185,11 @@ class _Walk:
                 self.rejected += 1
                 self.step = step * _grow(error)
                 return False
-            state, fallen = follow(self.problem, self.state, instant, step)
+            state, fallen = follow(self.run.problem, self.run.state, instant, step)
         except SolveError as failure:
             self.rejected += 1
             self.step = step * _FAILED_CUT
-            shortest = max(_SHORTEST_STEP, _SHORTEST_SHARE * self.state.time)
+            shortest = max(_SHORTEST_STEP, _SHORTEST_SHARE * self.run.state.time)
             if self.step < shortest:
                 self.failure = failure
             return False
@@ -211,29 +199,22 @@ class _Walk:
 
     def finish(self) -> Run:
         """The run; one that failed ends where its last step was in balance."""
-        if self.instant is None:
+        if self.run.instant is None:
             failure = self.failure or SolveError(Outcome.MAX_ITERATIONS)
             raise SolveError(
                 failure.outcome, say("history.first_step", reason=failure.reason)
             )
-        total = float(self.state.body.mass.sum()) + self.fallen
-        return Run(
-            problem=self.problem,
-            moments=tuple(self.moments),
-            plateau=judge_plateau(self.moments, self.plateau),
-            state=self.state,
-            instant=self.instant,
-            fallen=self.fallen / total,
+        return replace(
+            self.run,
+            plateau=judge_plateau(self.run.moments, self.run.plateau),
             ended=None if self.failure is None else self.failure.reason,
-            linear_solves=self.solves,
             rejected=self.rejected,
-            start=self.settings.start,
         )
 
     def _advance(self, step: float) -> Instant:
         return advance(
-            self.problem,
-            self.state,
+            self.run.problem,
+            self.run.state,
             step,
             tolerance=STRESS_TOLERANCE,
             balance_tolerance=self.settings.balance_tolerance,
@@ -242,44 +223,41 @@ class _Walk:
 
     def _estimate_error(self, instant: Instant, step: float) -> float:
         """Error of the step's displacements over what is allowed."""
-        if self.state.step == 0.0:
+        state = self.run.state
+        if state.step == 0.0:
             return 0.0
-        count = self.state.moved.shape[1]
-        last = self.state.velocity[:, :count]
-        trend = (last - self.state.moved / self.state.step) / self.state.step
+        count = state.moved.shape[1]
+        last = state.velocity[:, :count]
+        trend = (last - state.moved / state.step) / state.step
         expected = step * last + step**2 * trend
-        off = instant.displaced - self.state.body.vertices - expected
-        distance = float(np.hypot(*off)[self.state.body.topology.net].max())
+        off = instant.displaced - state.body.vertices - expected
+        distance = float(np.hypot(*off)[state.body.topology.net].max())
         share = _STEP_SHARE * self.step_share
         allowed = share * self.settings.accuracy * self._sensitive_way(instant)
         return _ERROR_SHARE * distance / allowed
 
     def _sensitive_way(self, instant: Instant) -> float:
         """Way of the net's middle that changes its tension by its own size, (K8)."""
-        head = self.problem.head
+        problem = self.run.problem
+        head = problem.head
         chord = float(np.hypot(*head))
         x, y = instant.points
         sag = float((head[1] * x - head[0] * y).max()) / chord
-        strain = float(measure_arcs(instant.points).sum()) / self.problem.length - 1.0
+        strain = float(measure_arcs(instant.points).sum()) / problem.length - 1.0
         least = (8.0 / 3.0) * (sag / chord) ** 2 * 1e-2
         return 3.0 / 16.0 * max(strain, least) * chord**2 / max(sag, 1e-9)
 
     def _record(
         self, instant: Instant, state: TransientState, fallen: float, step: float
     ) -> None:
-        moment, self.way = record_moment(
-            self.problem, state, instant, self.way, self.moments, step
-        )
-        self.moments.append(moment)
-        self.solves += instant.linear_solves
-        self.state, self.instant = state, instant
-        self.fallen += fallen
-        if self.fallen < -_LARGEST_GAIN * float(self.state.body.mass.sum()):
+        run = self.run.follow(instant, state, fallen, step)
+        if run.fallen_mass < -_LARGEST_GAIN * float(state.body.mass.sum()):
             self.failure = SolveError(
                 Outcome.BALANCE_VIOLATED, "the snow's mass is not kept on this mesh"
             )
-        if not self.plateau.reached:
-            self.plateau = find_plateau(self.moments)
+        if not run.plateau.reached:
+            run = replace(run, plateau=find_plateau(run.moments))
+        self.run = run
 
 
 def _grow(error: float) -> float:
