@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from netdesign.addons.terrain.grid import Grid
     from netdesign.addons.terrain.measure import MeasuredRow
     from netdesign.addons.terrain.plan import Plan
-    from netdesign.addons.terrain.site_lines import TypedSheets
     from netdesign.addons.terrain.surface import Surface
 
 _SITE, _ROWS_FILE, _PAGE_FILE = "site.xlsx", "rows.geojson", "terrain.html"
@@ -129,11 +128,15 @@ def _measure(
     from netdesign.addons.terrain.measure import measure_plan
     from netdesign.addons.terrain.page import render_terrain
     from netdesign.addons.terrain.plan import read_plan
-    from netdesign.addons.terrain.site_lines import write_workbook
+    from netdesign.addons.terrain.site_lines import (
+        TypedSheets,
+        read_typed_sheets,
+        write_workbook,
+    )
 
     plan = read_plan(rows)
     ground = _read_ground(grid, plan)
-    others = _read_types(asked["types"])
+    others = read_typed_sheets(asked["types"]) if asked["types"] else TypedSheets()
     with follow(len(plan.lines), "rows", asked) as on_row:
         surface, measured = measure_plan(
             ground, plan, most=asked["most"], on_row=on_row
@@ -167,13 +170,6 @@ def _read_ground(grid: Path, plan: Plan) -> Grid:
         names = ", ".join(plan.unread)
         tell(f"No columns of Rows or Net types, left out: {names}", err=True)
     return ground
-
-
-def _read_types(path: Path | None) -> TypedSheets | None:
-    """Project, net types and parts of another workbook."""
-    from netdesign.addons.terrain.site_lines import read_typed_sheets
-
-    return None if path is None else read_typed_sheets(path)
 
 
 def _cover(

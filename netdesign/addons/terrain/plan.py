@@ -30,26 +30,6 @@ from netdesign.site.columns.fields import (
 from netdesign.site.columns.office import list_choices
 from netdesign.site.lists.targets import Target, list_targets
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TypedCells:
-    """Cells of a line of sheet Rows, and of its net type.
-
-    Attributes
-    ----------
-    cells : mapping of str to float or str
-        By column, in its first unit.
-    faults : tuple of str
-        What is given twice, or not understood.
-    unread : tuple of str
-        Names that are no columns.
-    """
-
-    cells: Mapping[str, float | str]
-    faults: tuple[str, ...] = ()
-    unread: tuple[str, ...] = ()
-
-
 # Of a column with several measures a key for each.
 _MEASURED = {
     "snow.vertical": "snow_height",
@@ -59,16 +39,24 @@ _MEASURED = {
 }
 
 
-def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
+Cells = dict[str, float | str]  # by column, in its first unit
+
+
+def read_typed_cells(
+    properties: Mapping[str, object], faults: list[str], unread: dict[str, None]
+) -> Cells:
     """Cells of a line of sheet Rows, and of its net type, from values by headings.
 
     Parameters
     ----------
     properties : mapping of str to object
         Headings in any language, perhaps with a unit; None of an empty cell.
+    faults : list of str
+        Gets what is given twice, or not understood.
+    unread : dict
+        Gets the names that are no columns.
     """
-    cells: dict[str, float | str] = {}
-    faults, unread = [], []
+    cells: Cells = {}
     for heading, value in properties.items():
         if value is None or value == "":
             continue
@@ -80,7 +68,7 @@ def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
             fault = f"property {heading!r:.60} may mean: {readings}"
             faults.append(f"{fault}; name it as the workbook does")
         elif not targets:
-            unread.append(f"{heading!r:.60}")
+            unread[f"{heading!r:.60}"] = None
         else:
             (field,) = (target.field for target in targets)
             key = _MEASURED.get(field.key, field.key)
@@ -90,7 +78,7 @@ def read_typed_cells(properties: Mapping[str, object]) -> TypedCells:
                 faults.append(f"{fault} is not understood")
             else:
                 cells[key] = converted
-    return TypedCells(cells=cells, faults=tuple(faults), unread=tuple(unread))
+    return cells
 
 
 def _find_targets(heading: str, measure: str) -> list[Target]:
@@ -342,29 +330,29 @@ def _require_finite(shape: Any) -> None:
 
 def _read_line(feature: _Feature, unread: dict[str, None]) -> NetLine | None:
     """Net row of a feature; None of a point or an area that is none."""
-    typed = read_typed_cells(feature.properties)
+    faults, names = list[str](), dict[str, None]()
+    cells = read_typed_cells(feature.properties, faults, names)
     parts = shapely.get_parts(feature.shape).tolist() if feature.shape else []
     is_line = bool(parts) and all(
         isinstance(part, shapely.LineString) for part in parts
     )
     if not is_line:
-        if feature.shape is not None and len(_OPEN.keys() & typed.cells) < len(_OPEN):
+        if feature.shape is not None and len(_OPEN.keys() & cells) < len(_OPEN):
             return None
         raise TerrainError("a net row without a line that can be read: draw it")
     if len(parts) > 1:
         fault = "lines in one feature: draw a feature for each row"
         raise TerrainError(f"{len(parts)} {fault}")
     _require_finite(feature.shape)
-    faults = list(typed.faults)
     for key, name in _OPEN.items():
-        value = typed.cells.get(key)
+        value = cells.get(key)
         if not value or (key != "id" and not (isinstance(value, float) and value > 0)):
             fault = f"the property {name!r} is missing, or is no number above 0"
             faults.append(f"{fault}; names in a shapefile end after ten letters")
     if faults:
         raise TerrainError("\n".join(faults))
-    unread |= dict.fromkeys(typed.unread)
+    unread |= names
     points = shapely.get_coordinates(shapely.remove_repeated_points(feature.shape))
-    id_cell = typed.cells["id"]
+    id_cell = cells["id"]
     name = f"{id_cell:.15g}" if isinstance(id_cell, float) else id_cell
-    return NetLine(id=name, points=points, cells=typed.cells)
+    return NetLine(id=name, points=points, cells=cells)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -42,16 +42,13 @@ class TypedSheets:
 
     Attributes
     ----------
-    file : str
-        Its name.
     tables : mapping of str to sequence of mapping
         Lines by table and column, as the workbook shows them.
     measure : str
         Of the net types: ``sag`` or ``slack``.
     """
 
-    file: str
-    tables: Mapping[str, Sequence[Line]]
+    tables: Mapping[str, Sequence[Line]] = field(default_factory=dict)
     measure: str = "slack"
 
 
@@ -83,7 +80,7 @@ def read_typed_sheets(path: Path) -> TypedSheets:
         table: [_show_line(table, line) for line in lines[table]] for table in _TAKEN
     }
     measure = office.measures.get(("net_types", "slack")) or "slack"
-    return TypedSheets(file=workbook.file, tables=tables, measure=measure)
+    return TypedSheets(tables=tables, measure=measure)
 
 
 def _show_line(table: str, line: Row) -> dict[str, object]:
@@ -264,7 +261,7 @@ _NETS = {x.field.key: x for x in load_columns("net_types") if x.field.key != "id
 def write_workbook(
     rows: Sequence[MeasuredRow],
     grid: str,
-    others: TypedSheets | None,
+    others: TypedSheets,
     language: Language,
 ) -> bytes:
     """Input workbook of rows on terrain, its derived cells with their notes.
@@ -275,8 +272,8 @@ def write_workbook(
         In their order.
     grid : str
         Name of the grid's file.
-    others : TypedSheets or None
-        Of another workbook.
+    others : TypedSheets
+        Of another workbook; empty without one.
     language : str
         Of sheets and headings.
 
@@ -285,8 +282,7 @@ def write_workbook(
     TerrainError
         Of rows that say of their net type something else than that workbook.
     """
-    tables = dict(others.tables) if others else {}
-    measure = others.measure if others else "slack"
+    tables = dict(others.tables)
     nets = {str(net.get("id")): net for net in tables.get("net_types", ())}
     lines, notes, faults = [], [], list[str]()
     for row in rows:
@@ -294,7 +290,7 @@ def write_workbook(
         typed = dict(row.line.cells)
         values = {key: cell.value for key, cell in derived.items() if _is_told(cell)}
         named = str(typed.get("net_type", ""))
-        net = _name_net(_take_net(typed, measure), named, nets)
+        net = _name_net(_take_net(typed, others.measure), named, nets)
         if isinstance(net, str):
             lines.append(_take_row({**values, **typed, "net_type": net}, row.line.id))
         else:
@@ -305,7 +301,7 @@ def write_workbook(
     if faults:
         raise TerrainError("\n".join(faults))
     tables |= {"rows": lines, "net_types": list(nets.values())}
-    measures = {("rows", "snow"): "normal", ("net_types", "slack"): measure}
+    measures = {("rows", "snow"): "normal", ("net_types", "slack"): others.measure}
     return render_input(tables, language, (), measures, notes)
 
 

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
+from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
 
@@ -359,26 +360,19 @@ def _write_setting_out(features: Sequence[Feature]) -> str:
 
 def _write_style() -> str:
     """Rules of QGIS that colour lines and points by their verdict."""
-    rules, symbols = [], []
+    style = Element("qgis", version="3.0", styleCategories="Symbology")
+    renderer = SubElement(style, "renderer-v2", type="RuleRenderer")
+    rules = SubElement(renderer, "rules", key="verdicts")
+    symbols = SubElement(renderer, "symbols")
     for place, (verdict, colour) in enumerate(_SHADES.items()):
-        rules.append(
-            f'<rule key="{verdict}" symbol="{place}" label="{verdict}" '
-            f"filter=\"&quot;verdict&quot; = '{verdict}'\"/>"
-        )
-        layer = (
-            f'<layer class="SimpleLine"><prop k="line_color" v="{colour}"/>'
-            '<prop k="line_width" v="1"/></layer>'
-        )
-        symbols.append(f'<symbol type="line" name="{place}">{layer}</symbol>')
-    return (
-        "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
-        '<qgis version="3.0" styleCategories="Symbology">'
-        '<renderer-v2 type="RuleRenderer"><rules key="verdicts">'
-        + "".join(rules)
-        + "</rules><symbols>"
-        + "".join(symbols)
-        + "</symbols></renderer-v2></qgis>\n"
-    )
+        names = {"key": verdict, "symbol": str(place), "label": verdict}
+        SubElement(rules, "rule", names, filter=f"\"verdict\" = '{verdict}'")
+        symbol = SubElement(symbols, "symbol", type="line", name=str(place))
+        layer = SubElement(symbol, "layer", {"class": "SimpleLine"})
+        SubElement(layer, "prop", k="line_color", v=colour)
+        SubElement(layer, "prop", k="line_width", v="1")
+    kind = "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>"
+    return f"{kind}\n{tostring(style, encoding='unicode')}\n"
 
 
 _METRES = 6  # of $INSUNITS

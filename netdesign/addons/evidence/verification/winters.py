@@ -128,13 +128,13 @@ class StationSeries:
 
 def read_weissfluhjoch() -> StationSeries:
     """Series of the Weissfluhjoch, 2540 m."""
-    folder = files(__package__).joinpath("weissfluhjoch")
-    text = folder.joinpath("series.csv").read_text(encoding="utf-8")
-    lines = list(csv.DictReader(text.splitlines()))
+    path = files(__package__).joinpath("weissfluhjoch", "series.csv")
+    lines = path.read_text(encoding="utf-8").splitlines()
+    days = np.genfromtxt(lines, delimiter=",", names=True)
     return StationSeries(
-        heights=np.array([float(line["hs_cm"]) / 100.0 for line in lines]),
-        measured=np.array([float(line["swe_observed_mm"] or "nan") for line in lines]),
-        reference=np.array([float(line["swe_hs2swe_mm"]) for line in lines]),
+        heights=days["hs_cm"] / 100.0,
+        measured=days["swe_observed_mm"],
+        reference=days["swe_hs2swe_mm"],
     )
 
 
