@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -111,22 +111,14 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     """Heights of the file, else those of the site, else those of the example."""
     from importlib.resources import as_file, files
 
-    from netdesign.addons.winter.height_file import (
-        build_columns,
-        complete_by_sheet,
-        read_height_file,
-    )
+    from netdesign.addons.winter.height_file import complete_by_sheet, read_height_file
     from netdesign.addons.winter.heights import smooth
 
     of_site: StationWinter | None = site.of_addons.get("Winter")
     station = of_site
     if asked["heights"] is not None:
-        ids, form = [row.id for row in site.rows], build_text_format(asked)
-        columns = build_columns(asked)
-        station, remarks = read_height_file(asked["heights"], form, ids, columns)
-        for remark in remarks:
-            tell(remark.message, err=True)
-        station, note = complete_by_sheet(station, of_site)
+        read = _read_heights(asked["heights"], asked, [row.id for row in site.rows])
+        station, note = complete_by_sheet(read, of_site)
         if note:
             tell(note, err=True)
     elif station is None and asked["example"]:
@@ -139,6 +131,19 @@ def _find_heights(site: Site, asked: Mapping[str, Any]) -> StationWinter:
     )
 
 
+def _read_heights(
+    path: Path, asked: Mapping[str, Any], row_ids: Sequence[str] = ()
+) -> StationWinter:
+    """Heights of a station's file, as the options say; remarks on it are told."""
+    from netdesign.addons.winter.height_file import build_columns, read_height_file
+
+    form, columns = build_text_format(asked), build_columns(asked)
+    station, remarks = read_height_file(path, form, row_ids, columns)
+    for remark in remarks:
+        tell(remark.message, err=True)
+    return station
+
+
 def _solve(
     site: Site, station: StationWinter, runner: Runner, asked: Mapping[str, Any]
 ) -> WinterRun:
@@ -149,7 +154,6 @@ def _solve(
     )
     from netdesign.addons.winter.document import WinterRun
     from netdesign.addons.winter.measured import (
-        compare_row,
         list_measured_pulls,
         name_measured_winters,
     )
@@ -158,7 +162,6 @@ def _solve(
     from netdesign.coupling.scene import SolverSettings
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
-    pulls = [list_measured_pulls(site, row.id) for row in rows]
     if not asked["accept_heights"]:
         require_plausible_heights(rows, site.rows, station)
     first = asked["model"]
@@ -166,20 +169,15 @@ def _solve(
     packs = StationPacks(series=station.series, models=[KNOWN[first], *others])
     settings = SolverSettings(accuracy=asked["accuracy"])
     results = []
-    for row, measured in zip(rows, pulls, strict=True):
+    for row in rows:
         solver = DaySolver(row=row, settings=settings, runner=runner)
-        named = name_measured_winters(measured)
+        named = name_measured_winters(list_measured_pulls(site, row.id))
         results.append(follow_winters(packs, solver, asked["every"], named))
     return WinterRun(
         site=site,
         winter=station,
-        rows=rows,
-        results=results,
+        rows=results,
         packs=packs,
-        compared=[
-            compare_row(measured, result, row, station.series)
-            for measured, result, row in zip(pulls, results, rows, strict=True)
-        ],
         is_smoothed=asked["median"],
         accuracy=asked["accuracy"],
     )
@@ -190,7 +188,15 @@ def _show(document: dict[str, Any]) -> None:
         for winter in row["winters"]:
             tell(_tell_winter(row["id"], winter))
             if winter["days_without_force"]:
-                tell(_count_failed(row["id"], winter))
+                tell(
+                    say(
+                        "winter.without_force",
+                        row=row["id"],
+                        winter=winter["name"],
+                        count=winter["days_without_force"],
+                        days=len(winter["curve"]),
+                    )
+                )
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"])
         if row["snow_heights"]:
@@ -232,17 +238,6 @@ def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
         yield say("show.label", label=row["id"], text=text)
 
 
-def _count_failed(row: str, winter: Mapping[str, Any]) -> Message:
-    """Line on the days of a curve that have no force."""
-    return say(
-        "winter.without_force",
-        row=row,
-        winter=winter["name"],
-        count=winter["days_without_force"],
-        days=len(winter["curve"]),
-    )
-
-
 SCHEMA = "netdesign.snowpack/1"
 
 
@@ -258,7 +253,6 @@ def snowpack(height_file: Path, **asked: Any) -> None:
 
     The file has the columns of sheet Winter: date, snow height with its unit.
     """
-    from netdesign.addons.winter.height_file import build_columns, read_height_file
     from netdesign.addons.winter.heights import smooth
     from netdesign.addons.winter.season import FIRST_DENSITY
     from netdesign.addons.winter.settling import MODELS as KNOWN
@@ -267,11 +261,8 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     refuse_delimiter(height_file)
     if not asked["as_json"]:
         refuse_without(["layers"], "--json")
-    form, columns = build_text_format(asked), build_columns(asked)
-    station, remarks = read_height_file(height_file, form, columns=columns)
-    for remark in remarks:
-        tell(remark.message, err=True)
-    series = smooth(station.series) if asked["median"] else station.series
+    series = _read_heights(height_file, asked).series
+    series = smooth(series) if asked["median"] else series
     packs = follow_heights(series.heights, KNOWN[asked["model"]], FIRST_DENSITY)
     days = [
         _write_day(day.isoformat(), pack, with_layers=asked["layers"])

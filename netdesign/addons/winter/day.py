@@ -239,9 +239,14 @@ class RowDay:
             return {}
         return {"net foot": self.foot, "net head": self.head, **self.member_forces}
 
-    def reopen(self) -> RowDay:
+    @property
+    def unsolved(self) -> RowDay:
         """The day before it was solved, with the layers that its solve had."""
         return replace(self, ending="open", foot=None, head=None, member_forces={})
+
+    def reopen(self, thickness: float, density: float) -> RowDay:
+        """Uniform snow of another thickness [m] and density [kg/m3], to be solved."""
+        return replace(self.unsolved, thickness=thickness, density=density, layers=())
 
 
 # Days of a curve have so many times the error of its largest forces, up to a limit

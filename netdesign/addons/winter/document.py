@@ -13,6 +13,7 @@ from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
     Comparison,
     ComputedForce,
+    compare_row,
     explain_unused,
 )
 from netdesign.addons.winter.season import (
@@ -41,12 +42,11 @@ from netdesign.units import (
 from netdesign.words.message import Message, say
 
 
-def _write_measured(
-    run: WinterRun, row_id: str, compared: Sequence[Comparison]
-) -> dict[str, Any]:
-    """Parts ``measured`` and ``not_compared`` of a row, by its comparisons."""
+def _write_measured(row: RowWinters, run: WinterRun) -> dict[str, Any]:
+    """Parts ``measured`` and ``not_compared`` of a row."""
     series = run.winter.series
-    unused = explain_unused(run.site, row_id, compared)
+    compared = compare_row(run.site, row, series)
+    unused = explain_unused(run.site, row.row.id, compared)
     return {
         "measured": [
             _write_compared(comparison, series)
@@ -100,14 +100,10 @@ class WinterRun:
         Where the rows stand.
     winter : StationWinter
         What was measured.
-    rows : sequence of WinterRow
-        As loaded.
-    results : sequence of RowWinters
+    rows : sequence of RowWinters
         Of each row.
     packs : StationPacks
         Snow of the station, from which they come.
-    compared : sequence of sequence of Comparison
-        Measured forces of each row beside its curves.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -116,10 +112,8 @@ class WinterRun:
 
     site: Site
     winter: StationWinter
-    rows: Sequence[WinterRow]
-    results: Sequence[RowWinters]
+    rows: Sequence[RowWinters]
     packs: StationPacks
-    compared: Sequence[Sequence[Comparison]]
     is_smoothed: bool
     accuracy: float
 
@@ -147,18 +141,13 @@ def write_winter_document(run: WinterRun) -> dict[str, Any]:
             "last_day": series.days[-1].isoformat(),
             "is_smoothed": run.is_smoothed,
         },
-        "model": run.results[0].model if run.results else "",
+        "model": run.rows[0].model if run.rows else "",
         "accuracy": run.accuracy,
         "check_density_kg_m3": [density.low, density.high],
         "ranges_sheet": run.site.ranges_sheet,
         "notes": [str(note) for note in station.notes],
         "air_temperatures_C": _write_temperatures(station),
-        "rows": [
-            _write_row(row, result, run) | _write_measured(run, row.id, compared)
-            for row, result, compared in zip(
-                run.rows, run.results, run.compared, strict=True
-            )
-        ],
+        "rows": [_write_row(row, run) | _write_measured(row, run) for row in run.rows],
     }
 
 
@@ -172,7 +161,8 @@ def _write_temperatures(station: StationWinter) -> dict[str, float]:
     }
 
 
-def _write_row(row: WinterRow, result: RowWinters, run: WinterRun) -> dict[str, Any]:
+def _write_row(result: RowWinters, run: WinterRun) -> dict[str, Any]:
+    row = result.row
     scene, net = row.scene, row.scene.net
     packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
@@ -221,16 +211,14 @@ def _write_winter(
 ) -> dict[str, Any]:
     series = run.winter.series
     highest = max(packs, key=lambda k: packs[k].height)
-    governing = season.governing if season else None
-    index = governing.index if governing else maximum.index
-    uniform = maximum.foot if maximum.has_pull else None
-    foot = governing.pull if governing else uniform
-    at_highest = season.highest.pull if season else None
+    foot, head = (maximum.foot, maximum.head) if maximum.has_pull else (None, None)
     curve: Sequence[RowDay] = season.curve if season else ()
-    heads = [day.head.value for day in curve if day.head]
-    head = maximum.head if maximum.has_pull else None
     if season:
-        head = max(heads, default=None)
+        head = max((day.head.value for day in curve if day.head), default=None)
+    governing, index = season.governing if season else None, maximum.index
+    if governing:
+        foot, index = governing.pull, governing.index
+    pack = None if index is None else packs[index]
     return {
         "name": maximum.winter,
         "outcome": maximum.ending.replace(" ", "_"),
@@ -241,12 +229,14 @@ def _write_winter(
         "height_max_density_kg_m3": packs[highest].density,
         "swe_max_kg_m2": max(pack.mass for pack in packs.values()),
         "governing_date": series.day(index).isoformat() if index is not None else None,
-        "governing_height_m": packs[index].height if index is not None else None,
-        "governing_density_kg_m3": packs[index].density if index is not None else None,
+        "governing_height_m": pack.height if pack else None,
+        "governing_density_kg_m3": pack.density if pack else None,
         "foot_peak_kN_per_m": kilonewton_if_known(foot),
         "head_peak_kN_per_m": kilonewton_if_known(head),
         "members_peak_kN": _largest_members(curve),
-        "foot_at_height_max_kN_per_m": kilonewton_if_known(at_highest),
+        "foot_at_height_max_kN_per_m": kilonewton_if_known(
+            season.highest.pull if season else None
+        ),
         "equivalent_density_kg_m3": (season or maximum).equivalent_density,
         "days_above_90_percent": season.high_days if season else None,
         "days_without_force": len(season.failed) if season else None,
@@ -338,17 +328,19 @@ def _write_value(period: float, fit: Gumbel | LimitedGumbel) -> dict[str, Any]:
     """Return value with the ends of 5 and 95 %, and what heavier tails would make."""
     value, error = fit.find_return_value(period)
     low, high = fit.find_interval(period)
-    values = {"foot": value, "standard_error": error, "low": low, "high": high}
     tails: list[dict[str, float]] = []
     if isinstance(fit, Gumbel):
         for shape in TAILS:
             foot, end = map(kilonewton_from_newton, fit.find_tail(period, shape))
             tails.append({"shape": shape, "foot_kN_per_m": foot, "high_kN_per_m": end})
-    shown = {
-        f"{name}_kN_per_m": kilonewton_from_newton(pull)
-        for name, pull in values.items()
+    return {
+        "period_a": period,
+        "foot_kN_per_m": kilonewton_from_newton(value),
+        "standard_error_kN_per_m": kilonewton_from_newton(error),
+        "low_kN_per_m": kilonewton_from_newton(low),
+        "high_kN_per_m": kilonewton_from_newton(high),
+        "tails": tails,
     }
-    return {"period_a": period, **shown, "tails": tails}
 
 
 def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
@@ -365,7 +357,7 @@ def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
         first=run.winter.series.first_day.isoformat(),
         last=run.winter.series.days[-1].isoformat(),
         models=(result.model, *result.others),
-        row=result.row_id,
+        row=result.row.id,
     )
     return {
         "low_kg_m3": ends[0],
@@ -422,21 +414,17 @@ def _explain(winter: Mapping[str, Any], maximum: AnnualMaximum) -> Message:
     if winter["governing_date"] is None:
         return say("winter.why_no_snow")
     share = winter["governing_height_m"] / winter["height_max_m"]
+    key = "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high"
+    if winter["basis"] == "uniform":  # it pulls more, whether ripe or not
+        key = "winter.why_uniform"
     return say(
-        _choose_reason(winter["basis"], share),
+        key,
         share=share,
         density=winter["governing_density_kg_m3"],
         before=winter["height_max_density_kg_m3"],
         day=winter["governing_date"],
         highest=winter["height_max_date"],
     )
-
-
-def _choose_reason(basis: str, share: float) -> str:
-    """Word of why a day governs; uniform snow pulls more, whether ripe or not."""
-    if basis == "uniform":
-        return "winter.why_uniform"
-    return "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high"
 
 
 _NEARLY_HIGHEST = 0.98

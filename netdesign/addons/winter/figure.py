@@ -56,15 +56,10 @@ def draw_winter(
     panels = _list_forces(days, words, marks)
     description = _describe(winter["name"], panels, words)
     panels.append(_show_snow(days, count, words))
-    warmth = [(place(day), degrees) for day, degrees in sorted(air.items())]
-    if warm := [point for point in warmth if 0 <= point[0] <= count]:
-        line = Line(
-            label="", x=[x for x, _ in warm], y=[y for _, y in warm], is_thin=True
-        )
-        title = words("winter_page.air_title")
-        panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
-    ends = (datetime.combine(first, time()), datetime.combine(last, time()))
-    return draw_panels(panels, description, span=ends, language=words.language)
+    span = (datetime.combine(first, time()), datetime.combine(last, time()))
+    warmth = [(datetime.fromisoformat(day), y) for day, y in sorted(air.items())]
+    panels += _show_air(_cut(warmth, span), words("winter_page.air_title"))
+    return draw_panels(panels, description, span=span, language=words.language)
 
 
 def _list_forces(days: Days, words: Words, marks: Sequence[Mark]) -> list[Panel]:
@@ -148,9 +143,6 @@ def _find_span(days: Sequence[Mapping[str, Any]]) -> tuple[date, date]:
 
 _DAY, _NOON = timedelta(days=1), timedelta(hours=12)
 
-Points = list[tuple[datetime, float]]
-Span = tuple[datetime, datetime]
-
 
 def draw_measured(
     entry: Mapping[str, Any], air: Mapping[str, float], words: Words
@@ -166,69 +158,61 @@ def draw_measured(
     words : Words
         Language.
     """
-    moments = [moment for moment, _ in _list_readings(entry)]
+    measured = _list_readings(entry["readings"], "force_kN")
+    moments = [moment for moment, _ in measured]
     span = min(moments) - _DAY, max(moments) + _DAY
+    chain = _cut([(_noon(day["date"]), day) for day in entry["computed"]], span)
+    x = [at for at, _ in chain]
     value, low, high = (
-        _cut([(_noon(day["date"]), float(day[key])) for day in entry["computed"]], span)
+        [float(day[key]) for _, day in chain]
         for key in ("force_kN", "low_kN", "high_kN")
     )
-    x, band = (
-        [at for at, _ in value],
-        [[y for _, y in points] for points in (low, high)],
-    )
     member = show_member(words, entry["member"])
-    swing = words("winter_measured.band")
-    computed = words("winter_measured.computed")
-    measured = words("winter_measured.measured")
-    readings = _cut(_list_readings(entry), span)
+    points = _cut(measured, span)
     lines = [
-        Line(label=swing, x=x, y=(), low=band[0], high=band[1]),
-        Line(label=computed, x=x, y=[y for _, y in value], is_accent=True),
-        _trace(readings, measured, has_dots=True),
+        Line(label=words("winter_measured.band"), x=x, y=(), low=low, high=high),
+        Line(label=words("winter_measured.computed"), x=x, y=value, is_accent=True),
+        Line(
+            label=words("winter_measured.measured"),
+            x=[at for at, _ in points],
+            y=[force for _, force in points],
+            has_dots=True,
+        ),
     ]
     title = words("winter_measured.force", member=member)
     panels = [Panel(title=title, lines=lines, from_zero=True, height_pt=_FORCES)]
-    if warmth := _cut(_list_air(entry, air), span):
-        line, title = _trace(warmth, "", is_thin=True), words("winter_measured.air")
-        panels.append(Panel(title=title, lines=[line], height_pt=_AIR))
+    warmth = _list_readings(entry["air_temperatures"], "air_C") or [
+        (_noon(day), degrees) for day, degrees in sorted(air.items())
+    ]
+    panels += _show_air(_cut(warmth, span), words("winter_measured.air"))
     figure = words("winter_measured.figure", member=member, winter=entry["winter"])
     return draw_panels(panels, figure, span=span, language=words.language)
 
 
-def _trace(
-    points: list[tuple[float, float]],
-    label: str,
-    *,
-    has_dots: bool = False,
-    is_thin: bool = False,
-) -> Line:
-    x, y = [x for x, _ in points], [y for _, y in points]
-    return Line(label=label, x=x, y=y, has_dots=has_dots, is_thin=is_thin)
+def _show_air(points: Sequence[tuple[float, float]], title: str) -> list[Panel]:
+    """Panel of air temperatures by the days since the span began; none of none."""
+    if not points:
+        return []
+    x, y = [at for at, _ in points], [degrees for _, degrees in points]
+    line = Line(label="", x=x, y=y, is_thin=True)
+    return [Panel(title=title, lines=[line], height_pt=_AIR)]
 
 
-def _cut(points: Points, span: Span) -> list[tuple[float, float]]:
+def _cut(
+    points: Sequence[tuple[datetime, Any]], span: tuple[datetime, datetime]
+) -> list[tuple[float, Any]]:
     """Points within the span, by the days since it began."""
     first, last = span
     return [((at - first) / _DAY, y) for at, y in points if first <= at <= last]
 
 
-def _list_readings(entry: Mapping[str, Any]) -> Points:
+def _list_readings(
+    entries: Sequence[Mapping[str, Any]], key: str
+) -> list[tuple[datetime, float]]:
     return [
-        (datetime.fromisoformat(reading["time"]), float(reading["force_kN"]))
-        for reading in entry["readings"]
+        (datetime.fromisoformat(read["time"]), float(read[key])) for read in entries
     ]
 
 
-def _list_air(entry: Mapping[str, Any], air: Mapping[str, float]) -> Points:
-    """Air temperature as read beside the forces, else that of the station."""
-    own: Sequence[Mapping[str, Any]] = entry["air_temperatures"]
-    if own:
-        return [
-            (datetime.fromisoformat(reading["time"]), reading["air_C"])
-            for reading in own
-        ]
-    return [(_noon(day), degrees) for day, degrees in sorted(air.items())]
-
-
 def _noon(day: str) -> datetime:
-    return datetime.combine(date.fromisoformat(day), time()) + _NOON
+    return datetime.fromisoformat(day) + _NOON

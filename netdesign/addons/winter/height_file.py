@@ -7,7 +7,7 @@ no reading; days may be written in any order of which one alone can be meant.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from itertools import pairwise
@@ -129,39 +129,40 @@ def _offer_columns(findings: Sequence[Finding]) -> SiteDataError:
 
 def _arrange(sheet: Sheet, columns: HeightColumns) -> Sheet:
     """Sheet with the named columns under our headings, days as ISO 8601 has them."""
-    names = columns.date, columns.height
-    if any(names) and not all(names):
+    is_named = bool(columns.date and columns.height)
+    if not is_named and (columns.date or columns.height):
         raise refuse_file(
             sheet.file, say("winter_sheet.one_column"), say("winter_sheet.columns")
         )
-    places = _find_columns(sheet, names) if all(names) else _find_known(sheet)
-    if places is None and all(names):
-        rule = say("winter_sheet.no_column", date=names[0], height=names[1])
+    places = _find_columns(sheet, columns if is_named else None)
+    if places is None and is_named:
+        rule = say("winter_sheet.no_column", date=columns.date, height=columns.height)
         raise refuse_file(sheet.file, rule, say("winter_sheet.columns"))
     if places is None:
         return sheet
     heading, day, height = places
+    cells = [cell for line in sheet.rows.values() for cell in line.values()]
+    if is_named:
+        cells = _rename(sheet, cells, places, columns.unit)
     missing = {word.casefold() for word in columns.missing}
-
-    def is_missing(cell: Cell) -> bool:
-        is_height = cell.column == height and cell.row > heading
-        return is_height and cell.text.strip().casefold() in missing
-
     cells = [
         cell
-        for line in sheet.rows.values()
-        for cell in line.values()
-        if not is_missing(cell)
+        for cell in cells
+        if cell.row <= heading
+        or cell.column != height
+        or cell.text.strip().casefold() not in missing
     ]
-    if all(names):
-        cells = _rename(sheet, cells, places, columns.unit)
-    dates = {
-        cell.row: cell for cell in cells if cell.column == day and cell.row > heading
-    }
-    cells = [cell for cell in cells if dates.get(cell.row) is not cell]
-    return replace(
-        sheet, rows=group_by_row([*cells, *_write_days(sheet.file, dates.values())])
+    days = _read_days(
+        sheet.file,
+        [cell for cell in cells if cell.column == day and cell.row > heading],
     )
+    read = [
+        replace(cell, value=days[cell.row].isoformat())
+        if cell.column == day and cell.row in days
+        else cell
+        for cell in cells
+    ]
+    return replace(sheet, rows=group_by_row(read))
 
 
 def _rename(
@@ -173,38 +174,29 @@ def _rename(
     unit = unit or split_heading(text)[1]
     titles = {day: "date", height: f"snow height [{unit}]" if unit else text}
     return [
-        *(
-            replace(sheet.cell(heading, column), value=value)
-            for column, value in titles.items()
-        ),
-        *(cell for cell in cells if cell.row > heading and cell.column in titles),
+        replace(cell, value=titles[cell.column]) if cell.row == heading else cell
+        for cell in cells
+        if cell.row >= heading and cell.column in titles
     ]
 
 
 _Columns = tuple[int, int, int]  # row of the headings, columns of days and heights
 
 
-def _find_columns(sheet: Sheet, names: tuple[str, str]) -> _Columns | None:
-    """Columns by their headings, in one line."""
-    wanted = [name.casefold() for name in names]
+def _find_columns(sheet: Sheet, named: HeightColumns | None) -> _Columns | None:
+    """Columns by their names in the file, else by headings of sheet Winter."""
+    known = {field.key: field.names for field in WINTER.fields}
+    wanted = [known["date"], known["snow_height"]]
+    if named:
+        wanted = [frozenset([name.casefold()]) for name in (named.date, named.height)]
     for row, cells in sheet.rows.items():
-        texts = {cell.text.strip().casefold(): k for k, cell in cells.items()}
-        if wanted[0] in texts and wanted[1] in texts:
-            return row, texts[wanted[0]], texts[wanted[1]]
-    return None
-
-
-def _find_known(sheet: Sheet) -> _Columns | None:
-    """Columns under headings of sheet Winter."""
-    fields = {field.key: field.names for field in WINTER.fields}
-    for row, cells in sheet.rows.items():
-        texts = {split_heading(cell.text)[0]: k for k, cell in cells.items()}
-        days, heights = (
-            [texts[name] for name in texts if name in fields[key]]
-            for key in ("date", "snow_height")
-        )
-        if days and heights:
-            return row, days[0], heights[0]
+        texts = {
+            cell.text.strip().casefold() if named else split_heading(cell.text)[0]: k
+            for k, cell in cells.items()
+        }
+        days, tops = ([texts[x] for x in texts if x in names] for names in wanted)
+        if days and tops:
+            return row, days[0], tops[0]
     return None
 
 
@@ -213,8 +205,10 @@ _ORDERS = ((2, 1, 0), (2, 0, 1), (0, 1, 2))  # places of year, month, day
 _CENTURY = 70  # years of two digits from here on are 1970 to 1999
 
 
-def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
-    """Cells of days as ISO 8601, if one order of day, month and year can be meant.
+def _read_days(file: str, cells: Sequence[Cell]) -> dict[int, date]:
+    """Days by their rows, if one order of day, month and year can be meant.
+
+    None where all are moments that any sheet may have.
 
     Raises
     ------
@@ -224,18 +218,14 @@ def _write_days(file: str, cells: Collection[Cell]) -> Iterator[Cell]:
     texts = [
         cell for cell in cells if isinstance(cell.value, str) and not cell.is_blank
     ]
-    readable = all(is_moment(cell.text) for cell in texts)
-    orders = [] if readable else _list_orders(texts)
+    if all(is_moment(cell.text) for cell in texts):
+        return {}
+    orders = _list_orders(texts)
     if len(orders) > 1:
-        example = texts[0].text.strip()
-        rule = say("winter_sheet.which_day", text=example)
+        rule = say("winter_sheet.which_day", text=texts[0].text.strip())
         raise refuse_file(file, rule, say("winter_sheet.iso_days"))
-    days = dict(
-        zip([cell.row for cell in texts], orders[0] if orders else (), strict=False)
-    )
-    for cell in cells:
-        day = days.get(cell.row)
-        yield cell if day is None else replace(cell, value=day.isoformat())
+    rows = [cell.row for cell in texts]
+    return dict(zip(rows, orders[0], strict=True)) if orders else {}
 
 
 def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
@@ -244,8 +234,8 @@ def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
     for order in _ORDERS:
         days = [_read_day(cell.text.strip(), order) for cell in cells]
         read = [day for day in days if day is not None]
-        is_whole = len(read) == len(days) and bool(days)
-        if is_whole and read not in orders and all(a < b for a, b in pairwise(read)):
+        ascends = len(read) == len(days) and all(a < b for a, b in pairwise(read))
+        if ascends and read not in orders:
             orders.append(read)
     return orders
 

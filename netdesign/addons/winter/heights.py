@@ -103,24 +103,26 @@ def find_gaps(readings: Mapping[date, float]) -> tuple[Gap, ...]:
     """
     gaps = []
     for (before, low), (after, high) in pairwise(readings.items()):
-        gap = Gap(before=before, after=after, is_closable=True)
-        if not gap.days:
+        count = (after - before).days - 1
+        if not count:
             continue
-        is_bare, winter = low == high == 0.0, name_winter(after)
-        hides = any(day.month in _SNOW_MONTHS for day in gap.days)
-        is_long = len(gap.days) > LONGEST_GAP
-        between = low > high == 0.0 and is_long and name_winter(before) != winter
-        between = between and not any(
-            day.month in _SNOW_MONTHS and name_winter(day) == winter for day in gap.days
+        snowy = [
+            name_winter(day)
+            for day in (before + timedelta(days=k + 1) for k in range(count))
+            if day.month in _SNOW_MONTHS
+        ]
+        is_long, winter = count > LONGEST_GAP, name_winter(after)
+        is_over = low > high == 0.0 and name_winter(before) != winter
+        is_between = is_long and is_over and winter not in snowy
+        is_bare = low == high == 0.0 and not snowy
+        gaps.append(
+            Gap(
+                before=before,
+                after=after,
+                is_closable=not is_long or is_bare or is_between,
+                is_between=is_between,
+            )
         )
-        closable = not is_long or (is_bare and not hides)
-        gap = Gap(
-            before=before,
-            after=after,
-            is_closable=closable or between,
-            is_between=between,
-        )
-        gaps.append(gap)
     return tuple(gaps)
 
 

@@ -45,8 +45,6 @@ class AnnualMaximum:
         reached the least thickness, and the maximum is 0.
     index : int or None
         Place of its day in the series.
-    thickness, density : float
-        Of that day [m], [kg/m3]; 0 without one.
     foot, head : float
         Pulls of that day [N/m].
     equivalent_density : float or None
@@ -60,8 +58,6 @@ class AnnualMaximum:
     winter: str
     ending: MaximumEnding
     index: int | None = None
-    thickness: float = 0.0
-    density: float = 0.0
     foot: float = 0.0
     head: float = 0.0
     equivalent_density: float | None = None
@@ -102,19 +98,7 @@ def find_annual_maximum(
     table : UniformTable, optional
         Of the row; days outside are solved.
     """
-    days = solver.prepare(_list_snow(packs), layered=False)
-    return _find_maximum(winter, days, solver, is_alone=is_alone, table=table)
-
-
-def _find_maximum(
-    winter: str,
-    days: Sequence[RowDay],
-    solver: DaySolver,
-    *,
-    is_alone: bool,
-    table: UniformTable | None,
-) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
-    """Annual maximum of days that are prepared."""
+    days = _prepare(packs, solver)
     chosen = choose_days(days, solver)
     read = table.read_days(chosen) if table else ()
     inside = {day.index for day in read}
@@ -132,8 +116,6 @@ def _find_maximum(
     maximum = replace(
         judged,
         index=best.index,
-        thickness=best.thickness,
-        density=best.density,
         foot=best.foot.value,
         head=best.head.value,
         equivalent_density=by_table or find_equivalent(top, best, solver),
@@ -141,9 +123,10 @@ def _find_maximum(
     return maximum, solved
 
 
-def _list_snow(packs: Mapping[int, DayPack]) -> dict[int, DayPack]:
-    """Packs of the days with snow."""
-    return {k: pack for k, pack in packs.items() if pack.heights.size}
+def _prepare(packs: Mapping[int, DayPack], solver: DaySolver) -> tuple[RowDay, ...]:
+    """Days with snow, uniform, before they are solved."""
+    snow = {k: pack for k, pack in packs.items() if pack.heights.size}
+    return solver.prepare(snow, layered=False)
 
 
 def _solve_heaviest(
@@ -165,7 +148,7 @@ def _solve_heaviest(
     if any(day is best for day in read):
         return tuple(solved)
     return tuple(
-        solver.solve([day.reopen()])[0] if day is best else day for day in solved
+        solver.solve([day.unsolved])[0] if day is best else day for day in solved
     )
 
 
@@ -204,7 +187,10 @@ def _list_heaviest(days: Sequence[RowDay]) -> list[RowDay]:
 
 
 def find_many_maxima(
-    groups: Mapping[str, Mapping[str, Mapping[int, DayPack]]], solver: DaySolver
+    groups: Mapping[str, Mapping[str, Mapping[int, DayPack]]],
+    solver: DaySolver,
+    *,
+    by_table: bool = True,
 ) -> tuple[dict[str, tuple[AnnualMaximum, ...]], UniformTable | None]:
     """Annual maxima of many winters, and the table that they are read from.
 
@@ -216,23 +202,20 @@ def find_many_maxima(
         Packs of each winter by its name, for each settling model.
     solver : DaySolver
         Of the row.
+    by_table : bool, optional
+        Whether a table is made of the row.
     """
-    days = {
-        (model, winter): solver.prepare(_list_snow(packs), layered=False)
-        for model, winters in groups.items()
-        for winter, packs in winters.items()
-    }
-    chosen = [
-        day for winter_days in days.values() for day in choose_days(winter_days, solver)
-    ]
-    table = _build_table(chosen, days.values(), solver) if chosen else None
-    maxima: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
-    for (model, winter), winter_days in days.items():
-        maximum, _ = _find_maximum(
-            winter, winter_days, solver, is_alone=True, table=table
+    every = [packs for winters in groups.values() for packs in winters.values()]
+    days = [_prepare(packs, solver) for packs in every if by_table]
+    table = _build_table(days, solver)
+    maxima = {
+        model: tuple(
+            find_annual_maximum(*winter, solver, is_alone=True, table=table)[0]
+            for winter in winters.items()
         )
-        maxima[model].append(maximum)
-    return {model: tuple(own) for model, own in maxima.items()}, table
+        for model, winters in groups.items()
+    }
+    return maxima, table
 
 
 def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
@@ -303,14 +286,7 @@ def find_equivalent(
     target, power = np.log(governing.pull), _RANKS["no-slip"][0]
     x, tried = float(np.log(governing.density)), []
     for _ in range(_SECANT_STEPS):
-        uniform = replace(
-            governing,
-            thickness=thickness,
-            density=float(np.exp(x)),
-            layers=(),
-            ending="open",
-        )
-        (day,) = solver.solve([uniform])
+        (day,) = solver.solve([governing.reopen(thickness, float(np.exp(x)))])
         if not day.pull:
             return None
         tried.append((x, float(np.log(day.pull))))
@@ -401,28 +377,23 @@ def _solve_thicker(day: RowDay, solver: DaySolver) -> RowDay | None:
     steps = math.ceil(math.log(top / day.thickness) / math.log(_THICKER))
     density = max(day.density, LEAST_DENSITY)
     for thickness in np.geomspace(day.thickness, top, max(steps, 1) + 1)[1:]:
-        snow = replace(
-            day, thickness=float(thickness), density=density, layers=(), ending="open"
-        )
-        (thicker,) = solver.solve([snow])
+        (thicker,) = solver.solve([day.reopen(float(thickness), density)])
         if thicker.foot:
             return thicker
     return None
 
 
 def _build_table(
-    chosen: Sequence[RowDay],
-    days: Iterable[Sequence[RowDay]],
-    solver: DaySolver,
+    winters: Sequence[Sequence[RowDay]], solver: DaySolver
 ) -> UniformTable | None:
     """Table over the days that may govern, and over the largest heights."""
-    tops = [
-        max(day.thickness for day in winter_days) for winter_days in days if winter_days
-    ]
-    held = [top for top in tops if solver.row.holds(top)]
-    thicknesses = [*(day.thickness for day in chosen), *held]
+    chosen = [day for days in winters for day in choose_days(days, solver)]
+    if not chosen:
+        return None
+    tops = [max(day.thickness for day in days) for days in winters if days]
+    thicknesses = [day.thickness for day in chosen]
+    most = max(*thicknesses, *(top for top in tops if solver.row.holds(top)))
     densities = [day.density for day in chosen]
-    least = min(day.thickness for day in chosen)
     return build_table(
-        solver, (least, max(thicknesses)), (min(densities), max(densities))
+        solver, (min(thicknesses), most), (min(densities), max(densities))
     )

@@ -223,28 +223,23 @@ def name_measured_winters(measured: Sequence[MonitoringSeries]) -> frozenset[str
 
 
 def compare_row(
-    measured: Sequence[MonitoringSeries],
-    winters: RowWinters,
-    row: WinterRow,
-    series: HeightSeries,
+    site: Site, winters: RowWinters, series: HeightSeries
 ) -> tuple[Comparison, ...]:
     """Readings of a row beside its curves, winter by winter and member by member.
 
     Parameters
     ----------
-    measured : sequence of MonitoringSeries
-        At members of the row.
+    site : Site
+        With what was measured.
     winters : RowWinters
-        With the curves of the measured winters.
-    row : WinterRow
-        As loaded.
+        Of the row, with the curves of the measured winters.
     series : HeightSeries
         Of the station.
     """
     comparisons = [
-        compare_season(at_member, season, row, series)
+        compare_season(measured, season, winters.row, series)
         for season in winters.seasons
-        for at_member in measured
+        for measured in list_measured_pulls(site, winters.row.id)
     ]
     return tuple(pair for pair in comparisons if pair is not None)
 

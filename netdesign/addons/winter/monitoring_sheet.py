@@ -13,7 +13,7 @@ from netdesign.site.columns.fields import normalise
 from netdesign.site.headings import Table
 from netdesign.site.lines import refuse_unknown_ids
 from netdesign.site.model import Site
-from netdesign.site.readings import Reading, Row, refuse, refuse_beside
+from netdesign.site.readings import Row, refuse, refuse_beside
 from netdesign.site.tables import read_rows
 from netdesign.structure.members import Member
 from netdesign.words.message import say
@@ -129,28 +129,22 @@ def _build(
 
 
 def _read_time(line: Row, findings: list[Finding]) -> float | None:
-    """Time of a line [s], from days or from a date; None with a finding."""
-    given = _choose_time(line, findings)
-    if given is None or given.field.key == "time":
-        return given.si if given else None
-    moment = read_moment(given.word)
-    return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()
-
-
-def _choose_time(line: Row, findings: list[Finding]) -> Reading | None:
-    """Days or date, of which a line gives one; None with a finding."""
-    first, second = line["time"], line["date"]
-    if "faulty" in (first.state, second.state):
+    """Time of a line [s], from days or a date; None with a finding."""
+    days, moment = line["time"], line["date"]
+    if "faulty" in (days.state, moment.state):
         return None
-    if first.state == second.state == "given":
-        refuse_beside(second, first, findings)
-        return None
-    if "given" not in (first.state, second.state):
-        seen = next(x for x in (first, second, line["row"]) if x.cell is not None)
-        rule = say("cell.neither", names=(first.field.name, second.field.name))
+    if days.state == moment.state == "given":
+        refuse_beside(moment, days, findings)
+    elif days.state == "given":
+        return days.si
+    elif moment.state == "given":
+        local = read_moment(moment.word).replace(tzinfo=None)
+        return (local - _EPOCH).total_seconds()
+    else:
+        seen = next(x for x in (days, moment, line["row"]) if x.cell is not None)
+        rule = say("cell.neither", names=(days.field.name, moment.field.name))
         refuse(seen, rule, say("accepted.exactly_one"), findings)
-        return None
-    return first if first.state == "given" else second
+    return None
 
 
 def list_monitoring(site: Site, row_id: str) -> tuple[MonitoringSeries, ...]:

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from netdesign.addons.winter.day import DaySolver, RowDay
+from netdesign.addons.winter.day import DaySolver, RowDay, WinterRow
 from netdesign.addons.winter.heights import HeightSeries, split_winters
 from netdesign.addons.winter.maxima import (
     AnnualMaximum,
@@ -212,7 +212,7 @@ def _sharpen(curve: Mapping[int, RowDay], solver: DaySolver) -> dict[int, RowDay
     sharpened = dict(curve)
     left = {k: day for k, day in curve.items() if day.ending == "solved"}
     while doubtful := _list_doubtful(sharpened, left.keys()):
-        days = solver.solve([left.pop(k).reopen() for k in sorted(doubtful)])
+        days = solver.solve([left.pop(k).unsolved for k in sorted(doubtful)])
         sharpened |= {day.index: day for day in days}
     return sharpened
 
@@ -272,8 +272,10 @@ class RowWinters:
 
     Attributes
     ----------
-    row_id, model : str
-        Row, and name of the settling model.
+    row : WinterRow
+        As loaded.
+    model : str
+        Name of the settling model.
     maxima : tuple of AnnualMaximum
         One of each winter, in their order.
     seasons : tuple of Season
@@ -286,7 +288,7 @@ class RowWinters:
         Winters that are incomplete, and give no range of density.
     """
 
-    row_id: str
+    row: WinterRow
     model: str
     maxima: tuple[AnnualMaximum, ...]
     seasons: tuple[Season, ...]
@@ -376,29 +378,24 @@ def follow_winters(
     """
     chosen, *rest = station.packs
     packs = station.packs[chosen]
-    maxima: dict[str, tuple[AnnualMaximum, ...]] = {}
-    table: UniformTable | None = None
-    names = list(packs)
-    if len(packs) > MANY:
-        maxima, table = find_many_maxima(station.packs, solver)
+    names, is_many = list(packs), len(packs) > MANY
+    groups = station.packs
+    if not is_many:  # those of the first model come with their curves
+        groups = {model: groups[model] for model in rest}
+    maxima, table = find_many_maxima(groups, solver, by_table=is_many)
+    if is_many:
         ranked = sorted(maxima[chosen], key=lambda maximum: -maximum.foot)[:SHOWN]
         largest = {maximum.winter for maximum in ranked if maximum.index is not None}
         names = sorted(largest | (set(measured) & packs.keys()))
     seasons = tuple(
         follow_season(name, packs[name], solver, step, table) for name in names
     )
-    if not maxima:
-        for model in rest:
-            winters = station.packs[model].items()
-            maxima[model] = tuple(
-                find_annual_maximum(*winter, solver, is_alone=True)[0]
-                for winter in winters
-            )
+    if not is_many:
         maxima[chosen] = tuple(season.maximum for season in seasons)
     complete = list_complete(station.series)
     sample = [maximum for maximum in maxima[chosen] if maximum.winter in complete]
     return RowWinters(
-        row_id=solver.row.id,
+        row=solver.row,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,

@@ -39,8 +39,6 @@ class StationWinter:
         f_H of the rows that have none of their own [-]; None where none is given.
     row_factors : mapping of str to float
         f_H of single rows by their id [-].
-    source : str
-        First cell.
     file : str
         Name of the file of a station alone; empty for sheet Winter of a site.
     notes : tuple of Message
@@ -52,7 +50,6 @@ class StationWinter:
     altitude: float | None = None
     height_factor: float | None = None
     row_factors: Mapping[str, float] = field(default_factory=dict)
-    source: str = ""
     file: str = ""
     notes: tuple[Message, ...] = ()
 
@@ -106,7 +103,6 @@ def read_winter(
         altitude=lines[0]["altitude"].given_si,
         height_factor=factor,
         row_factors=row_factors,
-        source=lines[0]["date"].place,
         notes=notes,
     )
 

@@ -25,7 +25,6 @@ def test_series_is_read_in_metres_and_kelvin(book):
     assert winter.series.heights == (0.0, 0.375)
     assert winter.series.air_temperatures == (None, pytest.approx(268.65))
     assert (winter.station, winter.altitude, winter.height_factor) == ("", None, None)
-    assert winter.source == "Winter!A2"
     assert [one.key for one in winter.notes] == ["winter_sheet.cut"]  # it ends in snow
 
 
