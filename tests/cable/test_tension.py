@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.addons.history.net_pulls import (
     compute_node_forces,
-    compute_segment_lengths,
     compute_tensions,
     pull_nodes,
 )
@@ -74,7 +73,7 @@ def test_components_are_those_of_the_vector():
     """Along bisector and across, found by turning the lower segment's direction."""
     tensions = np.array([3.0, 2.0, 2.5, 1.0])
     normal, tangential = compute_node_forces(BULGED, tensions)
-    lower = np.diff(BULGED)[:, :-1] / compute_segment_lengths(BULGED)[:-1]
+    lower = np.diff(BULGED)[:, :-1] / np.hypot(*np.diff(BULGED))[:-1]
     turn = np.exp(0.5j * compute_turning_angles(BULGED))
     along = (lower[0] + 1j * lower[1]) * turn  # across the bisector, to the head
     x, y = pull(BULGED, tensions).forces

@@ -16,7 +16,6 @@ import numpy as np
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.creep_law import (
-    DENSEST_SNOW,
     CreepLaw,
     compute_factors,
     compute_shear_factor,
@@ -405,21 +404,3 @@ def build_material(
         fluidity_ratio=(body.warmth * (shear / reference) ** power)[:, None],
         density=body.density[:, None],
     )
-
-
-def largest_density(settling: Settling, body: SnowBody) -> float:
-    """Largest relative density of a body.
-
-    Parameters
-    ----------
-    settling : Settling
-        Its mean density.
-    body : SnowBody
-        As it is now.
-
-    Returns
-    -------
-    float
-        D [-], at most ``DENSEST_SNOW``.
-    """
-    return min(settling.mean_density * float(body.density.max()), DENSEST_SNOW)

@@ -73,7 +73,8 @@ def pull_nodes(
     slide_signs : ndarray of int, shape (n,), optional
         As of ``NetResponse``; without, nothing slides.
     """
-    pulls = tensions * np.diff(points) / compute_segment_lengths(points)
+    steps = np.diff(points)
+    pulls = tensions * steps / np.hypot(*steps)
     if slide_signs is None:
         slide_signs = np.zeros(lengths.size - 1, dtype=np.int8)
     return NetResponse(
@@ -104,22 +105,6 @@ def join_points(nodes: Floats, head: Floats) -> Floats:
     points = np.zeros((2, nodes.shape[1] + 2))
     points[:, 1:-1], points[:, -1] = nodes, head
     return points
-
-
-def compute_segment_lengths(points: Floats) -> Floats:
-    """Chords between neighbouring points.
-
-    Parameters
-    ----------
-    points : ndarray, shape (2, n + 2)
-        Foot, nodes and head [m, or any unit].
-
-    Returns
-    -------
-    ndarray, shape (n + 1,)
-        In the unit of the points.
-    """
-    return np.asarray(np.hypot(*np.diff(points)))
 
 
 def compute_tensions(
@@ -181,7 +166,7 @@ def measure_arcs(points: Floats) -> Floats:
     ndarray, shape (n + 1,)
         In the unit of the points.
     """
-    chords = compute_segment_lengths(points)
+    chords = np.asarray(np.hypot(*np.diff(points)))
     return chords * (1.0 + bend_segments(chords, compute_turning_angles(points)) / 24.0)
 
 

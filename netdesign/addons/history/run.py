@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.addons.history.body import largest_density
 from netdesign.addons.history.instant import Instant
 from netdesign.addons.history.moments import (
     NO_PLATEAU,
@@ -24,6 +23,7 @@ from netdesign.coupling.interface import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 from netdesign.numerics.arrays import Floats, Mask
+from netdesign.snow.creep_law import DENSEST_SNOW
 from netdesign.words.message import Message
 
 
@@ -107,6 +107,7 @@ class Run:
         tensions = instant.response.tensions
         ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
         strain = self.moments[-1].strain if self.moments else 0.0
+        density = self.problem.settling.mean_density * float(state.body.density.max())
         moment = HistoryPoint(
             time=state.time,
             foot=instant.foot_pull,
@@ -114,7 +115,7 @@ class Run:
             tension_min=float(min(tensions.min(), *ends)),
             tension_max=float(max(tensions.max(), *ends)),
             on_net=instant.on_net,
-            max_relative_density=largest_density(self.problem.settling, state.body),
+            max_relative_density=min(density, DENSEST_SNOW),
             way=float(ways.max()),
             speed=float(across.max()),
             strain=strain + instant.creep_rate * step,

@@ -356,19 +356,15 @@ def _solve_tensions(increment: _Increment, signs: Signs) -> Floats:
     """
     tensions = np.empty_like(increment.stuck)
     edges = np.flatnonzero(signs == 0) + 1
-    ratios = _sliding_ratios(increment, signs)
+    grip = signs * increment.grip
+    # of nodes that slide, (C19); 1 at the others, which do not ask
+    ratios = (increment.across - grip) / (increment.across + grip)
     for block in np.split(np.arange(tensions.size), edges):
         multiples = np.cumprod(np.concatenate([[1.0], ratios[block[:-1]]]))
         softening = increment.softening[block]
         first = (increment.stuck[block] / softening).sum()
         tensions[block] = multiples * first / (multiples / softening).sum()
     return tensions
-
-
-def _sliding_ratios(increment: _Increment, signs: Signs) -> Floats:
-    """T_i / T_{i-1} of nodes that slide, (C19); 1 at the others, which do not ask."""
-    grip = signs * increment.grip
-    return (increment.across - grip) / (increment.across + grip)
 
 
 def _revise_signs(increment: _Increment, tensions: Floats, signs: Signs) -> Signs:

@@ -219,7 +219,9 @@ def _hang_parabola(
     pressure = 0.0
     if start == "sagged":
         pressure = guess_pressure(problem.snow, template.aspect)
-    return _parabola(problem.head, _find_sag(problem, pressure), fractions)
+    outward = np.array([problem.head[1], -problem.head[0]])
+    depths = 4.0 * _find_sag(problem, pressure) * fractions * (1.0 - fractions)
+    return np.outer(problem.head, fractions) + np.outer(outward, depths)
 
 
 def _spread_length(problem: TransientProblem, curve: Floats) -> Floats:
@@ -247,14 +249,6 @@ def _find_sag(problem: TransientProblem, pressure: float) -> float:
         else:
             high = sag
     return low
-
-
-def _parabola(head: Floats, sag: float, fractions: Floats) -> Floats:
-    """Curve (2, n) at fractions of the chord; the sag is downslope, over the chord."""
-    outward = np.array([head[1], -head[0]])
-    return np.outer(head, fractions) + np.outer(
-        outward, 4.0 * sag * fractions * (1.0 - fractions)
-    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -193,8 +193,14 @@ class _Walk:
             if self.step < shortest:
                 self.failure = failure
             return False
-        self._record(instant, state, fallen, step)
-        self.step = step * _grow(error)
+        run = self.run.follow(instant, state, fallen, step)
+        if run.fallen_mass < -_LARGEST_GAIN * float(state.body.mass.sum()):
+            self.failure = SolveError(
+                Outcome.BALANCE_VIOLATED, "the snow's mass is not kept on this mesh"
+            )
+        if not run.plateau.reached:
+            run = replace(run, plateau=find_plateau(run.moments))
+        self.run, self.step = run, step * _grow(error)
         return True
 
     def finish(self) -> Run:
@@ -246,18 +252,6 @@ class _Walk:
         strain = float(measure_arcs(instant.points).sum()) / problem.length - 1.0
         least = (8.0 / 3.0) * (sag / chord) ** 2 * 1e-2
         return 3.0 / 16.0 * max(strain, least) * chord**2 / max(sag, 1e-9)
-
-    def _record(
-        self, instant: Instant, state: TransientState, fallen: float, step: float
-    ) -> None:
-        run = self.run.follow(instant, state, fallen, step)
-        if run.fallen_mass < -_LARGEST_GAIN * float(state.body.mass.sum()):
-            self.failure = SolveError(
-                Outcome.BALANCE_VIOLATED, "the snow's mass is not kept on this mesh"
-            )
-        if not run.plateau.reached:
-            run = replace(run, plateau=find_plateau(run.moments))
-        self.run = run
 
 
 def _grow(error: float) -> float:

@@ -216,8 +216,8 @@ _Settled = tuple[NetGuess, Floats, Floats]
 
 def _settle(problem: _Problem, guess: NetGuess, *, may_push: bool = False) -> _Settled:
     """Equilibrium of net and nodes; ``may_push``: segments, at the start."""
-    if find_core() is not None:
-        return _settle_compiled(problem, guess, may_push=may_push)
+    if (library := find_core()) is not None:
+        return _settle_compiled(library, problem, guess, may_push=may_push)
     net = _place_net(problem, guess.place, guess.slides)
     if net.tensions.min() < 0.0 and not may_push:
         return _settle(problem, _loosen(problem, guess), may_push=True)
@@ -237,20 +237,9 @@ def _settle(problem: _Problem, guess: NetGuess, *, may_push: bool = False) -> _S
     raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
-def _settle_compiled(problem: _Problem, guess: NetGuess, *, may_push: bool) -> _Settled:
-    code, end = _call_core(problem, guess, may_push=may_push)
-    if code == _LOOSE:
-        return _settle(problem, _loosen(problem, guess), may_push=True)
-    if code in _FAULTS:
-        outcome, key = _FAULTS[code]
-        raise SolveError(outcome, say(key))
-    return end
-
-
-def _call_core(
-    problem: _Problem, guess: NetGuess, *, may_push: bool
-) -> tuple[int, _Settled]:
-    """Outcome, and where it ended; ``may_push``: segments, at the start."""
+def _settle_compiled(
+    library: ctypes.PyDLL, problem: _Problem, guess: NetGuess, *, may_push: bool
+) -> _Settled:
     nodes, count = problem.nodes, guess.slides.size
     shapes = ((2, count), (2, count), (2 * count, 2 * count), (count + 1,))
     arrays = (nodes.positions, nodes.forces, nodes.compliance, problem.old_lengths)
@@ -270,10 +259,13 @@ def _call_core(
         *(_MOST_ITERATIONS, _FREE_ROUNDS, _MOST_ROUNDS),
         *locate_all(end.place, end.slides, end.slide_signs, lengths, tensions),
     )
-    library = find_core()
-    assert library is not None
     code = require_sound(library.nd_settle(ctypes.byref(argument), int(may_push)))
-    return code, (end, lengths, tensions)
+    if code == _LOOSE:
+        return _settle(problem, _loosen(problem, guess), may_push=True)
+    if code in _FAULTS:
+        outcome, key = _FAULTS[code]
+        raise SolveError(outcome, say(key))
+    return end, lengths, tensions
 
 
 def _loosen(problem: _Problem, guess: NetGuess) -> NetGuess:

@@ -125,7 +125,7 @@ class Response:
         """Mean of the search's model; beyond the ranges along its tangent."""
         if self.model is None:
             return np.full(1, self.base)
-        at = self._place(values)
+        at = _place(self.axes, values)
         inside = np.clip(at, *self.ends)
         beyond = at - inside
         sizes = np.linalg.norm(beyond, axis=1)
@@ -136,18 +136,12 @@ class Response:
         mean[far] += (mean[far] - before) / _INWARDS * sizes[far]
         return mean
 
-    def _place(self, values: Values) -> Floats:
-        columns = [
-            (values[name] - span.low) / (span.high - span.low)
-            for name, span in self.axes
-        ]
-        return np.column_stack(columns)
-
     def find_error(self, values: Mapping[str, float]) -> float:
         """Standard error of the search's model at one place [-, of ln mu]."""
         if self.model is None:
             return 0.0
-        at = self._place({name: np.array([value]) for name, value in values.items()})
+        arrays = {name: np.array([value]) for name, value in values.items()}
+        at = _place(self.axes, arrays)
         return float(self.model.predict(np.clip(at, *self.ends)).standard_error[0, 0])
 
     def find_beyond(self, values: Mapping[str, float]) -> str | None:
@@ -289,19 +283,22 @@ def _solve_beside(rater: Rater, lines: Sequence[Line]) -> list[tuple[float, floa
     raise ModelError(say("reliability.no_solve"))
 
 
+def _place(axes: Sequence[tuple[str, Interval]], values: Values) -> Floats:
+    """Coordinates (n, axes) in the unit cube of the axes."""
+    columns = [
+        (values[name] - span.low) / (span.high - span.low) for name, span in axes
+    ]
+    return np.array(columns).T
+
+
 def _fit(
     axes: Sequence[tuple[str, Interval]], rated: Mapping[Case, float]
 ) -> tuple[Surrogate, Floats]:
     """Model over the coordinates of the axes, and the ends of what was solved."""
-    values = [case.values for case in rated]
-    columns = [
-        [
-            (values_of_case[name] - span.low) / (span.high - span.low)
-            for values_of_case in values
-        ]
-        for name, span in axes
-    ]
-    places = np.array(columns).T
+    columns = {
+        name: np.array([case.values[name] for case in rated]) for name, _ in axes
+    }
+    places = _place(axes, columns)
     if not supports_model(places):
         raise ModelError(say("reliability.few_cases", count=len(rated)))
     rates = np.array(list(rated.values()))

@@ -240,8 +240,11 @@ def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, floa
         at = limit.place(point.place[None])[0].tolist()
         state.require_within(at)
         values = state.read_point(at)
-        by_model, solved = state.response.find_at(values), _solve(rater, values)
-        miss = abs(solved - by_model)
+        by_model = state.response.find_at(values)
+        (rate,) = rater.solve(rater.check.governing, [values])
+        if rate is None:
+            raise ModelError(say("reliability.no_solve"))
+        solved, miss = rate, abs(rate - by_model)
         error = math.hypot(state.response.find_error(values), miss)
         state = replace(state, response=meet(state.response, values, solved))
         if miss < _CLOSE:
@@ -249,13 +252,6 @@ def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, floa
     if miss > LARGEST_MISS:
         raise ModelError(say("reliability.missed", share=miss))
     return state.with_error(error), by_model, solved
-
-
-def _solve(rater: Rater, values: Mapping[str, float]) -> float:
-    (solved,) = rater.solve(rater.check.governing, [values])
-    if solved is None:
-        raise ModelError(say("reliability.no_solve"))
-    return solved
 
 
 def _record(

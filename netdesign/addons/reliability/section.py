@@ -45,7 +45,7 @@ def list_records(study: Study) -> list[tuple[RowStudy, ReliabilityRecord]]:
 
 def show_reliability(study: Study, words: Words) -> Iterator[Part]:
     """Annex of the notional reliability; none without ``--reliability``."""
-    records = list_records(study)
+    records, lacking = list_records(study), tuple(_list_lacking(study, words))
     if records:
         yield section(
             "annex-reliability",
@@ -53,7 +53,7 @@ def show_reliability(study: Study, words: Words) -> Iterator[Part]:
             Paragraph(text=words("reliability.is_not"), look="small"),
             Paragraph(text=words("reliability.reading"), look="small"),
             tabulate_indices(study, words),
-            *_list_reasons(study, words),
+            *([Items(items=lacking)] if lacking else []),
             *(
                 block
                 for row, record in records
@@ -78,12 +78,6 @@ def list_reliability(study: Study, words: Words) -> Iterator[str]:
     if indices:
         yield words("reliability.line", rows=tuple(indices))
     yield from _list_lacking(study, words)
-
-
-def _list_reasons(study: Study, words: Words) -> Iterator[Items]:
-    lacking = tuple(_list_lacking(study, words))
-    if lacking:
-        yield Items(items=lacking)
 
 
 def _list_lacking(study: Study, words: Words) -> Iterator[str]:
