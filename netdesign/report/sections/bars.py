@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import (
     SMALL,
@@ -35,7 +36,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         return (Piece(MISSING, "dash"),)
     first = sign(rated.verdict, words)
     if rated.used is not None:
-        shown = Piece(_show_used(rated.used, rated.check.eased_low, words), "ratio")
+        shown = Piece(_show_used(rated.check, rated.used, words), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
         if rated.by_guideline is not None and rated.used < _HAS_ROOM:
@@ -51,11 +52,17 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
     return (first, Piece(force, "ratio"), lack)
 
 
-def _show_used(used: float, at_best: float | None, words: Words) -> str:
+def _show_used(check: Check, used: float, words: Words) -> str:
     """Utilisation; one far beyond 1 by what is assumed with that at the best ends."""
-    if not at_best or not _HAS_ROOM <= used < math.inf:
+    if not is_span(check):
         return words.show_number("utilisation", used)
-    return f"{words.show_number('utilisation', at_best)}–{words.show_fixed(used, 0)}"
+    at_best = words.show_number("utilisation", check.eased_low)
+    return f"{at_best}–{words.show_fixed(used, 0)}"
+
+
+def is_span(check: Check) -> bool:
+    """A utilisation is shown from that at the best ends of what is assumed on."""
+    return bool(check.eased_low) and _HAS_ROOM <= (check.used or 0.0) < math.inf
 
 
 def show_answer(rated: Rated, words: Words) -> Content:

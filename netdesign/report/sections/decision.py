@@ -26,7 +26,13 @@ from netdesign.report.blocks import (
     text_cell,
 )
 from netdesign.report.sections.assumed import list_assumed
-from netdesign.report.sections.bars import draw_bar, show_rated, sign, used_cell
+from netdesign.report.sections.bars import (
+    draw_bar,
+    is_span,
+    show_rated,
+    sign,
+    used_cell,
+)
 from netdesign.report.sections.basis import (
     anchor_rows,
     count_assumed,
@@ -234,7 +240,8 @@ def _compare(check: Check, words: Words) -> str:
         return words.join((text, needed or describe_cause(check, words)))
     relation = ">" if demand > resistance else "≤"
     text = f"{force} {relation} {words.show_number('resistance_kN', resistance)} kN"
-    texts = (text, describe_eased(check, words), show_need(check, words))
+    eased = "" if is_span(check) else describe_eased(check, words)
+    texts = (text, eased, show_need(check, words))
     return words.join(filter(None, texts))
 
 
