@@ -260,7 +260,7 @@ class _Painter:
         x = frame.left + frame.width + 4.0
         for place, (fill, text) in enumerate(panel.key, 1):
             y = frame.top + frame.height - place * _SAMPLE
-            draw_rectangle(self.sketch, x, y, _SAMPLE, _SAMPLE, fill)
+            draw_tiles(self.sketch, [(x, y, _SAMPLE, _SAMPLE, fill)])
             self.sketch.text(x + _SAMPLE + 3.0, y + 9.0, text)
 
     def _fill_band(self, line: Line) -> None:
@@ -283,10 +283,9 @@ class _Painter:
             kept = drop_straight(points)
             self.sketch.line(kept, stroke=stroke, width=width, dash=dash)
             if line.has_dots and len(points) <= _MOST_DOTS:
-                for x, y in points:
-                    draw_rectangle(
-                        self.sketch, x - _DOT, y - _DOT, 2 * _DOT, 2 * _DOT, GREY
-                    )
+                side = 2.0 * _DOT
+                dots = ((x - _DOT, y - _DOT, side, side, GREY) for x, y in points)
+                draw_tiles(self.sketch, dots)
 
     def _list_names(self, lines: Sequence[Line]) -> None:
         """Names at the right beside a piece of each line, the largest value first."""
@@ -364,20 +363,10 @@ def shade(value: float, low: float, high: float) -> str:
     return GREYS[round((len(GREYS) - 1) * min(1.0, max(0.0, share)))]
 
 
-def draw_rectangle(
-    chart: Chart, left: float, top: float, width: float, height: float, fill: str
-) -> None:
-    """Filled rectangle [pt]."""
-    chart.shapes.append(
-        f'<rect x="{left:.2f}" y="{top:.2f}" width="{width:.2f}" '
-        f'height="{height:.2f}" fill="{fill}"/>'
-    )
-
-
 def draw_tiles(
     chart: Chart, cells: Iterable[tuple[float, float, float, float, str]]
 ) -> None:
-    """Many filled rectangles: left, top, width, height [pt] and fill of each.
+    """Filled rectangles: left, top, width, height [pt] and fill of each.
 
     A map has hundreds: each is a thick line, those of one fill are one path, and
     paths of one width in turn share it.

@@ -298,17 +298,6 @@ def tabulate(
     )
 
 
-def tabulate_items(
-    caption: str,
-    columns: Mapping[str, tuple[Kind, Callable[[Any], object]]],
-    items: Iterable[object],
-) -> Table:
-    """Table of a line for each item; a column's heading, kind and value of an item."""
-    kinds = [(heading, kind) for heading, (kind, _) in columns.items()]
-    rows = [[value(item) for _, value in columns.values()] for item in items]
-    return tabulate(caption, kinds, rows)
-
-
 def kilo(value: float | None) -> float | None:
     """Value in thousands; None stays."""
     return None if value is None else value / 1e3

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from contourpy import contour_generator
 
-from netdesign.addons.charts import draw_rectangle, draw_tiles
+from netdesign.addons.charts import draw_tiles
 from netdesign.addons.terrain.coverage import Coverage
 from netdesign.addons.terrain.measure import (
     MeasuredRow,
@@ -146,7 +146,7 @@ def draw_slopes(extract: Extract, rows: Sequence[MeasuredRow]) -> str:
     for place in range(len(SLOPE_CLASSES) + 1):
         left = extract.frame.left + place * width
         fill = _grey(1.0 - 0.7 * place / len(SLOPE_CLASSES))
-        draw_rectangle(chart, left, below, width, 9.0, fill)
+        draw_tiles(chart, [(left, below, width + 0.2, 9.0, fill)])
         first = f"{SLOPE_CLASSES[place - 1]}°" if place else "0°"
         chart.text(left + 1.0, below + 10.0 + TEXT_PT, first)
     return chart.write(below + 16.0 + TEXT_PT, "Slope classes")

@@ -109,12 +109,6 @@ def _trace(paper: _Paper, kind: str, look: Look) -> Path:
 
 
 def _list_corners(kind: str, look: Look) -> list[tuple[float, float]]:
-    if kind == "rect":
-        left, top, width, height = (
-            float(look.get(key, "0")) for key in ("x", "y", "width", "height")
-        )
-        right, bottom = left + width, top + height
-        return [(left, top), (right, top), (right, bottom), (left, bottom)]
     if kind not in ("polyline", "polygon"):
         raise ValueError(f"a drawing has a shape that is not known: {kind}")
     pairs = (pair.split(",") for pair in look["points"].split())

@@ -5,7 +5,7 @@ import io
 import pytest
 from PIL import Image
 
-from netdesign.addons.charts import draw_rectangle, draw_tiles
+from netdesign.addons.charts import draw_tiles
 from netdesign.report.drawing.plain_svg import Chart
 from netdesign.report.drawing.raster import (
     DOTS_PER_INCH,
@@ -26,7 +26,7 @@ def look(picture, x, y):
 
 def test_shapes_stand_where_the_drawing_has_them():
     sketch = Chart()
-    draw_rectangle(sketch, 10.0, 10.0, 20.0, 10.0, "#b23a1e")
+    draw_tiles(sketch, [(10.0, 10.0, 20.0, 10.0, "#b23a1e")])
     sketch.area([(60.0, 10.0), (90.0, 10.0), (90.0, 40.0), (60.0, 40.0)], "#7d838b")
     sketch.line([(0.0, 61.3), (144.0, 61.3)], stroke="#1b1e22", width=4.0)
     draw_tiles(sketch, [(100.0, 20.0, 12.0, 8.0, "#d3d7dc")])

@@ -14,7 +14,7 @@ from netdesign.addons.charts import (
     Mark,
     Panel,
     draw_panels,
-    draw_rectangle,
+    draw_tiles,
     shade,
 )
 from netdesign.addons.evidence.paper.study import (
@@ -157,11 +157,13 @@ def _draw_scale(sketch: Chart, limits: tuple[float, float], height: float) -> No
         sketch.text(6.0, height - 9.0, text)
         return
     step = _SCALE_PT / len(GREYS)
-    for place in range(len(GREYS)):
-        fill = _shade(low + (place + 0.5) / len(GREYS) * (high - low), limits)
-        draw_rectangle(
-            sketch, 10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill
-        )
+    middles = [(place + 0.5) / len(GREYS) for place in range(len(GREYS))]
+    fills = [_shade(low + middle * (high - low), limits) for middle in middles]
+    tiles = [
+        (10.0 + place * step, height - 22.0, step + 0.2, 7.0, fill)
+        for place, fill in enumerate(fills)
+    ]
+    draw_tiles(sketch, tiles)
     for share in (0.0, 0.5, 1.0):
         at, shown = 10.0 + share * _SCALE_PT, f"{low + share * (high - low):.0f}"
         sketch.text(at, height - 4.0, shown, anchor="middle")

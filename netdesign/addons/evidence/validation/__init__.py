@@ -18,12 +18,12 @@ import numpy as np
 from pydantic import AliasChoices, Field, TypeAdapter
 
 from netdesign import __version__
-from netdesign.addons.charts import draw_decades, draw_rectangle
+from netdesign.addons.charts import draw_decades, draw_tiles
 from netdesign.addons.evidence.measurements import (
     NUMBER_TEXTS,
     RANGES,
     TEXTS,
-    tabulate_items,
+    tabulate,
 )
 from netdesign.addons.evidence.scene import build_scene
 from netdesign.coupling.scene import SolverSettings
@@ -374,7 +374,8 @@ def _draw_bar(
     """Band of a member, its middle, and what was measured."""
     for ends, color in (((band.low, band.high), PALE), (band.middle, GREY)):
         left, right = (frame.x(math.log10(max(end, _FEEBLE))) for end in ends)
-        draw_rectangle(chart, left, y - 3.5, max(right - left, 0.5), 7.0, color)
+        width = max(right - left, 0.5)
+        draw_tiles(chart, [(left, y - 3.5, width, 7.0, color)])
     x = frame.x(math.log10(max(value, _FEEBLE)))
     chart.line(((x, y - 5.5), (x, y + 5.5)), stroke=ACCENT, width=2.2)
 
@@ -439,23 +440,28 @@ def _render_page(validations: Sequence[Validation]) -> str:
 
 def _tabulate(validations: Sequence[Validation]) -> Table:
     """A line for each measured force and member that it may be."""
-    columns = {
-        "validation.structure": (TEXTS, lambda at: at[0].structure.title),
-        "validation.measured": (TEXTS, lambda at: at[1].name),
-        "kN": (NUMBER_TEXTS, lambda at: _show_measured(at[1])),
-        "validation.mark": (TEXTS, lambda at: at[1].mark),
-        "validation.member": (TEXTS, lambda at: name_validated(at[2].member)),
-        "validation.band": (RANGES, lambda at: (at[2].low, at[2].high)),
-        "validation.middle": (RANGES, lambda at: at[2].middle),
-        "validation.value": (TEXTS, lambda at: at[2].judge(at[1])),
-    }
+    columns = (
+        ("validation.structure", TEXTS),
+        ("validation.measured", TEXTS),
+        ("kN", NUMBER_TEXTS),
+        ("validation.mark", TEXTS),
+        ("validation.member", TEXTS),
+        ("validation.band", RANGES),
+        ("validation.middle", RANGES),
+        ("validation.value", TEXTS),
+    )
     lines = [
-        (validation, pair.measured, band)
+        (
+            *(validation.structure.title, pair.measured.name),
+            *(_show_measured(pair.measured), pair.measured.mark),
+            *(name_validated(band.member), (band.low, band.high)),
+            *(band.middle, band.judge(pair.measured)),
+        )
         for validation in validations
         for pair in validation.comparisons
         for band in pair.bands
     ]
-    return tabulate_items("", columns, lines)
+    return tabulate("", columns, lines)
 
 
 def _show_measured(measured: Measurement) -> str:
