@@ -282,8 +282,12 @@ class History:
 
     def list_flags(self, scene: Scene) -> list[Message]:
         """Remarks that a reader must know before using the numbers."""
-        flags = [_describe_clock(scene)] if scene.settles_as_stations else []
-        plateau = self.plateau
+        flags, plateau = [], self.plateau
+        if scene.settles_as_stations:
+            n = scene.creep_law.exponent
+            fluidity = fluidity_per_mpa_year(scene.creep_fluidity, n)
+            clock = say("solution.settling_clock", fluidity=fluidity, exponent=n)
+            flags.append(clock)
         if plateau.was_left:
             flags.append(
                 say(
@@ -338,9 +342,3 @@ def _write_moment(moment: HistoryPoint) -> dict[str, Any]:
 
 def _size(vector: Floats) -> float:
     return kilonewton_from_newton(float(np.hypot(*vector)))
-
-
-def _describe_clock(scene: Scene) -> Message:
-    n = scene.creep_law.exponent
-    fluidity = fluidity_per_mpa_year(scene.creep_fluidity, n)
-    return say("solution.settling_clock", fluidity=fluidity, exponent=n)

@@ -8,7 +8,7 @@ Theory: coupling/THEORY.md, sections 6 and 7.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, Method, Solution
@@ -70,6 +70,8 @@ class TransientSettings:
         Meshes from coarse to fine, at least two.
     """
 
+    method: ClassVar[Method] = "transient"
+
     accuracy: float = 0.01
     start: Start = "steady"
     horizon: float = 30.0 * 86400.0
@@ -78,11 +80,6 @@ class TransientSettings:
     balance_tolerance: float = 1e-9
     max_steps: int = 1000
     levels: tuple[MeshSize, ...] = field(default=TRANSIENT_LEVELS)
-
-    @property
-    def method(self) -> Method:
-        """Name of the method."""
-        return "transient"
 
     def solve(self, scene: Scene) -> Solution | FailedSolution:
         """Snow against the scene's net, followed in time."""
@@ -130,20 +127,14 @@ class StaggeredSettings:
         Resolution.
     """
 
+    method: ClassVar[Method] = "staggered"
+    accuracy: ClassVar[None] = None  # one mesh: nothing controls its error
+
     base_drag: float = 0.02
     step_share: float = 1.0
     start: Start = "straight"
     horizon: float = LONGEST_EXCHANGE
     size: MeshSize = field(default=TRANSIENT_LEVELS[0])
-
-    @property
-    def method(self) -> Method:
-        """Name of the method."""
-        return "staggered"
-
-    @property
-    def accuracy(self) -> None:
-        """None: the exchange has one mesh, and nothing controls its error."""
 
     def solve(self, scene: Scene) -> Solution | FailedSolution:
         """Snow against the scene's net by the paper's exchange."""

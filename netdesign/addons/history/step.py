@@ -6,6 +6,7 @@ the net acts at vertices only. Theory: coupling/THEORY.md, section 6.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -16,7 +17,6 @@ from netdesign.addons.history.body import SnowBody, build_material
 from netdesign.addons.history.snow import (
     BodyLoad,
     CompiledSnow,
-    Condensed,
     PlainSnow,
     SnowIterate,
     prepare_snow,
@@ -222,30 +222,18 @@ class NetAnswer(NamedTuple):
 
     Attributes
     ----------
-    condensed : Condensed
-        The snow.
-    moves : ndarray, shape (2 n_net, m)
-        From the unknowns to velocities of the net's nodes.
     change : ndarray, shape (m,)
         Under the forces of the last iteration [velocity scale].
     per_force : ndarray, shape (m, 2 n)
         Per unit force on each node, X of all, then Y of all.
+    answer : callable
+        Gives the next iterate, under more forces (2 n,) than those of the last one, in
+        that order [force scale].
     """
 
-    condensed: Condensed
-    moves: Floats
     change: Floats
     per_force: Floats
-
-    def answer(self, more: Floats) -> SnowIterate:
-        """Next iterate, under more forces than those of the last one.
-
-        Parameters
-        ----------
-        more : ndarray, shape (2 n,)
-            On the net's nodes, X of all, then Y of all [force scale].
-        """
-        return self.condensed.answer(self.moves @ (self.change + self.per_force @ more))
+    answer: Callable[[Floats], SnowIterate]
 
 
 def assemble_step(
@@ -350,7 +338,12 @@ def condense_step(
     push = sums.T @ condensed.missing
     push[: forces.size] += forces.ravel()
     per_force = np.asarray(inverse[:, : forces.size], dtype=np.float64)
-    return NetAnswer(condensed, moves, inverse @ push, per_force)
+    change = inverse @ push
+
+    def answer(more: Floats) -> SnowIterate:
+        return condensed.answer(moves @ (change + per_force @ more))
+
+    return NetAnswer(change, per_force, answer)
 
 
 def _nodal_weight(problem: TransientProblem, body: SnowBody) -> Floats:

@@ -73,17 +73,14 @@ class CheckByCase:
     ----------
     row, ranges : NetRow, Ranges
         What is checked, and over what.
-    member : str
-        Whose force.
-    scale : float
-        Utilisation for each N of the upper end of the solved force [1/N].
+    scales : mapping of str to float
+        Utilisation for each N of the upper end of the solved force, that which is
+        largest first; beside it the member's by the section or by the panel between
+        posts: the larger utilisation counts [1/N].
     added, rise : float
         Utilisation by what is added to the largest force [-], and what that grows by
         for each such force more. Another force brings it: it is taken to stay where
         the member's falls, and to grow as the member's does.
-    beside : tuple of (str, float)
-        Another force of the same member, by the section or by the panel between posts,
-        with its ``scale``: the larger utilisation counts.
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
@@ -97,35 +94,29 @@ class CheckByCase:
 
     row: NetRow
     ranges: Ranges
-    member: str
-    scale: float
+    scales: Mapping[str, float]
     governing: Case
     results: Sequence[CaseResult]
     widen: Callable[[Ranges], float] = lambda _: 1.0
     added: float = 0.0
     rise: float = 0.0
-    beside: tuple[tuple[str, float], ...] = ()
     push: Push | None = None
+
+    @property
+    def member(self) -> str:
+        """Whose force is followed."""
+        return next(iter(self.scales))
 
     @cached_property
     def largest(self) -> float:
         """Largest force of the member over the solved cases [N]."""
-        return max(self.force(case) for case in self.results if self.has_result(case))
-
-    @cached_property
-    def _names(self) -> tuple[str, ...]:
-        """Names of all forces that the check follows."""
-        beside = tuple(name for name, _ in self.beside)
-        rope = (self.push.rope,) if self.push is not None else ()
-        return (self.member, *beside, *rope)
+        solved = filter(self.has_result, self.results)
+        return max(self._read(case, self.member) for case in solved)
 
     def has_result(self, result: CaseResult) -> bool:
         """All forces are known that the check follows."""
-        return all(name in result.member_forces for name in self._names)
-
-    def force(self, result: CaseResult) -> float:
-        """Upper end of the member's force in a case [N]."""
-        return self._read(result, self.member)
+        ropes = () if self.push is None else (self.push.rope,)
+        return result.member_forces.keys() >= {*self.scales, *ropes}
 
     def _read(self, result: CaseResult, name: str) -> float:
         """Upper end of a force in a case, with what a rope adds to it [N]."""
@@ -138,8 +129,8 @@ class CheckByCase:
         """Upper end of the utilisation in a case [-]; None if it has no result."""
         if not self.has_result(result):
             return None
-        used = self.use(self.force(result))
-        for name, scale in self.beside:
+        used = self.use(self._read(result, self.member))
+        for name, scale in self.scales.items():
             used = max(used, scale * self._read(result, name) + self.added)
         return used
 
@@ -148,7 +139,7 @@ class CheckByCase:
         added = self.added
         if self.rise and self.largest:
             added += self.rise * max(0.0, force / self.largest - 1.0)
-        return self.scale * force + added
+        return self.scales[self.member] * force + added
 
 
 def find_check_by_case(
@@ -197,12 +188,6 @@ def _is_post_beside(force: MemberForce) -> bool:
     on, posts = force.on, (Member.POST, Member.POST_BASE)
     is_post = force.largest.quantity in (*posts, *map(name_in_panel, posts))
     return is_post and on.support.is_second and on.push is not None
-
-
-def _find_use(check: MemberCheck, force: MemberForce) -> float:
-    """Utilisation for each kN on a member inside the row [1/kN]."""
-    factor, design = map(check.check.read, ("γ_E", "R_d"))
-    return _find_growth(force) * (factor or 0.0) / (design or math.inf)
 
 
 def _find_growth(force: MemberForce) -> float:
@@ -269,18 +254,17 @@ def _build_check(
     force = check.force
     if force is None:
         raise ValueError("a check without a force has no target")
-    use, results = _find_use(check, force), task.solved.results
+    results, followed = task.solved.results, force.largest.quantity
+    factor, design = map(check.check.read, ("γ_E", "R_d"))
+    use = _find_growth(force) * (factor or 0.0) / (design or math.inf)
     scales = {
         record.quantity: use * _find_share(force) * _widen(record, results) / 1e3
         for record in force.solved
     }
-    followed = force.largest.quantity
     return CheckByCase(
         row=task.row,
         ranges=task.site.ranges,
-        member=followed,
-        scale=scales.pop(followed),
-        beside=tuple(scales.items()),
+        scales={followed: scales.pop(followed), **scales},
         added=use * _find_added(force),
         rise=use * _find_rise(check.forces, check.resistance.member),
         governing=task.extremes[followed].governing.case,

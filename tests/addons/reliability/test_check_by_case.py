@@ -98,8 +98,7 @@ def build_check(added, rise):
     return CheckByCase(
         row=build_row("R"),
         ranges=draw_ranges(random.Random(7)),
-        member="post",
-        scale=0.41,
+        scales={"post": 0.41},
         governing=case,
         results=[result],
         added=added,
