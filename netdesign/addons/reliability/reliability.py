@@ -100,17 +100,6 @@ def follow_design_point(state: LimitState, before: DesignPoint | None) -> Design
     return following
 
 
-def approach_design_point(
-    state: LimitState, point: DesignPoint, shift: float
-) -> Floats:
-    """Place near the design point of the margins plus ``shift``: one step of (U9).
-
-    NaN where the step has no end.
-    """
-    (margin,), (slope,) = state.differentiate(point.place[None])
-    return _find_nearest(margin + shift, slope, point.place, state.caps)
-
-
 def _descend(
     state: LimitState, starts: Floats, sign: float
 ) -> list[DesignPoint | None]:
@@ -360,7 +349,9 @@ def find_reliability(state: LimitState, shift: float | None = None) -> Reliabili
     nearest, shifts = points[0], [0.0]
     centres = np.array([point.place for point in points])
     if shift is not None:
-        beside = approach_design_point(state, nearest, shift)
+        # near the design point of the margins with the shift: one step of (U9)
+        (margin,), (slope,) = state.differentiate(nearest.place[None])
+        beside = _find_nearest(margin + shift, slope, nearest.place, state.caps)
         if np.isfinite(beside).all():
             centres, shifts = np.vstack([centres, beside]), [0.0, shift]
     estimate, *others = estimate_betas(state, centres, shifts)

@@ -304,8 +304,3 @@ def _fit(
     rates = np.array(list(rated.values()))
     ends = np.vstack([places.min(axis=0), places.max(axis=0)])
     return fit_surrogate(places, rates[:, None]), ends
-
-
-def meet(response: Response, values: Mapping[str, float], rate: float) -> Response:
-    """Model shifted so that it has a solved value of ln mu at one place."""
-    return replace(response, shift=response.shift + rate - response.find_at(values))

@@ -24,7 +24,6 @@ from netdesign.addons.reliability.response import (
     Rater,
     Response,
     build_response,
-    meet,
     move,
 )
 from netdesign.addons.reliability.variables import (
@@ -246,7 +245,8 @@ def _meet_design_point(state: _State, rater: Rater) -> tuple[_State, float, floa
             raise ModelError(say("reliability.no_solve"))
         solved, miss = rate, abs(rate - by_model)
         error = math.hypot(state.response.find_error(values), miss)
-        state = replace(state, response=meet(state.response, values, solved))
+        shift = state.response.shift + solved - by_model
+        state = replace(state, response=replace(state.response, shift=shift))
         if miss < _CLOSE:
             break
     if miss > LARGEST_MISS:

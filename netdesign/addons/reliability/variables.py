@@ -360,16 +360,15 @@ def list_lines(check: CheckByCase, variables: tuple[Variable, ...]) -> list[Line
     ends = {"thickness": (0.0, row.net_height)}
     ends["glide_factor"] = (_LEAST_GLIDE, LARGEST_GLIDE_FACTOR)
     return [
-        _choose_line(name, values[name], shares, ends.get(name, (0.0, math.inf)))
-        for name, shares in _SHARES.items()
+        _choose_line(name, values[name], ends.get(name, (0.0, math.inf)))
+        for name in _SHARES
         if name in names and name not in check.ranges.axes
     ]
 
 
-def _choose_line(
-    name: str, value: float, shares: tuple[float, float], ends: tuple[float, float]
-) -> Line:
+def _choose_line(name: str, value: float, ends: tuple[float, float]) -> Line:
     """Line that is solved at its high end, or below the value if that is near it."""
+    shares = _SHARES[name]
     low, high = max(shares[0] * value, ends[0]), min(shares[1] * value, ends[1])
     is_near = math.log(high / value) < _TOO_NEAR
     return Line(
