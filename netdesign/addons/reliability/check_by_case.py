@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 
+from netdesign.calculation.quantity import Quantity
 from netdesign.checks import OpenKind
 from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Case, Ranges
@@ -199,33 +200,31 @@ def _find_growth(force: MemberForce) -> float:
         return 1.0 + (support.end_factor.value or 0.0)
     ratio = 1.0
     if support.width is not None and support.spacing is not None:
-        ratio = (support.width / support.spacing).value or 1.0
-    return ratio * ((lateral.value if lateral else None) or 1.0)
+        ratio = _read_ratio(support.width / support.spacing)
+    return ratio * _read_ratio(lateral)
 
 
 def _find_share(force: MemberForce) -> float:
     """Part of the section's force in the member [-]."""
-    share = force.on.load.share
-    return _find_tilt(force) * ((share.value if share else None) or 1.0)
+    return _read_ratio(force.on.tilt) * _read_ratio(force.on.load.share)
 
 
-def _find_tilt(force: MemberForce) -> float:
-    return (force.on.tilt.value if force.on.tilt else None) or 1.0
+def _read_ratio(quantity: Quantity | None) -> float:
+    """Value of a ratio that stands in a force [-]; 1 where it does not."""
+    return (quantity.value if quantity else None) or 1.0
 
 
 def _find_added(force: MemberForce) -> float:
     """Upper end of what the load along the row adds, inside the row [kN]."""
     added, across = force.on.load.added, force.on.load.across
-    return _find_tilt(force) * (high_of(added) + high_of(across))
+    return _read_ratio(force.on.tilt) * (high_of(added) + high_of(across))
 
 
 def _find_rise(forces: RowForces, member: str) -> float:
     """Growth of that where the pull on the head doubles, at most [kN]."""
     held, row = forces.along_row, forces.row
-    alone = (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH)
+    alone = (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH, *ROPE_OF)
     if held is None or member in (*alone, *row.layout.anchors_at_foot):
-        return 0.0
-    if member in ROPE_OF:
         return 0.0
     load, splay = held.share * held.pull_high_kN, math.radians(held.splay_deg)
     if member not in PARTS:
