@@ -123,7 +123,7 @@ def compute_head_forces(
     if not held.is_held:
         return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
     for size in _SIZES:
-        require_within(size.replace("_", " "), getattr(held, size), 0.0, math.inf)
+        require_within(size, getattr(held, size), 0.0, math.inf)
     return held
 
 
