@@ -12,7 +12,6 @@ from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
     Comparison,
-    ComputedForce,
     compare_row,
     explain_unused,
 )
@@ -74,16 +73,15 @@ def _write_compared(comparison: Comparison, series: HeightSeries) -> dict[str, A
             {"time": moment.isoformat(), "air_C": celsius_from_kelvin(kelvin)}
             for moment, kelvin in comparison.air
         ],
-        "computed": [_write_computed(day, series) for day in comparison.computed],
-    }
-
-
-def _write_computed(day: ComputedForce, series: HeightSeries) -> dict[str, Any]:
-    return {
-        "date": series.day(day.index).isoformat(),
-        "force_kN": kilonewton_from_newton(day.force.value),
-        "low_kN": kilonewton_from_newton(max(0.0, day.force.low - day.swing)),
-        "high_kN": kilonewton_from_newton(day.force.high + day.swing),
+        "computed": [
+            {
+                "date": series.day(day.index).isoformat(),
+                "force_kN": kilonewton_from_newton(day.force.value),
+                "low_kN": kilonewton_from_newton(max(0.0, day.force.low - day.swing)),
+                "high_kN": kilonewton_from_newton(day.force.high + day.swing),
+            }
+            for day in comparison.computed
+        ],
     }
 
 
@@ -359,11 +357,7 @@ def _write_range(result: RowWinters, run: WinterRun) -> dict[str, Any] | None:
         models=(result.model, *result.others),
         row=result.row.id,
     )
-    return {
-        "low_kg_m3": ends[0],
-        "high_kg_m3": ends[1],
-        "justification": str(text),
-    }
+    return {"low_kg_m3": ends[0], "high_kg_m3": ends[1], "justification": str(text)}
 
 
 RELIABILITY_PERIOD = 1000.0  # [a], near the indices of a notional reliability

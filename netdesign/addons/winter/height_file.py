@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from datetime import date
+from datetime import date, datetime
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -57,13 +58,9 @@ AS_HEADED = HeightColumns()
 
 def build_columns(asked: Mapping[str, Any]) -> HeightColumns:
     """Columns of a file by the options of a command."""
-    missing = (asked["missing"] or "").split(",")
-    return HeightColumns(
-        date=(asked["date"] or "").strip(),
-        height=(asked["height"] or "").strip(),
-        unit=(asked["unit"] or "").strip(),
-        missing=tuple(word.strip() for word in missing if word.strip()),
-    )
+    words = [word.strip() for word in (asked["missing"] or "").split(",")]
+    names = {key: (asked[key] or "").strip() for key in ("date", "height", "unit")}
+    return HeightColumns(**names, missing=tuple(word for word in words if word))
 
 
 def read_height_file(
@@ -201,8 +198,7 @@ def _find_columns(sheet: Sheet, named: HeightColumns | None) -> _Columns | None:
 
 
 _NUMBERS = re.compile(r"(\d{1,4})([./-])(\d{1,2})\2(\d{1,4})\b(.*)", re.DOTALL)
-_ORDERS = ((2, 1, 0), (2, 0, 1), (0, 1, 2))  # places of year, month, day
-_CENTURY = 70  # years of two digits from here on are 1970 to 1999
+_ORDERS = ("%d %m %Y", "%m %d %Y", "%Y %m %d")
 
 
 def _read_days(file: str, cells: Sequence[Cell]) -> dict[int, date]:
@@ -240,20 +236,14 @@ def _list_orders(cells: Sequence[Cell]) -> list[list[date]]:
     return orders
 
 
-def _read_day(text: str, order: tuple[int, int, int]) -> date | None:
+def _read_day(text: str, order: str) -> date | None:
     """Day of a text in one order of its numbers; None if it is none."""
     parted = _NUMBERS.fullmatch(text)
-    if parted is None:
-        return None
-    numbers = (parted[1], parted[3], parted[4])
-    year, month, day = (numbers[place] for place in order)
-    if len(year) not in (2, 4) or len(month) > 2 or len(day) > 2:
-        return None
-    century = 0 if len(year) == 4 else 1900 if int(year) >= _CENTURY else 2000
-    try:
-        return date(century + int(year), int(month), int(day))
-    except ValueError:
-        return None
+    numbers = " ".join(parted.group(1, 3, 4)) if parted else ""
+    for form in (order, order.lower()):  # years of four digits, or of two
+        with suppress(ValueError):
+            return datetime.strptime(numbers, form).date()
+    return None
 
 
 def complete_by_sheet(

@@ -323,17 +323,14 @@ def _compare_tails(statistics: Mapping[str, Any], words: Words) -> Iterator[Bloc
     """Sentences on what a heavier tail than Gumbel's would make of the values."""
     for value in statistics["return_values"]:
         if value["tails"]:
-            (light, light_high), (heavy, heavy_high) = (
-                (tail["foot_kN_per_m"], tail["high_kN_per_m"])
-                for tail in value["tails"]
-            )
+            light, heavy = value["tails"]
             sentence = words(
                 "winter_page.tails",
                 period=value["period_a"],
-                light=light,
-                light_high=light_high,
-                heavy=heavy,
-                heavy_high=heavy_high,
+                light=light["foot_kN_per_m"],
+                light_high=light["high_kN_per_m"],
+                heavy=heavy["foot_kN_per_m"],
+                heavy_high=heavy["high_kN_per_m"],
             )
             yield notes(sentence, look="notes open")
 
