@@ -177,7 +177,6 @@ def _solve(
         site=site,
         winter=station,
         rows=results,
-        packs=packs,
         is_smoothed=asked["median"],
         accuracy=asked["accuracy"],
     )

@@ -412,11 +412,10 @@ def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRo
     ModelError
         If the model refuses the row.
     """
-    case = Case(
-        density=_find_middle(site, "density"),
-        friction_angle=_find_middle(site, "friction_angle"),
-        inclination=_find_middle(site, "inclination"),
-    )
+    names = ("density", "friction_angle", "inclination")
+    ranges = (site.ranges[name] for name in names)  # of all rows
+    density, friction, inclination = ((x.low + x.high) / 2.0 for x in ranges)
+    case = Case(density=density, friction_angle=friction, inclination=inclination)
     # winters are compared with what was measured: on the ground as it is
     scene = replace(build_scene(row, case, BOUTILLIER_2004), ground=row.ground)
     return WinterRow(
@@ -425,11 +424,6 @@ def build_winter_row(site: Site, row: NetRow, winter: StationWinter) -> WinterRo
         layout=row.layout,
         height_factor=winter.find_factor(row.id) or ASSUMED_FACTOR,
     )
-
-
-def _find_middle(site: Site, name: str) -> float:
-    interval = site.ranges[name]  # of all rows
-    return (interval.low + interval.high) / 2.0
 
 
 def require_plausible_heights(

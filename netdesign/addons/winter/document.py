@@ -18,7 +18,6 @@ from netdesign.addons.winter.measured import (
 from netdesign.addons.winter.season import (
     RowWinters,
     Season,
-    StationPacks,
     list_complete,
 )
 from netdesign.addons.winter.settling import DayPack
@@ -100,8 +99,6 @@ class WinterRun:
         What was measured.
     rows : sequence of RowWinters
         Of each row.
-    packs : StationPacks
-        Snow of the station, from which they come.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -111,7 +108,6 @@ class WinterRun:
     site: Site
     winter: StationWinter
     rows: Sequence[RowWinters]
-    packs: StationPacks
     is_smoothed: bool
     accuracy: float
 
@@ -162,7 +158,7 @@ def _write_temperatures(station: StationWinter) -> dict[str, float]:
 def _write_row(result: RowWinters, run: WinterRun) -> dict[str, Any]:
     row = result.row
     scene, net = row.scene, row.scene.net
-    packs = run.packs.packs[result.model]
+    packs = result.station.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
     proven = [maximum.foot for maximum in result.maxima if maximum.is_proven]

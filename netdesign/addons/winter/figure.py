@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from datetime import date, datetime, time, timedelta
+from datetime import datetime, timedelta
 from typing import Any
 
 from netdesign.addons.charts import Line, Mark, Panel, draw_panels, shade
@@ -14,7 +14,7 @@ _FORCES, _MEMBERS, _SNOW, _AIR = 150.0, 96.0, 104.0, 64.0  # heights of the pane
 _LOOSE, _DENSE = 80.0, 600.0  # ends of the greys [kg/m3]
 _MEMBERS_SHOWN = ("foot_anchor", "uphill_guy", "post")
 
-Days = list[tuple[int, Mapping[str, Any]]]  # days since the first, and what is known
+Days = list[tuple[float, Mapping[str, Any]]]  # days since the first, and what is known
 
 
 def draw_winter(
@@ -33,17 +33,12 @@ def draw_winter(
     """
     if not winter["curve"]:
         return ""
-    first, last = _find_span(winter["curve"])
-    count = (last - first).days
-
-    def place(day: str) -> int:
-        return (date.fromisoformat(day) - first).days
-
-    every = [(place(day["date"]), day) for day in winter["curve"]]
-    days = [(at, day) for at, day in every if 0 <= at <= count]
+    span = _find_span(winter["curve"])
+    every = [(datetime.fromisoformat(day["date"]), day) for day in winter["curve"]]
+    days = _cut(every, span)
     marks = [
         Mark(
-            x=place(winter[key]),
+            x=(datetime.fromisoformat(winter[key]) - span[0]) / _DAY,
             label=words(label),
             is_accent=key == "governing_date",
         )
@@ -55,8 +50,7 @@ def draw_winter(
     ]
     panels = _list_forces(days, words, marks)
     description = _describe(winter["name"], panels, words)
-    panels.append(_show_snow(days, count, words))
-    span = (datetime.combine(first, time()), datetime.combine(last, time()))
+    panels.append(_show_snow(days, (span[1] - span[0]) / _DAY, words))
     warmth = [(datetime.fromisoformat(day), y) for day, y in sorted(air.items())]
     panels += _show_air(_cut(warmth, span), words("winter_page.air_title"))
     return draw_panels(panels, description, span=span, language=words.language)
@@ -112,10 +106,10 @@ def _describe(winter: str, panels: Sequence[Panel], words: Words) -> str:
     return words("drawing.with_values", what=what, values=values)
 
 
-def _show_snow(days: Days, count: int, words: Words) -> Panel:
+def _show_snow(days: Days, last: float, words: Words) -> Panel:
     """Layers of each day as tiles: the darker, the denser."""
     tiles = []
-    ends = [*(at for at, _ in days[1:]), count]
+    ends = [*(at for at, _ in days[1:]), last]
     for (start, day), end in zip(days, ends, strict=True):
         base = 0.0
         uniform = {key: day[key] for key in ("thickness_m", "density_kg_m3")}
@@ -134,11 +128,11 @@ def _show_snow(days: Days, count: int, words: Words) -> Panel:
     )
 
 
-def _find_span(days: Sequence[Mapping[str, Any]]) -> tuple[date, date]:
+def _find_span(days: Sequence[Mapping[str, Any]]) -> tuple[datetime, datetime]:
     """First and last day with snow, a little room beside them."""
-    snowy = [date.fromisoformat(day["date"]) for day in days if day["thickness_m"] > 0]
-    every = snowy or [date.fromisoformat(day["date"]) for day in days]
-    return min(every) - timedelta(days=3), max(every) + timedelta(days=5)
+    snowy = [day for day in days if day["thickness_m"] > 0] or days
+    moments = [datetime.fromisoformat(day["date"]) for day in snowy]
+    return min(moments) - 3 * _DAY, max(moments) + 5 * _DAY
 
 
 _DAY, _NOON = timedelta(days=1), timedelta(hours=12)

@@ -258,13 +258,14 @@ def explain_unused(
     compared : sequence of Comparison
         What stands beside a curve.
     """
-    messages = []
     used = {comparison.series.source for comparison in compared if comparison.computed}
-    for series in list_monitoring(site, row_id):
-        if series.source in used:
-            continue
-        if not any(force is not None for force in series.tensions):
-            continue
-        key = "monitoring.undated" if series.start is None else "monitoring.outside"
-        messages.append(say(key, place=series.source))
-    return tuple(messages)
+    keys = {
+        series.source: "outside" if series.start else "undated"
+        for series in list_monitoring(site, row_id)
+        if any(force is not None for force in series.tensions)
+    }
+    return tuple(
+        say(f"monitoring.{key}", place=place)
+        for place, key in keys.items()
+        if place not in used
+    )

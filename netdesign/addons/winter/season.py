@@ -274,6 +274,8 @@ class RowWinters:
     ----------
     row : WinterRow
         As loaded.
+    station : StationPacks
+        Snow from which they come.
     model : str
         Name of the settling model.
     maxima : tuple of AnnualMaximum
@@ -284,17 +286,15 @@ class RowWinters:
         The same winters by the other settling models.
     sample : Sample
         Complete winters, with the distribution of their maxima.
-    cut : tuple of str
-        Winters that are incomplete, and give no range of density.
     """
 
     row: WinterRow
+    station: StationPacks
     model: str
     maxima: tuple[AnnualMaximum, ...]
     seasons: tuple[Season, ...]
     others: Mapping[str, tuple[AnnualMaximum, ...]]
     sample: Sample
-    cut: tuple[str, ...] = ()
 
     @property
     def density_range(self) -> tuple[float, float] | None:
@@ -306,11 +306,11 @@ class RowWinters:
             *self.maxima,
             *(maximum for group in self.others.values() for maximum in group),
         ]
-        whole = (maximum for maximum in every if maximum.winter not in self.cut)
+        cut = self.station.series.cut
         densities = [
             maximum.equivalent_density
-            for maximum in whole
-            if maximum.equivalent_density
+            for maximum in every
+            if maximum.equivalent_density and maximum.winter not in cut
         ]
         return (min(densities), max(densities)) if densities else None
 
@@ -396,10 +396,10 @@ def follow_winters(
     sample = [maximum for maximum in maxima[chosen] if maximum.winter in complete]
     return RowWinters(
         row=solver.row,
+        station=station,
         model=chosen,
         maxima=maxima[chosen],
         seasons=seasons,
         others={model: maxima[model] for model in rest},
         sample=Sample(maxima=tuple(sample)),
-        cut=station.series.cut,
     )
