@@ -59,14 +59,7 @@ def merge_layers(
         for d, rho in zip(thicknesses, densities, strict=True)
     ]
     thin = THINNEST_SHARE * sum(layer.thickness for layer in layers)
-    while len(layers) > 1:
-        place = _find_light(layers)
-        if place is None:
-            place = _find_thin(layers, thin)
-        if place is None and len(layers) > most:
-            place = min(range(len(layers) - 1), key=lambda k: _weigh(layers, k))
-        if place is None:
-            break
+    while (place := _find_pair(layers, thin, most)) is not None:
         layers[place : place + 2] = [_join(layers[place], layers[place + 1])]
     return tuple(layers)
 
@@ -84,19 +77,20 @@ def _scale_layers(layers: Sequence[Layer], factor: float) -> tuple[Layer, ...]:
     return tuple(replace(layer, thickness=factor * layer.thickness) for layer in layers)
 
 
-def _find_light(layers: list[Layer]) -> int | None:
-    """Lower one of the pair that takes the lightest layer, if that is too light."""
-    place = min(range(len(layers)), key=lambda k: layers[k].density)
-    return None if layers[place].density >= LEAST_DENSITY else max(place - 1, 0)
-
-
-def _find_thin(layers: list[Layer], thin: float) -> int | None:
-    """Lower one of the pair that takes the thinnest layer, if that is too thin."""
-    place = min(range(len(layers)), key=lambda k: layers[k].thickness)
-    if layers[place].thickness >= thin:
+def _find_pair(layers: list[Layer], thin: float, most: int) -> int | None:
+    """Lower one of the pair that is joined next; None where all may stay."""
+    if len(layers) == 1:
         return None
-    pairs = [k for k in (place - 1, place) if 0 <= k < len(layers) - 1]
-    return min(pairs, key=lambda k: _compare(layers, k))
+    lightest = min(range(len(layers)), key=lambda k: layers[k].density)
+    if layers[lightest].density < LEAST_DENSITY:
+        return max(lightest - 1, 0)
+    thinnest = min(range(len(layers)), key=lambda k: layers[k].thickness)
+    if layers[thinnest].thickness < thin:
+        pairs = [k for k in (thinnest - 1, thinnest) if 0 <= k < len(layers) - 1]
+        return min(pairs, key=lambda k: _compare(layers, k))
+    if len(layers) > most:
+        return min(range(len(layers) - 1), key=lambda k: _weigh(layers, k))
+    return None
 
 
 def _weigh(layers: list[Layer], place: int) -> float:
@@ -221,11 +215,6 @@ class RowDay:
     member_forces: Mapping[str, Band] = field(default_factory=dict)
 
     @property
-    def is_open(self) -> bool:
-        """The day waits for its solve."""
-        return self.ending == "open"
-
-    @property
     def pull(self) -> float | None:
         """Foot's pull [N/m]; None where nothing is known of it."""
         if self.ending in ("bare", "thin"):
@@ -302,7 +291,9 @@ class DaySolver:
         days : sequence of RowDay
             Those that are not ``open`` stay as they are.
         """
-        first = {day.index: day for day in self._run([d for d in days if d.is_open])}
+        first = {
+            day.index: day for day in self._run([d for d in days if d.ending == "open"])
+        }
         failed = [day for day in first.values() if day.ending == "failed"]
         again = [replace(day, layers=(), ending="open") for day in failed if day.layers]
         second = {
@@ -345,12 +336,13 @@ class DaySolver:
             friction_angle=getattr(net, "friction_angle", None) or 0.0,
             inclination=net.inclination,
         )
-
-        def build(_: Case) -> Scene:
-            return build_day_scene(self.row.scene, day)
-
         layouts = () if self.row.layout is None else (self.row.layout,)
-        return build_task(case, build, layouts, self.settings)
+        return build_task(
+            case,
+            lambda _: build_day_scene(self.row.scene, day),
+            layouts,
+            self.settings,
+        )
 
 
 def build_day_scene(scene: Scene, day: RowDay) -> Scene:

@@ -49,7 +49,9 @@ def draw_winter(
         if winter[key]
     ]
     panels = _list_forces(days, words, marks)
-    description = _describe(winter["name"], panels, words)
+    values = tuple(line.label for panel in panels for line in panel.lines)
+    figure = words("winter_page.figure", winter=winter["name"])
+    description = words("drawing.with_values", what=figure, values=values)
     panels.append(_show_snow(days, (span[1] - span[0]) / _DAY, words))
     warmth = [(datetime.fromisoformat(day), y) for day, y in sorted(air.items())]
     panels += _show_air(_cut(warmth, span), words("winter_page.air_title"))
@@ -97,13 +99,6 @@ def _list_lines(
         for number, (name, values) in enumerate(forces.items())
         if (pulls := [force for force in values if force is not None])
     ]
-
-
-def _describe(winter: str, panels: Sequence[Panel], words: Words) -> str:
-    """Words for the drawing, with the largest value of each line."""
-    values = tuple(line.label for panel in panels for line in panel.lines)
-    what = words("winter_page.figure", winter=winter)
-    return words("drawing.with_values", what=what, values=values)
 
 
 def _show_snow(days: Days, last: float, words: Words) -> Panel:

@@ -74,6 +74,8 @@ class Gap:
     ----------
     before, after : date
         The readings beside it.
+    days : tuple of date
+        Days that were not read.
     is_closable : bool
         A straight line, or bare ground, may stand for what was not read.
     is_between : bool
@@ -83,14 +85,9 @@ class Gap:
 
     before: date
     after: date
+    days: tuple[date, ...]
     is_closable: bool
-    is_between: bool = False
-
-    @property
-    def days(self) -> tuple[date, ...]:
-        """Days that were not read."""
-        count = (self.after - self.before).days - 1
-        return tuple(self.before + timedelta(days=k + 1) for k in range(count))
+    is_between: bool
 
 
 def find_gaps(readings: Mapping[date, float]) -> tuple[Gap, ...]:
@@ -103,15 +100,12 @@ def find_gaps(readings: Mapping[date, float]) -> tuple[Gap, ...]:
     """
     gaps = []
     for (before, low), (after, high) in pairwise(readings.items()):
-        count = (after - before).days - 1
-        if not count:
+        places = range(1, (after - before).days)
+        days = tuple(before + timedelta(days=place) for place in places)
+        if not days:
             continue
-        snowy = [
-            name_winter(day)
-            for day in (before + timedelta(days=k + 1) for k in range(count))
-            if day.month in _SNOW_MONTHS
-        ]
-        is_long, winter = count > LONGEST_GAP, name_winter(after)
+        snowy = [name_winter(day) for day in days if day.month in _SNOW_MONTHS]
+        is_long, winter = len(days) > LONGEST_GAP, name_winter(after)
         is_over = low > high == 0.0 and name_winter(before) != winter
         is_between = is_long and is_over and winter not in snowy
         is_bare = low == high == 0.0 and not snowy
@@ -119,6 +113,7 @@ def find_gaps(readings: Mapping[date, float]) -> tuple[Gap, ...]:
             Gap(
                 before=before,
                 after=after,
+                days=days,
                 is_closable=not is_long or is_bare or is_between,
                 is_between=is_between,
             )

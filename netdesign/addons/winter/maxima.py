@@ -228,7 +228,7 @@ def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]
     solver : DaySolver
         Of the row.
     """
-    waiting = [day for day in days if day.is_open]
+    waiting = [day for day in days if day.ending == "open"]
     ranks = rank_days(waiting, solver.row.scene.ground.kind)
     least = RANKED * float(ranks.max(initial=0.0))
     return tuple(day for day, rank in zip(waiting, ranks, strict=True) if rank >= least)

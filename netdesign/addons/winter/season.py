@@ -328,14 +328,10 @@ def split_packs(
         Followed over the whole series: snow of last winter goes on settling.
     """
     packs = follow_heights(series.heights, model, FIRST_DENSITY)
-    winters = {
-        name: {k: packs[k] for k in range(days.start, days.stop)}
-        for name, days in split_winters(series).items()
-    }
     return {
-        name: days
-        for name, days in winters.items()
-        if any(pack.heights.size for pack in days.values())
+        name: dict(list(enumerate(packs))[days])
+        for name, days in split_winters(series).items()
+        if any(pack.heights.size for pack in packs[days])
     }
 
 
