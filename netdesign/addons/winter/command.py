@@ -35,8 +35,6 @@ from netdesign.outcome import ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from netdesign.addons.winter.document import WinterRun
     from netdesign.addons.winter.settling import DayPack
     from netdesign.addons.winter.winter_sheet import StationWinter
@@ -82,8 +80,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     station = _find_heights(site, asked)
     chosen = choose_rows(site, asked["rows"])
     count = _PHASE * len(chosen.rows)
-    words = say("phase.winters")
-    phase = Phase(key="winters", words=words, cases=count)
+    phase = Phase(key="winters", words=say("phase.winters"), cases=count)
     with open_phases([phase], asked) as (runner, progress):
         progress.enter("winters")
         run = _solve(chosen, station, runner, asked)
@@ -200,8 +197,7 @@ def _show(document: dict[str, Any]) -> None:
             tell(row["equivalent_density"]["justification"])
         if row["snow_heights"]:
             tell(row["snow_heights"])
-        for message in _list_statistics(row):
-            tell(message)
+        _show_statistics(row)
 
 
 def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
@@ -220,11 +216,11 @@ def _tell_winter(row: str, winter: Mapping[str, Any]) -> Message:
     )
 
 
-def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
+def _show_statistics(row: Mapping[str, Any]) -> None:
     """Lines on the return values of a row with their errors."""
     statistics = row["statistics"]
     for value in statistics["return_values"] if statistics else ():
-        yield say(
+        message = say(
             "winter.return_value",
             row=row["id"],
             period=value["period_a"],
@@ -233,8 +229,9 @@ def _list_statistics(row: Mapping[str, Any]) -> Iterator[Message]:
             high=value["high_kN_per_m"],
             count=statistics["winters"],
         )
+        tell(message)
     for text in row["statistics_notes"]:
-        yield say("show.label", label=row["id"], text=text)
+        tell(say("show.label", label=row["id"], text=text))
 
 
 SCHEMA = "netdesign.snowpack/1"

@@ -381,13 +381,12 @@ def _end(day: RowDay, result: CaseResult) -> RowDay:
     foot, head = result.solution.foot, result.solution.head
     forces = dict(result.member_forces)
     forces.pop(NetPart.MESH, None)  # the net's own ends are told
-    layout_forces = {} if "rope" in forces else forces
     return replace(
         day,
         ending="solved",
         foot=spread_out(foot.size, foot.error),
         head=spread_out(head.size, head.error),
-        member_forces=layout_forces,
+        member_forces={} if "rope" in forces else forces,
     )
 
 

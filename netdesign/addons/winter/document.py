@@ -213,6 +213,7 @@ def _write_winter(
     if governing:
         foot, index = governing.pull, governing.index
     pack = None if index is None else packs[index]
+    failed = sum(day.pull is None for day in curve)
     return {
         "name": maximum.winter,
         "outcome": maximum.ending.replace(" ", "_"),
@@ -233,7 +234,7 @@ def _write_winter(
         ),
         "equivalent_density_kg_m3": (season or maximum).equivalent_density,
         "days_above_90_percent": season.high_days if season else None,
-        "days_without_force": len(season.failed) if season else None,
+        "days_without_force": failed if season else None,
         "curve": [_write_day(day, packs, run) for day in curve],
     } | _write_uniform(maximum)
 

@@ -60,11 +60,6 @@ class HeightSeries:
         """Date of each height."""
         return tuple(map(self.day, range(len(self.heights))))
 
-    @property
-    def starts_in_snow(self) -> bool:
-        """Snow lies on the first day, and what fell before it is unknown."""
-        return self.heights[0] > 0.0
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gap:

@@ -350,18 +350,16 @@ def find_bound(
     float or None
         None where no thicker snow of a day's density has a force, up to the head.
     """
-    pulling = [day for day in solved if day.foot]
+    pulling = [(day, day.foot.high) for day in solved if day.foot]
     bound = 0.0
     for day in sorted(failed, key=lambda snow: -snow.density):
-        above = [
-            other.foot.high for other in pulling if other.foot and _covers(other, day)
-        ]
+        above = [high for other, high in pulling if _covers(other, day)]
         if not above:
             thicker = _solve_thicker(day, solver)
             if thicker is None or thicker.foot is None:
                 return None
-            pulling.append(thicker)
             above = [thicker.foot.high]
+            pulling.append((thicker, thicker.foot.high))
         bound = max(bound, min(above))
     return bound
 

@@ -174,9 +174,9 @@ def _describe_measured(entry: Mapping[str, Any], words: Words) -> str:
             member=show_member(words, entry["member"]),
             winter=entry["winter"],
             source=show_text(entry["source"]),
-        )
+        ),
+        words("winter_measured.swing"),
     ]
-    sentences.append(words("winter_measured.swing"))
     if entry["temperature_amplitude_assumed"]:
         sentences.append(words("winter_measured.assumed"))
     return " ".join(sentences)

@@ -74,11 +74,6 @@ class Season:
         return find_largest(self.curve)
 
     @property
-    def failed(self) -> tuple[RowDay, ...]:
-        """Days of the curve without a force, failed or overtopped."""
-        return tuple(day for day in self.curve if day.pull is None)
-
-    @property
     def high_days(self) -> int:
         """Days above ``HIGH_SHARE`` of the largest pull, read from the curve."""
         points = [(day.index, day.pull) for day in self.curve if day.pull is not None]

@@ -180,7 +180,7 @@ def _note_oddities(
     if series.cut:
         told = say("winter_sheet.cut", winters=series.cut)
         odd.append((told, lines[-1]["snow_height"]))
-    if series.starts_in_snow:
+    if series.heights[0] > 0.0:  # what fell before the first day is unknown
         odd.append((say("winter_sheet.starts_in_snow"), lines[0]["snow_height"]))
     for note, reading in odd:
         refuse(reading, note, "", findings, severity="note")
