@@ -161,9 +161,8 @@ def _solve(
     rows = [build_winter_row(site, row, station) for row in site.rows]
     if not asked["accept_heights"]:
         require_plausible_heights(rows, site.rows, station)
-    first = asked["model"]
-    others = [model for name, model in KNOWN.items() if name != first]
-    packs = StationPacks(series=station.series, models=[KNOWN[first], *others])
+    models = sorted(KNOWN.values(), key=lambda model: model.name != asked["model"])
+    packs = StationPacks(series=station.series, models=models)
     settings = SolverSettings(accuracy=asked["accuracy"])
     results = []
     for row in rows:

@@ -274,8 +274,7 @@ def fit_limited(maxima: Sequence[float], limit: float) -> LimitedGumbel | None:
     above = int((values > limit).sum())
     if values.size < LEAST_WINTERS or above < LEAST_ABOVE:
         return None
-    fit = _fit_limited(values[None], limit)
-    location, scale = (float(part[0]) for part in fit)
+    location, scale = (float(part[0]) for part in _fit_limited(values[None], limit))
     rng = np.random.default_rng(_SEED)
     drawn = rng.gumbel(location, scale, size=(_BOOTSTRAP, values.size))
     locations, scales = _fit_limited(np.maximum(drawn, limit), limit)
