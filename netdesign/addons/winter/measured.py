@@ -260,12 +260,10 @@ def explain_unused(
     """
     used = {comparison.series.source for comparison in compared if comparison.computed}
     keys = {
-        series.source: "outside" if series.start else "undated"
+        series.source: "monitoring.outside" if series.start else "monitoring.undated"
         for series in list_monitoring(site, row_id)
         if any(force is not None for force in series.tensions)
     }
     return tuple(
-        say(f"monitoring.{key}", place=place)
-        for place, key in keys.items()
-        if place not in used
+        say(key, place=place) for place, key in keys.items() if place not in used
     )

@@ -116,10 +116,9 @@ def _join(
     ends = place_in_ground(_find_end_types(rows, typed), anchors, findings)
     for rope in typed["ropes"]:
         check_ends(rope, findings)
+    joined = _join_types(typed, anchors, project, findings)
     types = {
-        "anchor_types": complete_anchors(name_by_ground(anchors), findings),
-        "ropes": typed["ropes"],
-        "posts": join_posts(typed["posts"], project, typed["net_types"], findings),
+        key: _index(joined[key], findings) if by_key[key] else {} for key in joined
     }
     named, cells = build_project(project)
     lines = Lines(
@@ -130,9 +129,7 @@ def _join(
         rows=placed,
         ends={row["id"].word: end for row, end in zip(rows, ends, strict=True)},
         snow=layers,
-        types={
-            key: _index(types[key], findings) if by_key[key] else {} for key in types
-        },
+        types=types,
         absent=[key for key in TYPES if not by_key[key] and key not in tables.unread],
         unreadable=[key for key in TYPES if not _has_ids(by_key[key])],
         ranges=build_ranges(project),
@@ -145,6 +142,20 @@ def _join(
     named_rows = (of_row[0]["row"] for of_row in layers.values())
     refuse_unknown_ids(named_rows, lines.places, findings)
     return lines
+
+
+def _join_types(
+    typed: Mapping[str, Sequence[Row]],
+    anchors: Sequence[Row],
+    project: Row,
+    findings: list[Finding],
+) -> dict[str, Sequence[Row]]:
+    """Lines of types by their sheets, each complete."""
+    return {
+        "anchor_types": complete_anchors(name_by_ground(anchors), findings),
+        "ropes": typed["ropes"],
+        "posts": join_posts(typed["posts"], project, typed["net_types"], findings),
+    }
 
 
 def _has_ids(table: Table | None) -> bool:
