@@ -278,6 +278,8 @@ def leaf(
     if value is None and lack is None:
         lack = say("calculation.missing", symbol=symbol)
     low, high = (None, None) if value is None else band or (value, value)
+    if value is not None and low is not None and high is not None:
+        low, value, high = low + 0.0, value + 0.0, high + 0.0  # never -0
     return Quantity(
         low=low,
         value=value,

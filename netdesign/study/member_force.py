@@ -60,6 +60,13 @@ PUSHED: Mapping[str, str] = {
     Member.POST_BASE: "base_part",
     **PARTS,
 }
+# Tension of the outer guy of each side by the linear truss.
+_BY_TRUSS: Mapping[str, str] = {
+    Member.UPHILL_GUY: "uphill_guy_kN",
+    Member.UPHILL_ANCHOR: "uphill_guy_kN",
+    Member.DOWNHILL_GUY: "downhill_guy_kN",
+    Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
+}
 # Modes with a force of their own; in all others that of the member counts.
 OWN_FORCES = ("sliding",)
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
@@ -313,8 +320,7 @@ def _list_rope_leaves(
     rope = forces.largest.get(RopeForce.UPPER_ALONG)
     if member not in PUSHED or at_end is None or rope is None:
         return []
-    of_guy = PUSHED[member].replace("_part", "_guy_kN")  # by the linear truss
-    truss = getattr(at_end, of_guy, None)
+    truss = getattr(at_end, _BY_TRUSS.get(member, ""), None)
     leaves = [] if truss is None else [_solved("E_t", truss, "kN", "truss")]
     part: float = getattr(at_end, PUSHED[member])
     if part > 0.0:
