@@ -196,9 +196,17 @@ def show_structure(row: RowStudy, words: Words) -> Content:
         return show_rated(rate_scope(row, Scope.STRUCTURE), words)
     first = sign(row.scopes[Scope.STRUCTURE].verdict, words)
     if line.declared is None:
-        key = "outside" if line.mode == "approval" else "nothing_given"
-        return (first, Piece(words(f"rated.{key}"), "beside"))
+        return (first, Piece(_say_without_proof(row, line, words), "beside"))
     return (first, Piece(show_text(line.declared.document), "beside"))
+
+
+def _say_without_proof(row: RowStudy, line: Check, words: Words) -> str:
+    """Why no document proves the structure: none is there, or it may not hold."""
+    if line.mode != "approval":
+        return words("rated.nothing_given")
+    limits = (check for check in row.checks if check.mode == line.mode)
+    is_outside = any(check.verdict is Verdict.FAIL for check in limits)
+    return words("rated.outside" if is_outside else "rated.unsure")
 
 
 def _describe_row(row: RowStudy, words: Words) -> str:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.checks.comparison import compare
 from netdesign.checks.geometry import Approval
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import write_plain
@@ -17,6 +18,7 @@ from netdesign.report.sections.scopes import (
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.scopes import SCOPES
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.message import say
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader
 from tests.turn import turn
@@ -52,6 +54,19 @@ def test_the_document_of_an_approval_is_named(language):
     assert f"{words('of_scope.structure')} " in told
     assert DOCUMENT in told
     assert write_plain(show_structure(row, words)) == f"† {DOCUMENT}"
+
+
+@pytest.mark.parametrize(
+    ("verdict", "key"), [(Verdict.FAIL, "outside"), (Verdict.NOT_PROVEN, "unsure")]
+)
+def test_outside_its_approval_is_a_row_beyond_a_limit_alone(verdict, key):
+    """An altitude that is not given may lie inside."""
+    row = approve(STUDY.rows[0])
+    *anchors, line = row.checks
+    line = turn(line, Verdict.NOT_PROVEN)
+    limits = compare("approval", verdict, say("check.fails"))
+    row = replace(row, checks=[*anchors, limits, line])
+    assert write_plain(show_structure(row, ENGLISH)).endswith(ENGLISH(f"rated.{key}"))
 
 
 def test_every_scope_stands_with_its_verdict_and_utilisation():
