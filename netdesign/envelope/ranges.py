@@ -208,9 +208,12 @@ class Ranges:
     intervals : tuple of (str, Interval)
         Name and range (SI units) of each parameter, in the order of ``PARAMETERS``;
         an interval of one value is no free axis.
+    is_even : bool
+        All are divided evenly in their values, whatever the power of the parameter.
     """
 
     intervals: tuple[tuple[str, Interval], ...]
+    is_even: bool = False
 
     def __post_init__(self) -> None:
         """Refuse unknown, repeated and contradicting names, and keep one order."""
@@ -276,7 +279,7 @@ class Ranges:
     def find_value(self, name: str, share: float) -> float:
         """Value of a parameter at a share of its range."""
         span, power = self[name], PARAMETERS[name].power
-        if power == 1.0 or span.low <= 0.0 or share in (0.0, 1.0):
+        if self.is_even or power == 1.0 or span.low <= 0.0 or share in (0.0, 1.0):
             return (1.0 - share) * span.low + share * span.high
         mixed = (1.0 - share) * span.low**power + share * span.high**power
         return float(mixed ** (1.0 / power))

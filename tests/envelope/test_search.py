@@ -4,6 +4,7 @@ import math
 from contextlib import closing
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
@@ -38,6 +39,13 @@ def found(runner):
 @pytest.fixture(scope="module")
 def grid():
     return run_grid(TASK, {"density": 7, "friction_angle": 9}, Runner())[0]
+
+
+def test_a_grid_is_even_in_its_values(grid):
+    for name, count in (("density", 7), ("friction_angle", 9)):
+        span = RANGES[name]
+        values = sorted({getattr(result.case, name) for result in grid})
+        assert values == pytest.approx(np.linspace(span.low, span.high, count))
 
 
 def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
