@@ -24,9 +24,8 @@ from netdesign.edge.output import (
     print_json,
     write_files,
 )
-from netdesign.site.statements import list_missing
 from netdesign.words.catalogue import render
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -267,16 +266,15 @@ def _check_and_size(
 
 
 def announce(site: Site, *, as_json: bool) -> None:
-    """Print the planned checks, missing inputs and questions."""
+    """Print the planned checks, notes and questions."""
     from netdesign.study.cases import count_cases
 
-    rows, cases, missing = len(site.rows), count_cases(site), _list_missing(site)
+    rows, cases = len(site.rows), count_cases(site)
     if as_json:
         plan = {
-            "schema": "netdesign.plan/2",
+            "schema": "netdesign.plan/3",
             "net_rows": rows,
             "cases": cases,  # about
-            "missing": [render(text, speak()) for text in missing],
             "notes": [render(note, speak()) for note in site.notes],
             "questions": [render(question, speak()) for question in site.questions],
         }
@@ -285,19 +283,5 @@ def announce(site: Site, *, as_json: bool) -> None:
     tell(say("plan.summary", file=site.file_name, rows=rows, cases=cases))
     for note in site.notes:
         tell(say("cli.note", text=note))
-    for text in missing:
-        tell(text)
     for question in site.questions:
         tell(say("cli.question", text=question))
-
-
-def _list_missing(site: Site) -> list[Message]:
-    """Lines about inputs that net rows lack; rows that lack the same share a line."""
-    by_lack: dict[tuple[Message, ...], list[str]] = {}
-    for row in site.rows:
-        if names := list_missing(row, site.links):
-            by_lack.setdefault(names, []).append(row.id)
-    return [
-        say("plan.missing", rows=tuple(rows), names=names)
-        for names, rows in by_lack.items()
-    ]

@@ -20,7 +20,6 @@ from netdesign.site.assumed import Assumed, assume, assume_ends, load_assumed
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.lines import Lines, Types
 from netdesign.site.readings import Reading, Row
-from netdesign.site.statements import list_open_ropes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import find_model_code_density
@@ -77,6 +76,9 @@ def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
     """Whether each key is open, where an empty cell alone does not decide."""
     gap, count = row["gap"].given_si, row["guy_count"].given_count
     site = {assumed.key for assumed in lines.ranges.assumed}
+    ropes = [
+        lines.types["ropes"].get(row[key].word) for key in ("ridge_rope", "lower_rope")
+    ]
     of_types = set(_list_of_types([*row.values(), *end.values()], lines.types))
     return {
         **dict.fromkeys(_ALWAYS, True),
@@ -84,7 +86,9 @@ def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
         **{key: key in of_types for key in _OF_TYPES},
         "altitude": not row["altitude"].given_si,
         "snow_layers": row["id"].word not in lines.snow,
-        "axial_stiffness": bool(list_open_ropes(row, lines.types["ropes"])),
+        "axial_stiffness": any(
+            rope["axial_stiffness"].state != "given" for rope in ropes if rope
+        ),
         "guy_splay": count != 1 and row["guy_splay"].state == "blank",
         "guy_anchors": count != 1 and row["guy_anchors"].state == "blank",
         "row_end": gap is None,

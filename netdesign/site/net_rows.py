@@ -36,11 +36,9 @@ from netdesign.site.snow_sheets import (
     measure_normal,
     resolve_thickness,
 )
-from netdesign.site.statements import (
-    build_panels,
-    has_same_types,
-)
 from netdesign.site.support_types import (
+    TYPE_COLUMNS,
+    build_panels,
     build_row_end,
     find_net_parts,
     find_resistances,
@@ -242,7 +240,7 @@ def _compose_net_row(
     """Net row of a line without a fault, whose end may have other types."""
     thickness, layers, ground = snow
     gap, at_end = row["gap"].given_si, {**row, **end}
-    is_other = not has_same_types(at_end, row)
+    is_other = any(at_end[key].word != row[key].word for key in TYPE_COLUMNS)
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,

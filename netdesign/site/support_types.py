@@ -2,15 +2,27 @@
 
 A resistance that follows the demand stays open: how an anchor bends depends on where
 the pull points, how much compression a post bears on the snow against it, how its base
-slides on what presses it. Here stand the dimensions that the study works it out from.
+slides on what presses it. Here stand the dimensions that the study works it out from,
+and the stiffnesses of ropes and posts.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain, product
 from typing import NamedTuple, TypeAlias
 
+from netdesign.panel.inputs import (
+    OF_BREAKING,
+    STIFFNESSES,
+    Ends,
+    Panel,
+    find_stiffness,
+    list_panels,
+)
+from netdesign.resistance.catalogue import load_catalogue
 from netdesign.resistance.ground import BENDING, AnchorType
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
@@ -27,7 +39,6 @@ from netdesign.site.assumed import assume
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
-from netdesign.site.statements import list_stiffnesses
 from netdesign.site.type_lines import find_depth
 from netdesign.site.type_resistances import (
     SECTION,
@@ -54,6 +65,8 @@ from netdesign.words.message import Message, say
 
 AnyMember: TypeAlias = Member | EndMember | NetPart
 
+# Columns that name a type of a support.
+TYPE_COLUMNS = tuple(dict.fromkeys(name_column(member) for member, _ in MEMBER_MODES))
 _ENDS = ("head_eccentricity", "foot_eccentricity")  # one column gives both
 _BENT_POST = ("post_width", "section_modulus", *SECTION)
 # By table of types: a member that takes its types, and what these may fail by.
@@ -325,3 +338,90 @@ def _hold_foot(foot: _Typed) -> Resistance:
     lack = None if strength.si > 0.0 else say("check.foot_loose")
     tension = foot.leave_open("tension", lack=lack, source=strength.place)
     return replace(tension, value=None if lack else strength.si, basis="declared")
+
+
+_BORDER_ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
+
+
+def build_panels(row: Row, ropes: Mapping[str, Row]) -> tuple[Panel, ...]:
+    """Panels that a net row may have; what is not given is assumed.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of a net row.
+    ropes : mapping of str to mapping of str to Reading
+        Lines of ropes by id.
+    """
+    ridge, lower = (ropes.get(row[key].word) for key in _BORDER_ROPES)
+    return list_panels(
+        row["post_spacing"].si,
+        sags=(row["ridge_sag"].given_si, row["lower_sag"].given_si),
+        stiffnesses=(_find_stiffness(ridge), _find_stiffness(lower)),
+        has_mid_anchors=row["mid_anchors"].word == "yes",
+    )
+
+
+def list_stiffnesses(at_end: Row, types: Types) -> tuple[tuple[float, ...], ...]:
+    """Stiffnesses EA that uphill guy, downhill guy, end guy and post may have [N].
+
+    Ropes without a stiffness are of one construction: their EA is the same multiple of
+    their breaking force, or equal where none has a type. A rope without a type beside
+    others has either end of all that is built.
+    """
+    guys = (Member.UPHILL_GUY, Member.DOWNHILL_GUY, EndMember.END_GUY)
+    lines = [types["ropes"].get(at_end[guy].word) for guy in guys]
+    alike = [
+        _list_rope_stiffnesses(lines, multiple) for multiple in _list_multiples(lines)
+    ]
+    ropes = dict.fromkeys(chain.from_iterable(product(*spans) for spans in alike))
+    post = _find_post_stiffness(types["posts"].get(at_end[Member.POST].word))
+    return tuple(
+        (*of_ropes, of_post) for of_ropes in ropes for of_post in dict.fromkeys(post)
+    )
+
+
+def _list_multiples(lines: Sequence[Row | None]) -> Sequence[float]:
+    """EA over the breaking force: of the ropes that have both, else of all ropes."""
+    multiples = [
+        line["axial_stiffness"].si / force
+        for line in lines
+        if line
+        and line["axial_stiffness"].state == "given"
+        and (force := line["rope"].given_si)
+    ]
+    return multiples or OF_BREAKING
+
+
+def _list_rope_stiffnesses(
+    lines: Sequence[Row | None], multiple: float
+) -> list[Sequence[float]]:
+    """EA that each rope may have in one construction [N]: uphill, downhill, end guy."""
+    stiffnesses: list[float | None] = []
+    for line in lines:
+        force = line["rope"].given_si if line else None
+        typed = line["axial_stiffness"].given_si if line else None
+        stiffnesses.append(typed or (multiple * force if force else None))
+    if all(stiffness is None for stiffness in stiffnesses):
+        return [(math.sqrt(math.prod(STIFFNESSES)),)] * len(stiffnesses)
+    return [
+        STIFFNESSES if stiffness is None else (stiffness,) for stiffness in stiffnesses
+    ]
+
+
+_POST_AREAS = (5e-4, 2e-2)  # that are built [m2]
+
+
+def _find_post_stiffness(line: Row | None) -> Ends:
+    """Least and largest EA of a post's type [N]; without an area that of all posts."""
+    area = line["area"].given_si if line else None
+    low, high = _POST_AREAS if area is None else (area, area)
+    modulus = 1e6 * load_catalogue()["buckling"]["E_MPa"]
+    return modulus * low, modulus * high
+
+
+def _find_stiffness(line: Row | None) -> Ends:
+    """Least and largest EA of a rope's type [N]; without a type that of all ropes."""
+    if line is None:
+        return find_stiffness(None, None)
+    return find_stiffness(line["axial_stiffness"].given_si, line["rope"].given_si)

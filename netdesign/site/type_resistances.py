@@ -249,11 +249,6 @@ def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
     return limit_proof_load(tendon, max(tendon, ultimate))
 
 
-def find_breaking(row: Row) -> float | None:
-    """Breaking force of a rope without the loss of its ends [N]; None if not known."""
-    return row["rope"].given_si
-
-
 def _buckling(row: Row) -> tuple[float, Message]:
     curve, buckling = name_curve(row), compute_buckling(row)
     imperfection = find_imperfection(curve)

@@ -11,14 +11,11 @@ from netdesign.checks import load_standard
 from netdesign.checks.comparison import find_action_factor
 from netdesign.edge.input_files import find_resource
 from netdesign.outcome import Verdict
-from netdesign.site.statements import list_missing
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
-from netdesign.words.names import name_check, name_member
 from tests.checks.given_pulls import (
     POST,
     find_second,
@@ -597,14 +594,6 @@ def test_a_lifted_post_asks_for_its_foot(held, verdict, reason):
 def test_factor_of_uplift_takes_the_place_of_that_of_snow(profile, mode, source):
     found = find_action_factor(load_standard(profile), mode)
     assert (found.source, found.value) == (source, 1.5)
-
-
-def test_the_list_of_what_a_row_lacks_does_not_ask_for_its_foot():
-    """Nobody knows before a solve whether a post lifts."""
-    site = read_row(anchor=BAR)
-    lacking = list_missing(site.rows[0], site.links)
-    assert name_check(Member.POST_FOOT, "tension") not in lacking
-    assert name_member(Member.POST_FOOT) not in lacking
 
 
 @pytest.mark.parametrize("turn", [1.0, 4.0, 7.0, 15.0, 31.0])

@@ -31,7 +31,7 @@ from netdesign.site.office.types import (
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row
 from netdesign.site.snow_sheets import order_layers
-from netdesign.site.statements import TYPES as SUPPORT
+from netdesign.site.support_types import TYPE_COLUMNS
 from netdesign.site.tables import find_table
 from netdesign.site.type_lines import name_by_ground, place_in_ground
 from netdesign.site.type_resistances import check_ends
@@ -190,7 +190,7 @@ def _find_end_types(
         for name, other in list_end_types(typed[table]).items()
     }
     return [
-        {key: at_end[row[key].word] for key in SUPPORT if row[key].word in at_end}
+        {key: at_end[row[key].word] for key in TYPE_COLUMNS if row[key].word in at_end}
         | {"ground": row["ground"]}
         for row in rows
     ]
