@@ -24,12 +24,6 @@ def run(sizes, accuracy, levels=MESH_LEVELS):
     return states, estimate, guesses
 
 
-def test_stops_where_two_levels_agree():
-    states, estimate, _ = run([1.0, 1.1, 1.11, 1.111], accuracy=0.05)
-    assert states == [1.0, 1.1, 1.11]
-    np.testing.assert_allclose(estimate.vector, 1.11 * DIRECTION, rtol=1e-15)
-
-
 def test_error_is_the_last_step_and_a_floor():
     """Nine tenths of the step; less floor on each level from the third."""
     _, estimate, _ = run([1.0, 1.1], accuracy=0.1, levels=MESH_LEVELS[:2])
@@ -100,9 +94,3 @@ def test_every_vector_has_to_be_accurate():
     )
     assert len(states) == 3
     assert len(estimates) == 2
-
-
-def test_each_level_starts_from_the_one_before():
-    sizes = [1.0, 2.0, 3.0, 4.0, 5.0]
-    _, _, guesses = run(sizes, accuracy=0.01)
-    assert guesses == list(zip(MESH_LEVELS, [None, *sizes[:-1]], strict=True))

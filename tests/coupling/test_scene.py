@@ -2,11 +2,9 @@
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import ModelError
 
 
@@ -44,10 +42,3 @@ def test_net_that_would_lie_on_the_ground_is_refused(a_scene, slack, inclination
 def test_snow_above_the_head_is_refused(a_scene, height):
     with pytest.raises(ModelError, match="overtops the net; raise the net"):
         a_scene(height_m=height)
-
-
-def test_levels_are_refined_in_every_size():
-    for coarse, fine in pairwise(MESH_LEVELS):
-        assert fine.net_spacing <= coarse.net_spacing
-        assert fine.upslope_spacing < coarse.upslope_spacing
-        assert fine.corner < coarse.corner

@@ -18,7 +18,6 @@ from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.coupling.drawn_scenes import draw_smooth_site
 
 DAY = 86400.0
-STARTS = ("steady", "sagged", "straight")
 
 
 def assert_pulls(scene):
@@ -82,14 +81,3 @@ def test_pulls_grow_with_the_glide_factor_towards_those_of_free_ground(seed):
     grounds.append(replace(scene, ground=GroundLaw(kind="free")))
     pulls = np.array([assert_pulls(one) for one in grounds])
     assert (np.diff(np.log(pulls), axis=0) > math.log(1.02)).all()
-
-
-@pytest.mark.robustness
-@pytest.mark.parametrize("start", STARTS)
-def test_dozens_of_histories_on_smooth_ground_are_followed(start):
-    """Seldom snow gathers for good; then the history says that it has no plateau."""
-    restless = 0
-    for seed in range(64):
-        found = follow(put_two_sided(seed), start)
-        restless += not found.history.plateau.reached
-    assert restless <= 3

@@ -1,6 +1,5 @@
 """Layers, one-sided contacts, temperature, and the two elements."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -37,20 +36,6 @@ def sound(scene, settings=SETTINGS):
 
 
 # --- layers ------------------------------------------------------------------
-
-
-def test_layered_snow_hangs_its_weight_on_the_net(a_scene):
-    scene = layered(
-        a_scene(),
-        Layer(thickness=1.0, density=450.0),
-        Layer(thickness=2.0, density=350.0),
-        Layer(thickness=1.0, density=220.0),
-    )
-    solution = sound(scene)
-    pulled = solution.foot.x + solution.head.x
-    assert pulled == pytest.approx(solution.balance.weight_along_slope, rel=1e-8)
-    straight = (450 + 2 * 350 + 220) * 9.81 * 20 * math.sin(math.radians(40))
-    assert straight < pulled < 1.03 * straight  # the bulge weighs up to 3 %
 
 
 def draw_layers(seed):
@@ -140,16 +125,6 @@ def test_warm_layer_below_lets_the_snow_press_harder(a_scene):
     assert sound(warm).foot.size > 1.2 * even.foot.size
 
 
-def test_one_dense_layer_takes_the_mixed_element(a_scene):
-    scene = layered(
-        a_scene(inclination_deg=30.0, ground="no-slip"),
-        Layer(thickness=1.0, density=900.0),
-        Layer(thickness=3.0, density=350.0),
-    )
-    assert scene.flow_problem.element == "mixed"
-    sound(scene)
-
-
 # --- contacts ----------------------------------------------------------------
 
 
@@ -162,13 +137,3 @@ def test_one_sided_net_on_rough_ground(a_scene, friction_deg):
     assert one.balance.suction_share < 1e-9
     # what lets go is a few thousandths of the pressure
     assert one.foot.size == pytest.approx(two.foot.size, rel=1e-3)
-
-
-def test_one_sided_where_nothing_pulls_is_two_sided(a_scene):
-    scene = a_scene(ground="no-slip", inclination_deg=30.0)
-    two, one = sound(scene), sound(replace(scene, net_contact="one-sided"))
-    assert two.balance.suction_share == 0.0
-    assert one.foot == two.foot
-
-
-# --- elements ----------------------------------------------------------------

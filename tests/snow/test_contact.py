@@ -7,8 +7,6 @@ import pytest
 
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
-    change_some,
-    free_unknowns,
     may_lift,
     net_components,
     start_contact,
@@ -73,19 +71,6 @@ def test_what_moves_back_is_held_again(inclined, a_flow_problem, speed, stays_ap
     assert contact.is_pressed[3] is np.False_
 
 
-def test_foot_is_never_let_go(inclined, a_flow_problem):
-    law = a_flow_problem()
-    everything = replace(
-        start_contact(inclined),
-        is_open=np.ones_like(start_contact(inclined).is_open),
-        is_lifted=np.ones_like(start_contact(inclined).is_lifted),
-    )
-    free = free_unknowns(law, inclined, everything)
-    foot = inclined.template.ground[0]
-    assert not free[[2 * foot, 2 * foot + 1]].any()
-    assert free.sum() == free.size - 2
-
-
 @pytest.mark.parametrize("kind", ["free", "sliding"])
 def test_complementarity_on_the_ground(inclined, a_flow_problem, kind):
     """(N15) node by node, and equilibrium where the snow has lifted."""
@@ -134,22 +119,3 @@ def test_contact_that_never_pulls_is_the_two_sided_one(inclined, a_flow_problem)
     )
     assert not one.contact.is_open.any()
     np.testing.assert_allclose(one.stress, two.stress, atol=1e-12)
-
-
-# --- some of the changes ------------------------------------------------------
-
-
-def changed(contact, **places):
-    """The contact with other entries at places of its arrays."""
-    arrays = {}
-    for name, (where, value) in places.items():
-        arrays[name] = getattr(contact, name).copy()
-        arrays[name][where] = value
-    return replace(contact, **arrays)
-
-
-def test_the_first_half_of_each_row_changes(inclined):
-    before = start_contact(inclined)
-    wanted = changed(before, sign=([0, 1, 2, 3, 7, 8], 1))
-    after = change_some(before, wanted, only_first=False)
-    assert np.flatnonzero(after.sign).tolist() == [0, 1, 7]

@@ -10,7 +10,6 @@ from netdesign.outcome import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
-    DENSEST_SNOW,
     compute_bulk_factor,
     compute_shear_factor,
     compute_strain_rate,
@@ -48,18 +47,6 @@ def test_dense_branch_is_duva_and_crow():
     )
 
 
-def test_ice_is_the_limit():
-    """a tends to 1, b to 0: (N4) at the densest snow that is accepted."""
-    void = (1.0 - DENSEST_SNOW) ** (1 / 3)
-    shear = (1 + 2 * (1.0 - DENSEST_SNOW) / 3) / DENSEST_SNOW**1.5
-    assert compute_shear_factor(LAW, DENSEST_SNOW) == pytest.approx(shear, rel=1e-14)
-    assert shear == pytest.approx(1.0, abs=0.03)
-    expected = 0.75 * (void / (3 * (1 - void))) ** 1.5
-    bulk = compute_bulk_factor(LAW, DENSEST_SNOW)
-    assert bulk == pytest.approx(expected, rel=1e-13)
-    assert bulk < 0.03
-
-
 SETS = [
     # FACTS.md, section 2, four digits; of the original set where its branches meet
     ("zwinger-2007", 0.50, 206.3, 129.2),
@@ -92,22 +79,6 @@ def test_snow_that_would_shrink_sideways_is_refused():
         require_admissible(law, 0.503)
     with pytest.raises(ModelError, match="shrink sideways"):
         replace(law, calibrated=(0.4, 1.0))
-
-
-@each("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
-def test_uniaxial_compression_does_not_shrink_the_section(density):
-    """3 a >= 2 b: FACTS.md, section 2; the fit fulfils it above D = 0.097."""
-    shear, bulk = compute_shear_factor(LAW, density), compute_bulk_factor(LAW, density)
-    assert 3 * shear >= 2 * bulk
-
-
-def test_clamp_holds_the_coefficients():
-    """zwinger-2007 below D = 0.4 is that of 0.4, above it follows the fit."""
-    law = CREEP_LAWS["zwinger-2007"]
-    for compute in (compute_shear_factor, compute_bulk_factor):
-        at = compute(law, 0.4)
-        assert compute(law, 0.1) == compute(law, math.nextafter(0.4, 0.0)) == at
-        assert compute(law, 0.41) < at
 
 
 def test_limit_of_the_papers_set():

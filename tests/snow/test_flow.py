@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.solve import solve_steady
+from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import Outcome
 from netdesign.snow import kernel
 from netdesign.snow.contact import free_unknowns, start_contact
@@ -142,20 +141,6 @@ def test_converged_stress_and_velocity_obey_the_law(inclined, a_flow_problem, ex
     assert missing <= 1e-7 * scale  # stresses to TIGHT, strain rates n times worse
 
 
-@pytest.mark.parametrize(("exponent", "faster"), [(1.0, 2.0), (3.0, 8.0)])
-def test_creep_is_homogeneous(inclined, a_flow_problem, exponent, faster):
-    """Twice the gravity, twice the stress, 2^n times the velocity."""
-    law = a_flow_problem(exponent=exponent)
-    gravity = (2 * law.gravity[0], 2 * law.gravity[1])
-    double = replace(law, gravity=gravity, stress_floor=2 * STRESS_FLOOR)
-    once, twice = solve(law, inclined), solve(double, inclined)
-    for name, factor in (("stress", 2.0), ("unknowns", faster)):
-        before, after = getattr(once, name), getattr(twice, name)
-        # linear: contact decides once
-        close = 1e-12 if exponent == 1.0 else 1e-7 * np.abs(before).max()
-        np.testing.assert_allclose(after, factor * before, atol=close)
-
-
 # --- equilibrium -------------------------------------------------------------
 
 
@@ -189,21 +174,6 @@ def test_power_of_gravity_is_spent(inclined, a_flow_problem, ground, slip_ratio)
     assert load @ state.unknowns == pytest.approx(
         in_snow + on_ground + friction, rel=1e-8
     )
-
-
-def test_held_components(a_mesh, a_flow_problem):
-    """Net: normal; foot: both; ground: Y, and X where it does not slip."""
-    mesh = a_mesh()
-    n_net, n_ground = mesh.template.net.size, mesh.template.ground.size
-    slips = replace(start_contact(mesh), sign=np.ones(n_net - 1, dtype=np.int64))
-    held = ~free_unknowns(a_flow_problem(), mesh, slips)
-    assert held.sum() == n_net + 1 + (n_ground - 1)
-    rough = ~free_unknowns(a_flow_problem(ground="no-slip"), mesh, slips)
-    assert rough.sum() == held.sum() + (n_ground - 1)
-    sticking = ~free_unknowns(a_flow_problem(), mesh, start_contact(mesh))
-    assert sticking.sum() == held.sum() + (n_net - 1)
-    far = mesh.template.ground[-1]
-    assert (held[2 * far], rough[2 * far]) == (False, True)
 
 
 @pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
@@ -252,28 +222,6 @@ def test_coulomb(a_mesh, a_flow_problem, inclination, friction):
     assert (np.abs(shear) <= limit + 1e-9 * normal.max()).all()
 
 
-def test_snow_slips_both_ways(a_mesh, a_flow_problem):
-    """It sags down a net normal to the slope, and is pushed up an inclined one."""
-    upright = solve(
-        a_flow_problem(ground="no-slip", friction=0.05), a_mesh(sag=0.05)
-    ).contact.sign
-    inclined = solve(
-        a_flow_problem(friction=0.05), a_mesh(inclination_deg=30.0, sag=0.05)
-    ).contact.sign
-    assert (upright[1:-1] == -1).all()
-    assert (inclined[2:-2] == 1).mean() > 0.8
-
-
-def test_suction_has_no_friction(inclined, a_flow_problem):
-    """Snow that slips on an inclined net pulls on its top: no shear there."""
-    state = solve(a_flow_problem(friction=0.05), inclined)
-    normal, shear = forces_on_net(inclined, state)
-    pulled = normal < 0.0
-    assert pulled.any()
-    np.testing.assert_allclose(shear[pulled], 0.0, atol=1e-12)
-    assert not state.contact.is_pressed[pulled].any()
-
-
 # --- iteration ---------------------------------------------------------------
 
 
@@ -286,36 +234,6 @@ def test_result_does_not_depend_on_the_start(inclined, a_flow_problem, friction)
     scale = np.abs(cold.stress).max()
     np.testing.assert_allclose(warm.stress, cold.stress, atol=1e-7 * scale)
     np.testing.assert_array_equal(warm.contact.sign, cold.contact.sign)
-
-
-@pytest.mark.parametrize(("ground", "slip_length_m"), [("free", 0.0), ("no-slip", 0.0)])
-@pytest.mark.parametrize("friction_deg", [5.0, 30.0])
-def test_halving_the_stress_floor_moves_no_end_force(
-    a_scene, monkeypatch, ground, slip_length_m, friction_deg
-):
-    """Less than 1e-5 of it, as the constant's comment says."""
-    scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg, ground=ground)
-    settings = SolverSettings(
-        accuracy=0.1,
-        stress_tolerance=1e-8,
-        shape_tolerance=1e-7,
-        levels=MESH_LEVELS[1:3],
-    )
-    original = Scene.flow_problem.fget
-    pulls = []
-    for factor in (1.0, 0.5):
-        floor = STRESS_FLOOR * factor
-        monkeypatch.setattr(
-            Scene,
-            "flow_problem",
-            property(lambda s, f=floor: replace(original(s), stress_floor=f)),
-        )
-        solution = solve_steady(scene, settings, on_failure="raise")
-        pulls.append(
-            [solution.foot.x, solution.foot.y, solution.head.x, solution.head.y]
-        )
-    tension = np.hypot(*pulls[0][:2])
-    np.testing.assert_allclose(pulls[1], pulls[0], atol=1e-5 * tension)
 
 
 # --- rounding ----------------------------------------------------------------
@@ -362,11 +280,3 @@ def test_nonfinite_step(inclined, a_flow_problem):
         a_flow_problem(), inclined, start, tolerance=TIGHT, step=lambda *_: spoilt
     )
     assert (result.outcome, result.linear_solves) == (Outcome.NONFINITE, 1)
-
-
-@pytest.mark.parametrize("fault", [np.nan, np.inf])
-def test_nonfinite_load(inclined, a_flow_problem, fault):
-    law = replace(a_flow_problem(), gravity=(fault, -1.0))
-    with np.errstate(invalid="ignore"):
-        result = solve_flow(law, inclined, tolerance=TIGHT)
-    assert result.outcome is Outcome.NONFINITE

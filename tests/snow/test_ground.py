@@ -35,20 +35,6 @@ def test_slip_length_at_the_entries_of_the_table(law):
     assert sorted(table.glide_factors) == list(table.glide_factors)
 
 
-def test_slip_length_between_entries():
-    """Linear from no slip at N = 1 to the first entry."""
-    table = load_glide_tables()[DEFAULT_CREEP_LAW]
-    halfway = (1.0 + table.glide_factors[0]) / 2
-    assert compute_slip_length(halfway, 1.0) == pytest.approx(
-        table.slip_ratios[0] / 2, rel=1e-12
-    )
-
-
-@pytest.mark.parametrize("law", load_glide_tables())
-def test_table_reaches_the_guidelines_largest_factor(law):
-    assert load_glide_tables()[law].glide_factors[-1] > 3.2
-
-
 @each("glide", [1.001, 1.0278, 1.37, 2.713, 3.2, 3.346])
 def test_a_slip_length_leads_back_to_its_glide_factor(glide):
     table = load_glide_tables()[DEFAULT_CREEP_LAW]

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight, solve_flow
 from netdesign.snow.flow_step import compute_residual
 from netdesign.snow.law import (
@@ -17,7 +16,6 @@ from netdesign.snow.law import (
     linearise_sliding,
     sample_material,
     squared_invariant,
-    total_stress,
 )
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
@@ -108,29 +106,6 @@ def test_step_with_the_laws_own_strain_rate_changes_nothing(a_flow_problem, rati
     np.testing.assert_allclose(fourth, 0.0, atol=1e-13)
 
 
-def test_total_stress_carries_the_pressure(a_flow_problem):
-    _, mixed = both(a_flow_problem, 1.8)
-    total = total_stress(mixed, split(STRESSES, 1.8))
-    np.testing.assert_allclose(total[:, :3], STRESSES, atol=1e-15)
-    np.testing.assert_array_equal(total[:, 3], 0.0)
-
-
-@pytest.mark.parametrize("ratio", [0.7, 1.8])
-def test_rough_slab_in_both_elements(a_mesh, a_flow_problem, ratio):
-    """A whole flow: forces on the net agree as two meshes of this size do."""
-    plain, mixed = both(a_flow_problem, ratio)
-    found = []
-    for law in (plain, mixed):
-        law = replace(law, ground="no-slip", friction=np.inf)
-        coarse = a_mesh(inclination_deg=30.0, size=MESH_LEVELS[2])
-        mesh = build_placed_mesh(coarse.template, coarse.nodes, law.element)
-        result = solve_flow(law, mesh, tolerance=1e-9)
-        assert result.outcome is Outcome.CONVERGED
-        forces = -mesh.to_slope_axes(result.state.reaction)
-        found.append(forces[:, mesh.template.net[1:]].sum(axis=1))
-    np.testing.assert_allclose(found[1], found[0], rtol=5e-3)
-
-
 # --- layers ------------------------------------------------------------------
 
 BOTTOM = FlowLayer(top=0.3, bulk_ratio=1.2, fluidity_ratio=2.0, density=1.5)
@@ -157,12 +132,6 @@ def test_every_point_has_the_properties_of_its_layer(a_flow_problem):
         assert (material.bulk_ratio[inside] == layer.bulk_ratio).all()
         assert (material.fluidity_ratio[inside] == layer.fluidity_ratio).all()
         assert (material.density[inside] == layer.density).all()
-
-
-def test_uniform_snow_needs_no_arrays(a_flow_problem):
-    law = a_flow_problem()
-    material = sample_material(law, layered_mesh().template)
-    assert material == (law.layers[0].bulk_ratio, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("inclination", [0.0, 30.0])
@@ -197,25 +166,6 @@ def test_equal_layers_are_one(a_flow_problem, element):
     )
     scale = np.abs(one.reaction).max()
     np.testing.assert_allclose(three.reaction, one.reaction, atol=1e-9 * scale)
-
-
-def test_fluidity_of_all_layers_leaves_the_stress(a_flow_problem):
-    law = replace(a_flow_problem(ground="no-slip"), layers=(BOTTOM, MIDDLE, TOP))
-    faster = replace(
-        law,
-        layers=tuple(
-            replace(la, fluidity_ratio=5.0 * la.fluidity_ratio) for la in law.layers
-        ),
-    )
-    mesh = layered_mesh(30.0)
-    slow, fast = (solve_flow(each, mesh, tolerance=1e-10) for each in (law, faster))
-    assert (slow.outcome, fast.outcome) == (Outcome.CONVERGED,) * 2
-    scale = np.abs(slow.state.stress).max()
-    np.testing.assert_allclose(fast.state.stress, slow.state.stress, atol=1e-9 * scale)
-    speed = np.abs(slow.state.unknowns).max()
-    np.testing.assert_allclose(
-        fast.state.unknowns, 5.0 * slow.state.unknowns, atol=5e-9 * speed
-    )
 
 
 @each("exponent", [1.0, 3.0])

@@ -2,20 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.sparse.linalg import splu
 
-from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.element import list_dofs
 from netdesign.snow.kernel import (
     SingularError,
     assemble_base_stiffness,
     assemble_stiffness,
-    find_order,
     solve_matrix,
-    sum_blocks,
 )
-from netdesign.snow.mesh import build_template
-from tests.each import each
 
 MU = 0.6
 
@@ -71,25 +64,6 @@ def test_it_is_the_dense_solution(problem, slips, columns, ground):
     truth = solve_dense(matrix, force, free, friction if slips else 0 * friction)
     wanted = truth if columns == 1 else np.stack([truth * k for k in (1, 2, 3)], axis=1)
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(truth).max())
-
-
-def count_fill_in(matrix):
-    factors = splu(matrix, permc_spec="NATURAL", options={"SymmetricMode": True})
-    return factors.L.nnz
-
-
-@each("is_mixed", [False, True])
-@each("level", [0, 1, 2])
-def test_order_of_least_degrees_fills_in_less_than_the_nodes_own(level, is_mixed):
-    """A permutation, whose factor has less than that of the unknowns as numbered."""
-    template = build_template(5.0, MESH_LEVELS[level])
-    order = find_order(template, is_mixed)
-    size = 2 * template.nodes.shape[1] + is_mixed * template.n_vertices
-    assert np.array_equal(np.sort(order), np.arange(size))
-    dofs = list_dofs(template, "mixed" if is_mixed else "velocity")
-    values = np.where(np.eye(dofs.shape[1], dtype=bool), 15.0, 1.0)
-    matrix = sum_blocks(dofs, np.tile(values, (len(dofs), 1, 1)), size).tocsc()
-    assert count_fill_in(matrix[order][:, order]) < 0.5 * count_fill_in(matrix)
 
 
 def test_what_nothing_holds_is_singular(problem):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.snow.mesh import build_template, place_nodes
 from tests.each import each
 
 COARSE = MESH_LEVELS[1]
@@ -28,22 +28,6 @@ def test_triangles_fill_the_rectangle(aspect, size):
     n_vertices = template.nodes.shape[1] - template.edges.shape[1]
     # Euler's formula for a disc: vertices - edges + triangles = 1
     assert n_vertices - template.edges.shape[1] + template.triangles.shape[1] == 1
-
-
-@pytest.mark.parametrize("size", MESH_LEVELS)
-def test_net_and_ground_are_chains_from_the_foot(size):
-    template = build_template(5.0, size)
-    for chain, axis in ((template.net, 1), (template.ground, 0)):
-        places = template.nodes[:, chain]
-        assert places[axis, 0] == 0.0
-        assert np.abs(places[1 - axis]).max() == 0.0
-        assert (np.diff(places[axis]) > 0.0).all()
-        # vertices and midpoints alternate
-        middles = (places[axis, :-2:2] + places[axis, 2::2]) / 2
-        np.testing.assert_allclose(places[axis, 1::2], middles, rtol=1e-14)
-    assert template.net[0] == template.ground[0]
-    assert template.net_fractions[-1] == 1.0
-    assert template.nodes[0, template.ground[-1]] == 5.0
 
 
 UNTIDY = [*range(12)]
@@ -74,14 +58,6 @@ def test_sides_hold_every_node_that_lies_on_them(seed, size):
         beside = np.abs(template.nodes[axis] - place) < 1e-9
         assert set(chain) == set(np.flatnonzero(beside))
         assert (np.flatnonzero(chain < template.n_vertices) % 2 == 0).all()
-
-
-@pytest.mark.parametrize("size", MESH_LEVELS)
-def test_smallest_edges_stand_at_both_ends_of_the_net(size):
-    vertices = build_template(5.0, size).net_fractions[::2]
-    assert vertices[1] == pytest.approx(size.corner, rel=1e-9)
-    assert 1.0 - vertices[-2] == pytest.approx(np.sqrt(size.corner), rel=1e-9)
-    assert np.diff(vertices).max() <= 2.0 * size.net_spacing
 
 
 def draw_interfaces(seed):
@@ -125,45 +101,6 @@ def test_layers_have_sides_and_no_slivers(aspect, seed, size):
     assert largest_angles(corners[:, :, near]).max() < 165.0
 
 
-@pytest.mark.parametrize("size", MESH_LEVELS[:3])
-def test_every_place_where_layers_meet_the_net_has_rings(size):
-    """Pressures are singular there as at the net's ends."""
-    fractions = build_template(9.0, size, (0.3, 0.7)).net_fractions[::2]
-    for height in (0.3, 0.7):
-        nearest = np.sort(np.abs(fractions - height))[1:3]
-        corner = min(np.sqrt(size.corner), 0.4 * 0.3 / 2.0)
-        np.testing.assert_allclose(nearest, corner, rtol=1e-9)
-
-
-def test_layers_have_two_rows_of_triangles_wherever_they_are():
-    template = build_template(20.0, COARSE, (0.3, 0.36))
-    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
-    distance, height = template.nodes[:, :n_vertices].round(9)
-    for column in np.unique(distance[distance > 1.0]):
-        rows = height[distance == column]
-        for below, above in ((0.0, 0.3), (0.3, 0.36), (0.36, 1.0)):
-            assert ((rows >= below) & (rows <= above)).sum() >= 3
-
-
-def test_a_long_snowpack_costs_little_more():
-    """Columns widen with their distance: as many for each doubling of the length."""
-    counts = [
-        build_template(aspect, COARSE).triangles.shape[1]
-        for aspect in (12.5, 25.0, 50.0, 100.0, 200.0)
-    ]
-    added = np.diff(counts)
-    assert (added > 0).all()
-    assert added.max() < 1.5 * added.min()
-
-
-def test_straight_net_normal_to_the_slope_mirrors_the_reference():
-    """Distance upslope becomes -X."""
-    template = build_template(5.0, COARSE)
-    curve = np.array([np.zeros_like(template.net_fractions), template.net_fractions])
-    placed = place_nodes(template, curve)
-    np.testing.assert_allclose(placed, [[-1.0], [1.0]] * template.nodes, atol=1e-15)
-
-
 def test_placing_keeps_ground_surface_and_far_end():
     template = build_template(5.0, COARSE)
     fractions = template.net_fractions
@@ -175,28 +112,3 @@ def test_placing_keeps_ground_surface_and_far_end():
     np.testing.assert_allclose(placed[1, eta == 1.0], 1.0, rtol=1e-15)
     far = np.flatnonzero(xi[: template.n_vertices] >= 3.0)
     np.testing.assert_allclose(placed[0, far], -xi[far], rtol=1e-14)
-
-
-def test_only_edges_on_the_net_are_curved():
-    template = build_template(5.0, COARSE)
-    fractions = template.net_fractions
-    curve = np.array([fractions * (1 - fractions), fractions])
-    placed = place_nodes(template, curve)
-    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
-    bow = np.abs(placed[:, n_vertices:] - placed[:, template.edges].mean(axis=1))
-    curved = np.flatnonzero(bow.max(axis=0) > 1e-12) + n_vertices
-    assert set(curved) <= set(template.net[1::2])
-    assert curved.size > 0
-
-
-@pytest.mark.parametrize(("interfaces", "at_head"), [((), 3), ((0.37,), 6)])
-def test_ends_of_the_net_have_sectors_of_their_own(interfaces, at_head):
-    """Uniform snow at its head; layered snow has as many there as at the foot."""
-    sizes = {"net_spacing": 0.2, "corner": 1e-3, "upslope_spacing": 1.0}
-    size = MeshSize(sectors=6, head_sectors=3, **sizes)
-    template = build_template(5.0, size, interfaces)
-    x, y = template.nodes[:, : template.n_vertices]
-    for height, sectors in ((0.0, 6), (1.0, at_head)):
-        distance = np.hypot(x, y - height)
-        nearest = np.sort(distance)[1]
-        assert (distance < nearest * (1.0 + 1e-6)).sum() == 1 + sectors + 1

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow.element import find_once, find_preferred, list_dofs, share_template
+from netdesign.snow.element import find_preferred, list_dofs, share_template
 from netdesign.snow.mesh import BESIDE, build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 
@@ -63,17 +63,3 @@ def test_rings_stay_and_numbers_are_shared(aspect, tops):
     np.testing.assert_array_equal(*of_both)
     np.testing.assert_array_equal(template.nodes[1], origin.nodes[1])
     assert list_dofs(template, "velocity") is list_dofs(origin, "velocity")
-
-
-def test_what_is_shared_is_found_once():
-    found = []
-
-    @find_once
-    def find(template, name):
-        found.append(name)
-        return template.n_vertices
-
-    one, other = (share_template(aspect, MESH_LEVELS[0]) for aspect in (6.21, 6.37))
-    assert find(one, "a") == find(other, "a") == find(one.origin, "a")
-    find(other, "b")
-    assert found == ["a", "b"]

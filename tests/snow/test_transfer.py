@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.snow import flow
-from netdesign.snow.contact import Contact, FlowState, start_contact
-from netdesign.snow.element import interpolate_reference, share_template
+from netdesign.snow.contact import FlowState, start_contact
+from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow import transfer_state
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
@@ -41,41 +39,3 @@ def test_stress_stays_in_its_layer(old, new):
     )
     carried = transfer_state(state, source.template, target.template)
     np.testing.assert_array_equal(carried.stress[..., 0], number_layers(target))
-
-
-@pytest.mark.parametrize("tops", [(), TOPS])
-@pytest.mark.parametrize("at_once", [256, 7])
-def test_nearest_points_are_those_of_a_tree(monkeypatch, tops, at_once):
-    """Also where two are as near: any of them is right."""
-    monkeypatch.setattr(flow, "_AT_ONCE", at_once)
-    flow._nearest_points.cache_clear()
-    source, target = (
-        build_template(7.31, MESH_LEVELS[level], tops) for level in (0, 1)
-    )
-    known, wanted = map(flow._list_points, (source, target))
-    near = known[flow._nearest_points(source, target)]
-    distance, _ = cKDTree(known).query(wanted)
-    np.testing.assert_allclose(np.hypot(*(near - wanted).T), distance, atol=1e-12)
-
-
-def test_a_stretched_mesh_takes_over_what_its_origin_would():
-    states = []
-    for find, aspect in ((share_template, 5.21), (build_template, 5.0)):
-        source, target = (find(aspect, level) for level in MESH_LEVELS[:2])
-        points = 3 * source.triangles.shape[1]
-        state = FlowState(
-            unknowns=np.zeros(2 * source.nodes.shape[1]),
-            reaction=np.zeros(2 * source.nodes.shape[1]),
-            stress=np.arange(3.0 * points).reshape(-1, 3, 3),
-            base_shear=np.arange(4.0 * (source.ground.size // 2)).reshape(-1, 4),
-            contact=Contact(
-                sign=np.arange(source.net.size - 1) % 3 - 1,
-                is_pressed=np.arange(source.net.size - 1) % 2 == 0,
-                is_open=np.zeros(source.net.size - 1, dtype=bool),
-                is_lifted=np.zeros(source.ground.size - 1, dtype=bool),
-            ),
-        )
-        states.append(transfer_state(state, source, target))
-    for name in ("stress", "base_shear"):
-        np.testing.assert_array_equal(*(getattr(one, name) for one in states))
-    np.testing.assert_array_equal(*(one.contact.sign for one in states))

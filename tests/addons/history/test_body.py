@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.addons.history import body as body_module
 from netdesign.addons.history.body import (
     build_body,
     compute_areas,
@@ -177,31 +176,6 @@ def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_problem, head_x, l
     np.testing.assert_allclose(moved.warmth, 1.0, rtol=1e-12)
     lost = even.mass.sum() - moved.areas.sum()
     assert fallen == pytest.approx(lost, abs=ROUNDING)
-
-
-def test_density_is_mass_over_deformed_area(a_flow_problem):
-    """Even settling by 4 %: rho(0) / J, in every triangle."""
-    body = a_body(a_flow_problem())
-    displaced = body.vertices * np.array([[1.0], [0.96]])
-    net = on_net(body) * np.array([[1.0], [0.96]])
-    moved, fallen = move_body(body, displaced, net, net[:, -1])
-    np.testing.assert_allclose(moved.density, 1.0 / 0.96, rtol=1e-11)
-    assert fallen == pytest.approx(0.0, abs=ROUNDING)
-
-
-def test_a_long_way_in_parts_keeps_mass(a_flow_problem, monkeypatch):
-    body = uneven(a_body(a_flow_problem()))
-    displaced, net = creep(body), on_net(body)
-    found = []
-    for share in (0.5, 0.01):
-        monkeypatch.setattr(body_module, "_LARGEST_SWEEP", share)
-        monkeypatch.setattr(body_module, "_MOST_PARTS", 10**4)
-        moved, fallen = move_body(body, displaced, net, net[:, -1])
-        assert fallen == pytest.approx(0.0, abs=ROUNDING)
-        found.append(moved.mass)
-    few, many = found
-    assert np.abs(few - many).max() > 0.0  # another path ...
-    np.testing.assert_allclose(few, many, atol=0.1 * few.max())  # ... to the same
 
 
 # --- overhang ----------------------------------------------------------------

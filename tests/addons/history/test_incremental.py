@@ -94,19 +94,6 @@ def test_conditions_of_the_paper_hold_at_every_node():
     assert growth.sum() == pytest.approx(0.0, abs=1e-15)
 
 
-def test_one_increment_differs_from_the_exact_step_at_second_order():
-    """Below the size where the set of gliding nodes still changes with the step."""
-    state = initial_state()
-    errors = []
-    for size in 0.0125 * 0.5 ** np.arange(5):
-        exact = slide(net_points(size), state.unstressed_lengths)
-        step = advance(state, net_points(size))
-        assert find_signs(state, step) == exact.slide_signs.tolist()
-        errors.append(np.abs(step.tensions - exact.tensions).max())
-    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    np.testing.assert_allclose(orders, 2.0, atol=0.02)
-
-
 def trace(way):
     """Points of a net by its complex steps."""
     places = np.cumsum(np.append(0.0, way))
@@ -135,14 +122,6 @@ def test_gliding_nodes_are_found_for_random_nets(seed):
     )
     exact = slide_on(moved, old, friction, STIFFNESS)
     np.testing.assert_allclose(step.tensions, exact.tensions, rtol=1e-2)
-
-
-def test_start_of_the_paper_a_straight_net_without_tension():
-    points = net_points(0.0)
-    straight = np.array([np.zeros(NODES + 2), points[1]])
-    lengths = measure_arcs(straight)
-    step = advance(build_cable_state(lengths, lengths, STIFFNESS), points)
-    assert step.tensions.min() > 0.0
 
 
 def test_limit_of_rounds_is_an_error():

@@ -12,7 +12,6 @@ from netdesign.addons.history.moments import (
     PULL_DRIFT,
     REST_SHARE,
     START_STRAIN,
-    History,
     HistoryPoint,
     find_plateau,
     judge_plateau,
@@ -53,22 +52,6 @@ def test_exponential_approach_has_its_plateau_where_the_drift_is_small():
     plateau = find_plateau(history(lambda x: 1.0 - math.exp(-x)))
     assert plateau.reached
     assert begin / STEP < TIMES[plateau.index] < begin * STEP
-
-
-def test_overshoot_that_decays():
-    """1 + exp(-x): drift x exp(-x) / (1 + exp(-x)), large around x = 1."""
-    begin = brentq(lambda x: x / (math.exp(x) + 1.0) - PULL_DRIFT, 1.3, 10.0)
-    late = np.geomspace(0.5, 100.0, 400)
-    plateau = find_plateau(history(lambda x: 1.0 + math.exp(-x), late))
-    assert plateau.reached
-    assert begin / STEP < late[plateau.index] < begin * STEP
-
-
-@pytest.mark.parametrize("power", [1.0, 0.3, -0.5])
-def test_power_of_time_never_comes_to_rest(power):
-    plateau = find_plateau(history(lambda x: x**power))
-    assert not plateau.reached
-    assert plateau.index is None
 
 
 @pytest.mark.parametrize(("drift", "reached"), [(0.9, True), (1.1, False)])
@@ -152,21 +135,3 @@ def test_net_that_still_moves(share, reached):
         for time in TIMES
     ]
     assert find_plateau(moments).reached is reached
-
-
-# --- ends of the scale -------------------------------------------------------
-
-
-def test_moment_at_the_plateau():
-    moments = tuple(history(lambda x: 1.0 - math.exp(-x)))
-    whole = History(
-        moments=moments,
-        plateau=find_plateau(moments),
-        start="sagged",
-        densifies=True,
-        fallen_share=0.0,
-        ended="",
-    )
-    assert whole.at_plateau is moments[whole.plateau.index]
-    short = replace(whole, plateau=find_plateau(moments[:50]))
-    assert short.at_plateau is None

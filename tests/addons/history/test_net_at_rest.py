@@ -10,16 +10,13 @@ from netdesign.addons.history.instant import advance
 from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import (
-    build_problem,
     find_net_at_rest,
-    hang_polygon,
 )
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.mesh import build_template
 from tests.addons.history.starts import begin
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
 from tests.each import each
@@ -69,18 +66,6 @@ def test_polygon_lies_on_the_net_at_rest(seed):
     np.testing.assert_allclose(
         join_points(state.net_nodes, problem.head)[:, -1], problem.head
     )
-
-
-def test_mesh_of_another_size_gets_a_net_of_the_same_shape(a_scene):
-    scene = a_scene(slack=0.03, ground="no-slip", inclination_deg=20.0)
-    problem = build_problem(scene, densifies=True)
-    rest = find_net_at_rest(scene, TRANSIENT_LEVELS[2])
-    curves = [
-        hang_polygon(rest, problem, build_template(5.0, size).net_fractions)[0]
-        for size in TRANSIENT_LEVELS[:2]
-    ]
-    sags = [curve[0, ::2].max() for curve in curves]
-    assert sags[0] == pytest.approx(sags[1], rel=0.03)
 
 
 def test_a_scene_without_a_steady_state_says_what_to_choose(a_scene, monkeypatch):

@@ -126,15 +126,3 @@ def test_midpoints_move_with_their_vertices_and_pass_on_their_forces(a_scene, co
     at_vertices = equations.pull_vertices(forces)
     work = (equations.split(forces)[:, net] * held[:, net]).sum()
     assert (at_vertices * held[:, net[::2]]).sum() == pytest.approx(work, rel=1e-12)
-
-
-def test_forces_at_the_net_change_the_answer_as_their_derivative_says(a_scene, core):
-    problem, state = begin(a_scene(ground="no-slip"))
-    equations = assemble_step(problem, state, STEP)
-    rest = SnowIterate(np.zeros(2 * state.velocity.shape[1]), None, None)
-    none, more = np.zeros((2, 2, state.carried.size))
-    more[:, 1] = 0.3, -0.2
-    there = condense_step(equations, rest, none).answer(more.ravel())
-    again = condense_step(equations, rest, more).answer(none.ravel())
-    size = np.abs(again.unknowns).max()
-    np.testing.assert_allclose(there.unknowns, again.unknowns, atol=1e-11 * size)

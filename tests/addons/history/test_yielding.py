@@ -1,7 +1,6 @@
 """Net on nodes that yield: friction, forces and positions agree with each other."""
 
 import math
-from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -81,32 +80,6 @@ def test_forces_positions_and_friction_agree(friction, softness):
         assert find_breach(points, friction, slides, glides, tensions) < 1e-7
 
 
-def test_few_iterations_whatever_glides(monkeypatch):
-    """cable/THEORY.md, eq. (C26): the set of gliding nodes is not iterated upon."""
-    solved = {8: 0, 20: 0}
-    for most in solved:
-        monkeypatch.setattr(yielding, "_MOST_ITERATIONS", most)
-        for seed in range(30):
-            place = bulge(13)
-            with suppress(SolveError):
-                settle(yielding_nodes(place, 1e-3, seed), place, lengths_of(place), 0.3)
-                solved[most] += 1
-    assert solved[8] >= 15
-    assert solved[20] == 30
-
-
-def test_guess_of_what_glides_does_not_matter():
-    place = bulge(11)
-    lengths = lengths_of(place, spread=0.5)
-    nodes = yielding_nodes(place, 1e-3)
-    first, _ = settle(nodes, place, lengths, 0.2)
-    for sign in (-1, 1):
-        signs = np.full(11, sign, dtype=np.int8)
-        other, _ = settle(nodes, place, lengths, 0.2, signs)
-        np.testing.assert_allclose(other.forces, first.forces, atol=1e-8)
-        np.testing.assert_array_equal(other.slide_signs, first.slide_signs)
-
-
 @pytest.mark.parametrize("push", [1e-6, 1e-3, 0.1])
 def test_straight_net_takes_up_its_load(push):
     """One node in the middle, yielding across the net: one equation, by bisection."""
@@ -131,14 +104,6 @@ def test_straight_net_takes_up_its_load(push):
     _, end = settle(nodes, middle, np.full(2, half), 0.3)
     way = float(outward @ (end.place - middle)[:, 0])
     assert way == pytest.approx(brentq(miss, 0.0, push, xtol=1e-16), rel=1e-6)
-
-
-def test_slack_segment_draws_net_in():
-    place = bulge(9)
-    lengths = lengths_of(place)
-    lengths[4] *= 1.1
-    response, _ = settle(yielding_nodes(place, 1e-4), place, lengths, 0.1)
-    assert response.tensions.min() > 0.0
 
 
 def test_iterations_that_do_not_suffice_are_an_error(monkeypatch):

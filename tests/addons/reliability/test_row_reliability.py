@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 from netdesign.addons.reliability.check_by_case import find_check_by_case
-from netdesign.addons.reliability.reliability import follow_design_point
-from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import rate_reliability
 from netdesign.addons.reliability.uncertainty_sheet import UncertainQuantity
 from netdesign.checks import load_standard
@@ -210,36 +208,6 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
     assert ("R2", "uphill_guy") in followed
 
 
-def test_around_the_design_point_the_model_is_that_of_full_solves(judge, monkeypatch):
-    from netdesign.addons.reliability import row_reliability
-
-    met, real = [], row_reliability._meet_design_point
-
-    def keep(state, rater):
-        found = real(state, rater)
-        met.append((found[0], rater))
-        return found
-
-    monkeypatch.setattr(row_reliability, "_meet_design_point", keep)
-    judge()
-    rng = np.random.default_rng(17)
-    for state, rater in met:
-        limit = state.build()
-        place = follow_design_point(limit, None).place
-        drawn = place + 0.8 * rng.standard_normal((15, len(place)))
-        points = limit.place(np.minimum(drawn, limit.caps))
-        moved = [state.read_point(one) for one in points.tolist()]
-        solved = [rater.solve(rater.check.governing, [one])[0] for one in moved]
-        errors = [
-            float(state.response.find({k: np.array([v]) for k, v in one.items()})[0])
-            - rate
-            for one, rate in zip(moved, solved, strict=True)
-            if rate is not None
-        ]
-        assert len(errors) > 10
-        assert np.sqrt(np.mean(np.square(errors))) < 0.03
-
-
 def test_what_nobody_typed_is_told_as_assumed(judge, study):
     assert all(
         one.is_assumed for row in study.rows for one in row.reliability.variables
@@ -314,16 +282,3 @@ def test_the_store_keeps_rows_with_and_without_it_apart(searched):
     pairs = [(site, RUN), (site, WITH), (typed, WITH)]
     names = [name_rows(one, [STANDARD], run)["R2"] for one, run in pairs]
     assert len(set(names)) == 3
-
-
-def test_a_line_goes_through_its_values_and_on_along_its_tangent():
-    line = Line(
-        name="thickness", low=1.3, centre=2.1, high=2.9, solved=2.7, bend=-0.4
-    ).meet(2.7, 0.53)
-    assert line.find(np.array([2.7]))[0] == pytest.approx(0.53)
-    assert line.find(np.array([2.1]))[0] == 0.0
-    steps = np.array([2.9 - 1e-6, 2.9, 2.9 + 1e-6, 3.4, 3.4 * (3.4 / 2.9)])
-    found = line.find(steps)
-    inner, outer = np.diff(found[:3])
-    assert outer == pytest.approx(inner, rel=1e-4)
-    assert found[4] - found[3] == pytest.approx(found[3] - found[1])

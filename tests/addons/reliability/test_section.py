@@ -2,12 +2,9 @@
 
 import html
 import io
-import math
 import re
 from dataclasses import replace
 
-import docx
-import pytest
 from rich.console import Console
 
 from netdesign.addons.reliability.section import (
@@ -15,7 +12,6 @@ from netdesign.addons.reliability.section import (
     show_reliability,
     tabulate_indices,
 )
-from netdesign.report.document.word import render_document
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, Words
@@ -95,16 +91,6 @@ def test_the_band_is_rounded_outwards(beta, error, shown):
     assert high >= beta + 2.0 * error
 
 
-def test_shares_stand_with_the_largest_first():
-    page = render_html(STUDY)
-    annex = html.unescape(page[page.index('id="annex-reliability"') :])
-    (told,) = re.findall(r"shares α²[^.]*\.", annex)
-    shares = sorted((one.alpha_squared for one in KNOWN.variables), reverse=True)
-    assert math.fsum(shares) == pytest.approx(1.0)
-    percents = [float(one) for one in re.findall(r"(\d+)\s%", told)]
-    assert percents == pytest.approx([100.0 * one for one in shares], abs=0.5)
-
-
 @each("language", LANGUAGES)
 def test_a_terminal_has_it_in_two_lines_without_a_word_of_a_verdict(language):
     words = Words(language)
@@ -117,12 +103,3 @@ def test_a_terminal_has_it_in_two_lines_without_a_word_of_a_verdict(language):
     console = Console(file=io.StringIO(), width=200)
     print_summary(STUDY, console, language)
     assert lines[0] in console.file.getvalue()
-
-
-def test_the_document_says_the_same():
-    document = docx.Document(io.BytesIO(render_document(STUDY)))
-    texts = [one.text for one in document.paragraphs]
-    tables = [c.text for one in document.tables for c in one._cells]
-    assert ENGLISH("reliability.is_not") in texts
-    assert "3.4 (3.3 to 3.5)" in tables
-    assert not any(LONG.search(one) for one in (*texts, *tables) if "β" in one)

@@ -104,23 +104,6 @@ def test_a_grid_and_rows_in_two_systems_are_refused(slope, tmp_path, call):
     assert "(EPSG:2056) and ETRS89 / UTM zone 32N (EPSG:25832)" in ended.err
 
 
-def test_faults_are_told_all_at_once_and_nothing_is_written(slope, tmp_path, call):
-    rows = write_rows()
-    rows["features"][0]["geometry"]["coordinates"][0][0] -= 500.0
-    rows["features"][1]["geometry"]["coordinates"] = [
-        [EAST + 40, NORTH + 62],
-        [EAST + 60, NORTH + 62],
-        [EAST + 60, NORTH + 90],
-    ]
-    (tmp_path / "rows.json").write_text(json.dumps(rows))
-    out = tmp_path / "site.xlsx"
-    ended = call("terrain", slope / "slope.asc", tmp_path / "rows.json", "--out", out)
-    assert ended.code == 3
-    assert "row A leaves the grid" in ended.err
-    assert "row B bends by" in ended.err
-    assert not out.exists()
-
-
 def test_a_row_on_flat_ground_gets_no_length(slope, tmp_path, call):
     grid = read_grid(slope / "slope.asc")
     flat = replace(grid, heights=np.full_like(grid.heights, 1800.0))

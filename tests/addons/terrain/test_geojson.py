@@ -34,14 +34,6 @@ def write(folder, *features):
     return path
 
 
-def test_rows_are_read_with_their_posts(tmp_path):
-    found, _ = read_places(write(tmp_path, row("A"), row("7", posts=9), zone(ZONE)))
-    assert [(name, len(one.posts)) for name, one in found.items()] == [
-        ("A", 4),
-        ("7", 9),
-    ]
-
-
 @pytest.mark.parametrize(
     "features",
     [

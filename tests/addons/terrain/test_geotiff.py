@@ -11,11 +11,9 @@ from rasterio.transform import Affine
 from netdesign.addons.terrain.grid import Grid, read_grid
 from netdesign.outcome import TerrainError
 from tests.addons.terrain.map_files import (
-    GIVEN,
     find_north,
     watch,
     write_asc,
-    write_rows,
     write_tif,
 )
 from tests.each import each
@@ -53,14 +51,6 @@ def test_a_grid_is_that_of_ascii(tmp_path, parse_geotiff, seed):
     assert tif.heights == pytest.approx(text.heights, abs=0.0, nan_ok=True)
     assert (tif.west, tif.south) == pytest.approx((text.west, text.south), rel=1e-12)
     assert (tif.cell, tif.crs) == (text.cell, "EPSG:2056")
-
-
-@pytest.mark.parametrize("tags", [{}, {"AREA_OR_POINT": "Point"}])
-def test_place_and_heights_are_those_of_the_middles(parse_geotiff, tags):
-    grid = parse_geotiff(write_tif(GRID, tags=tags))
-    assert (grid.west, grid.south, grid.cell) == (GRID.west, GRID.south, GRID.cell)
-    assert grid.heights == pytest.approx(HEIGHTS, abs=0.0)
-    assert grid.bands == 1
 
 
 @each("nodata", [-9999.0, math.nan, -3.4028234663852886e38])
@@ -206,15 +196,3 @@ def test_a_file_cut_anywhere_or_with_other_bytes_is_a_grid_or_refused(
                     read += 1
     assert 0 < read < 200
     assert capfd.readouterr() == ("", "")
-
-
-def test_a_damaged_grid_is_one_refusal(tmp_path, call):
-    whole = write_tif(GRID, compress="deflate")
-    (tmp_path / "g.tif").write_bytes(whole[: len(whole) // 2])
-    write_rows(tmp_path / "rows.geojson", [([(700.0, 300.0), (740.0, 300.0)], GIVEN)])
-    ended = call("terrain", "g.tif", "rows.geojson", "--json")
-    assert ended.code == 3
-    assert "or damaged" in ended.err
-    assert len(ended.err.splitlines()) == 1
-    for alien in ("GDAL", "TIFF directory", "rasterio", "Errno"):
-        assert alien not in ended.err

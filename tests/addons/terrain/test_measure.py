@@ -55,18 +55,6 @@ def test_a_plane_has_its_angle_aspect_and_length(cell, turned):
     assert found.posts[:, 2] == pytest.approx(heights, abs=1e-8)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_noise_of_a_decimetre_leaves_three_tenths_of_a_degree(seed):
-    turned = 0.3 + seed
-    grid = build_grid(plane(PSI), size=140.0, turned=turned, noise=0.1)
-    found = measure(grid, draw_line(ALONG_CONTOUR, turned=turned))
-    mean = float(found.slopes.mean())
-    assert abs(mean - PSI) < math.radians(0.3)
-    assert found.slope.high - found.slope.low > math.radians(0.05)
-    # the steepest of the posts is above the mean, within its band
-    assert found.slope.low <= PSI + math.radians(0.3)
-
-
 @each("cell", CELLS)
 @each("turned", [0.0, 1.234])
 def test_rows_on_a_cone_are_arcs_of_constant_slope(cell, turned):
@@ -129,41 +117,8 @@ def test_snow_reaches_over_boulders(cell, seed):
     assert {one.end for one in found.ends} == {"cap"}
 
 
-def test_on_a_cylinder_slope_and_length_converge_with_the_square_of_the_cell():
-    """z = f(y): the mean of atan f' over the stretch, and the arc to the next row."""
-    foot, upper, cells = -25.0, 3.0, (1.6, 0.8, 0.4, 0.2)  # steps are of a cell there
-    arc, mean = integrate_wave(foot, upper)
-    errors = []
-    for cell in cells:
-        grid = build_grid(lambda x, y: wave(y) + 0.0 * x, cell=cell, size=160.0)
-        row = draw_line([(-10.0, foot), (11.0, foot)])
-        other = draw_line([(-30.0, upper), (30.0, upper)], name="R2")
-        found = measure(grid, row, other)
-        angle = float(found.slopes.mean())
-        errors.append((abs(found.upslope.length.value - arc), abs(angle - mean)))
-    lengths, angles = np.log(errors).T
-    assert np.polyfit(np.log(cells), angles, 1)[0] > 1.8
-    assert np.polyfit(np.log(cells), lengths, 1)[0] > 1.7
-    assert errors[-1][0] < 1e-4
-    assert errors[-1][1] < math.radians(0.002)
-
-
 def wave(y):
     return 40.0 * np.sin(y / 45.0)
-
-
-def integrate_wave(foot, upper, below=3.0):
-    """Arc from foot to the next row; mean angle from 3 m of arc below the foot."""
-    y = np.linspace(foot - 5.0, upper, 800_001)
-    tangent = 40.0 / 45.0 * np.cos(y / 45.0)
-    pace = np.hypot(1.0, tangent)
-    along = np.concatenate(
-        ([0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(y)))
-    )
-    arc = along[-1] - np.interp(foot, y, along)
-    is_loaded = along >= along[-1] - arc - below
-    loaded, angles = along[is_loaded], np.arctan(tangent)[is_loaded]
-    return arc, np.trapezoid(angles, loaded) / (loaded[-1] - loaded[0])
 
 
 @pytest.mark.parametrize("upper", [23.0, 27.0, 25.0])
@@ -263,14 +218,6 @@ def test_beyond_the_edge_or_a_hole_the_length_is_the_cap(seed):
     assert found.upslope.end == "edge"
     assert found.upslope.length.value == most
     assert found.upslope.length.high >= whole.upslope.length.high
-
-
-def test_a_top_is_still_an_end_of_the_snow():
-    """A ridge 25 m above the row in plan; the grid goes on beyond it."""
-    grid = build_grid(lambda _, y: -np.abs(y - 5.0) * math.tan(PSI), size=160.0)
-    found = measure(grid, draw_line(ALONG_CONTOUR), most=60.0)
-    assert found.upslope.end in ("top", "flat")
-    assert found.upslope.length.value == pytest.approx(25.0 / math.cos(PSI), abs=4.0)
 
 
 @each("seed", range(16))

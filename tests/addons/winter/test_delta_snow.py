@@ -1,7 +1,6 @@
 """Settling by delta-snow, each event by the hand."""
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -126,10 +125,3 @@ def test_constant_height_comes_to_rest():
     assert means[-1] == pytest.approx(means[-50], rel=1e-12)
     settled = settled_by_hand(packs[-1].heights, packs[-1].densities)
     assert 1.7 - 0.02362476 < sum(settled) < 1.7
-
-
-def test_a_set_with_another_viscosity_settles_otherwise():
-    soft = replace(DELTA_SNOW, viscosity=ETA / 3)
-    heights = [0.8, 1.6, 1.5, 1.4, 1.5]
-    usual = follow_heights(heights, DELTA_SNOW)
-    assert follow_heights(heights, soft)[-1].mass > usual[-1].mass

@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.maxima import (
-    choose_days,
     find_annual_maximum,
     find_equivalent,
     find_many_maxima,
@@ -22,17 +21,6 @@ QUICK = {"accuracy": 0.03}
 
 def follow(heights):
     return dict(enumerate(follow_heights(heights, DELTA_SNOW)))
-
-
-def test_days_far_below_the_best_rank_are_not_solved():
-    solver = a_solver(**QUICK)
-    sizes = [(2.0, 300.0), (1.7, 300.0), (2.0, 220.0), (1.0, 400.0)]
-    days = [
-        RowDay(index=k, thickness=d, density=rho, ending="open")
-        for k, (d, rho) in enumerate(sizes)
-    ]
-    assert [day.index for day in choose_days(days, solver)] == [0, 1]
-    assert choose_days([], solver) == ()
 
 
 def test_equivalent_density_pulls_as_much():

@@ -1,15 +1,11 @@
 """Measured forces: on the dates of a winter, beside its curve, in a figure."""
 
 from dataclasses import replace
-from datetime import date, datetime, timedelta
-from xml.etree import ElementTree
+from datetime import date, datetime
 
 import pytest
 
 from netdesign.addons.winter.day import RowDay
-from netdesign.addons.winter.figure import (
-    draw_measured,
-)
 from netdesign.addons.winter.heights import HeightSeries
 from netdesign.addons.winter.maxima import AnnualMaximum
 from netdesign.addons.winter.measured import (
@@ -17,12 +13,10 @@ from netdesign.addons.winter.measured import (
     explain_unused,
     find_swing,
     list_measured_pulls,
-    name_measured_winters,
 )
 from netdesign.addons.winter.monitoring_sheet import MonitoringSeries
 from netdesign.addons.winter.season import Season
 from netdesign.checks.inputs import Band
-from netdesign.report.words import Words
 from tests import small_site
 from tests.addons.winter.made_up_row import a_solver
 
@@ -130,53 +124,3 @@ def test_times_without_a_date_stand_beside_no_winter():
     (told,) = explain_unused(a_site(), "R1", ())
     assert "no reading lies on a day" in str(told)
     assert explain_unused(a_site(tensions=(None,) * 4), "R1", ()) == ()
-
-
-def test_winters_with_readings_are_named():
-    pulls = list_measured_pulls(a_site(), "R1")
-    assert name_measured_winters(pulls) == {"2002/2003"}
-
-
-def test_air_temperatures_alone_are_no_forces():
-    assert list_measured_pulls(a_site(tensions=(None,) * 4), "R1") == ()
-
-
-SVG = "{http://www.w3.org/2000/svg}"
-BEGIN = datetime(2003, 1, 20, 6)
-
-
-def an_entry(count, hours):
-    """Readings every so many hours."""
-    times = [BEGIN + timedelta(hours=hours * k) for k in range(count)]
-    forces = [20.0 + 0.01 * k for k in range(count)]
-    return {
-        "winter": "2002/2003",
-        "member": "foot_anchor",
-        "readings": [
-            {"time": time.isoformat(), "force_kN": force}
-            for time, force in zip(times, forces, strict=True)
-        ],
-        "air_temperatures": [],
-        "computed": [
-            {
-                "date": (BEGIN + timedelta(days=4 * k)).date().isoformat(),
-                "force_kN": 21.0,
-                "low_kN": 19.0,
-                "high_kN": 23.0,
-            }
-            for k in range(12)
-        ],
-    }
-
-
-def test_figure_has_readings_chain_band_and_air():
-    words = Words("en")
-    air = {f"2003-01-{day}": -float(day) for day in range(20, 31)}
-    root = ElementTree.fromstring(draw_measured(an_entry(60, 12), air, words))
-    shown = [element.text for element in root.iter(f"{SVG}text")]
-    for key in ("measured", "computed", "band", "air"):
-        assert words(f"winter_measured.{key}") in shown
-    assert len(list(root.iter(f"{SVG}polygon"))) == 1
-    assert "23/01" in shown
-    bare = draw_measured(an_entry(60, 12), {}, words)
-    assert words("winter_measured.air") not in bare

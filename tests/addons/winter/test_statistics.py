@@ -62,11 +62,6 @@ def test_without_return_values_there_is_a_reason(winters, key):
         assert one in {"W50", "W60", "W61"}
 
 
-def test_fewer_than_fifteen_winters_tell_no_return_value():
-    assert fit_gumbel(list(range(14))) is None
-    assert fit_gumbel(list(range(15))).count == 15
-
-
 @pytest.mark.parametrize(
     ("period", "factor"), [(2.0, -0.164), (10.0, 1.305), (100.0, 3.137)]
 )

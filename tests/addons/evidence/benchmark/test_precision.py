@@ -14,15 +14,11 @@ from netdesign.addons.evidence.benchmark.precision import (
     refine_size,
     solve_fine,
     solve_truth,
-    state_error,
     summarise,
 )
 from netdesign.addons.evidence.benchmark.scenes import load_scenes
-from netdesign.addons.evidence.measurements import fit_order, share, summarise_times
 from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.mesh import MeshSize, build_template
 
 LEAST = {"finest": 2, "repeats": 1}
@@ -75,17 +71,6 @@ def test_summary_of_known_rows():
     assert summary["error_order"] == pytest.approx(2.0)
 
 
-def test_statistics():
-    assert summarise_times([float(k) for k in range(1, 22)]) == {
-        "median_s": pytest.approx(11.0),
-        "p95_s": pytest.approx(20.0),
-    }
-    assert summarise_times([1.0]) == {"median_s": None, "p95_s": None}
-    assert fit_order([1.0, 10.0, 100.0], [2.0, 200.0, 20000.0]) == pytest.approx(2.0)
-    assert share([True, False, True, True]) == 0.75
-    assert share([]) is None
-
-
 def test_a_finer_mesh_is_finer_in_each_direction_everywhere():
     """Four pieces of every side, at the net's foot as well."""
     size = MeshSize(net_spacing=0.2, corner=0.01, sectors=2, upslope_spacing=0.5)
@@ -107,13 +92,6 @@ def test_errors_are_those_of_the_vectors(solved):
     truth = Truth(foot=np.array([-foot.y, foot.x]), head=np.array([head.x, head.y]))
     assert truth.compare_ends(solution) == pytest.approx((np.sqrt(2.0), 0.0))
     assert truth.compare(solution) == pytest.approx(np.sqrt(2.0))
-
-
-def test_stated_error_is_that_of_the_worse_end(solved):
-    solution = solved(inclination_deg=30.0)
-    shares = [end.error / end.size for end in (solution.foot, solution.head)]
-    assert state_error(solution) == max(shares)
-    assert shares[0] != shares[1]
 
 
 def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
@@ -139,20 +117,3 @@ def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatc
     held = None  # left before the finest mesh: no figure to compare with
     with pytest.raises(SuctionError):
         solve_fine(a_scene(), SolverSettings())
-
-
-def test_coarse_mesh_leads_to_a_truth_that_is_not_found_at_once(a_scene, monkeypatch):
-    """No mesh is left out, though two in turn agree well enough for a result."""
-    scene = a_scene(ground="no-slip", friction_deg=21.7)
-    settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[1:3])
-    at_once = solve_fine(scene, settings)
-
-    def solve(scene, settings, **ways):
-        if len(settings.levels) == 2:
-            raise SolveError(Outcome.MAX_ITERATIONS)
-        return solve_steady(scene, settings, **ways)
-
-    monkeypatch.setattr(truths, "solve_steady", solve)
-    found = solve_fine(scene, settings)
-    np.testing.assert_allclose(found.foot, at_once.foot, rtol=5e-3)
-    assert not np.array_equal(found.foot, at_once.foot)

@@ -1,26 +1,18 @@
 """Real runs of the paper on the coarsest meshes, and meshes drawn."""
 
-import re
 from dataclasses import replace
-from types import SimpleNamespace
-from xml.etree import ElementTree
 
-import numpy as np
 import pytest
 
-from netdesign.addons.evidence.paper.page import draw_meshes
 from netdesign.addons.evidence.paper.study import (
     PaperSettings,
     find_exchange,
     find_history,
     find_steady,
-    list_cases,
     run_case,
-    run_study,
 )
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.snow.mesh import MeshSize
-from netdesign.words.message import say
 
 COARSE = MeshSize(net_spacing=0.34, corner=0.1, sectors=4, upslope_spacing=1.5)
 THIN = PaperSettings(
@@ -73,48 +65,3 @@ def test_a_failure_is_a_result_with_its_reason(monkeypatch):
     assert str(run.failure) == "made to fail"
     assert run.track is None
     assert run.foot is None
-
-
-def test_study_runs_every_case_once(monkeypatch):
-    from netdesign.addons.evidence.paper import study as module
-    from netdesign.addons.evidence.paper.study import PaperRun
-
-    done = []
-    monkeypatch.setattr(
-        module,
-        "run_case",
-        lambda case, **_: PaperRun(case=case, failure=say("outcome.diverged")),
-    )
-    study = run_study(THIN, on_done=done.append)
-    assert list(study.runs) == list_cases()
-    assert len(done) == len(study.runs) == len(set(study.runs))
-
-
-def texts(svg):
-    tag = "{http://www.w3.org/2000/svg}text"
-    return [element.text for element in ElementTree.fromstring(svg).iter(tag)]
-
-
-def picture(density):
-    nodes = np.array([[-4.0, 0.0, 0.0, -4.0], [0.0, 0.0, 2.0, 2.0]])
-    triangles = np.array([[0, 0], [1, 2], [2, 3]])
-    density = np.asarray(density)
-    return "one", SimpleNamespace(
-        mesh_nodes=nodes,
-        mesh_triangles=triangles,
-        mesh_density=density,
-        net_curve=nodes[:, 1:3],
-    )
-
-
-@pytest.mark.parametrize(
-    ("densities", "shown"),
-    [
-        ((300.0, 500.0), {"300", "400", "500", "density [kg/m³]"}),
-        ((300.0, 300.0), {"density 300 kg/m³ throughout"}),
-    ],
-)
-def test_density_scale_spans_the_densities(densities, shown):
-    svg = draw_meshes([picture(densities)])
-    assert shown <= set(texts(svg))
-    assert not re.search(r"<image|base64|<script", svg)  # which could be blocked

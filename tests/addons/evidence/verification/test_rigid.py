@@ -15,13 +15,9 @@ from netdesign.addons.evidence.verification.rigid import (
     solve_rigid,
     solve_wall,
 )
-from netdesign.coupling import interface
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import FailedSolution
-from netdesign.outcome import Outcome
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS
 from netdesign.snow.ground import GroundLaw, compute_slip_length, load_glide_tables
-from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.each import each
 
 COARSE = SolverSettings(
@@ -90,37 +86,11 @@ def test_free_ground_leaves_its_weight_to_the_wall(
     assert solution.force.x == pytest.approx(expected, rel=1e-8)
 
 
-def test_smooth_wall_normal_to_the_slope_has_no_shear(a_scene):
-    solution = press(a_scene, 0.0, **PRESSED)
-    assert abs(solution.force.y) < 1e-9 * solution.force.x
-    assert solution.wall_slides[1:].all()
-
-
 def test_adhering_snow_hangs_on_the_wall(a_scene):
     """Held by the wall, the settling snow pulls it towards the ground."""
     solution = press(a_scene, **PRESSED)
     assert solution.force.y < 0.0
     assert not solution.wall_slides.any()
-
-
-def test_fluidity_leaves_the_force(a_scene):
-    scene = walled(a_scene, **PRESSED)
-    slow = solve_rigid(scene, COARSE)
-    fast = solve_rigid(replace(scene, fluidity=9.0 * scene.creep_fluidity), COARSE)
-    assert fast.force.x == slow.force.x
-
-
-def test_wall_holds_layered_snow(a_scene):
-    scene = walled(a_scene, **PRESSED)
-    pack = build_layered_snowpack(
-        (Layer(thickness=1.0, density=500.0), Layer(thickness=3.0, density=250.0)),
-        slope_angle=scene.snowpack.slope_angle,
-        upslope_length=20.0,
-    )
-    solution = solve_rigid(replace(scene, snowpack=pack), COARSE)
-    assert solution.balance.relative_residual < 1e-8
-    weight = (500 + 3 * 250) * 9.81 * 20 * math.sin(math.radians(40))
-    assert solution.balance.weight_along_slope == pytest.approx(weight, rel=1e-12)
 
 
 def test_one_sided_wall_and_ground_do_not_pull(a_scene):
@@ -140,26 +110,6 @@ def test_stated_error_holds(a_scene):
     fine = press(a_scene, settings=replace(COARSE, levels=MESH_LEVELS[2:]), **PRESSED)
     apart = math.hypot(coarse.force.x - fine.force.x, coarse.force.y - fine.force.y)
     assert apart <= coarse.force.error
-
-
-def test_force_lost_on_the_ground(a_scene, monkeypatch):
-    compute = interface.compute_support_forces
-
-    def lose_some(*arguments):
-        forces = compute(*arguments)
-        return replace(forces, on_ground=forces.on_ground + np.array([1e-6, 0.0]))
-
-    monkeypatch.setattr(interface, "compute_support_forces", lose_some)
-    result = solve_rigid(walled(a_scene, **PRESSED), COARSE)
-    assert isinstance(result, FailedSolution)
-    assert result.outcome is Outcome.BALANCE_VIOLATED
-
-
-def test_too_few_newton_steps(a_scene):
-    result = solve_rigid(walled(a_scene, **PRESSED), replace(COARSE, max_iterations=2))
-    assert isinstance(result, FailedSolution)
-    assert result.outcome is Outcome.MAX_ITERATIONS
-    assert "snow flow" in str(result.reason)
 
 
 @pytest.mark.long
