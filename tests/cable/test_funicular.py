@@ -91,14 +91,3 @@ def test_forces_at_the_ends_go_into_the_pulls():
     np.testing.assert_allclose(loaded.foot_pull - plain.foot_pull, foot, atol=1e-12)
     np.testing.assert_allclose(loaded.head_pull - plain.head_pull, head, atol=1e-12)
     np.testing.assert_allclose(loaded.curve, plain.curve, atol=1e-12)
-
-
-def test_mirror_image():
-    """Loads mirrored in the chord give the mirrored curve."""
-    lengths = np.full(4, 1.05 / 4)
-    forces = random_pressure(11, lengths)
-    mirror = 2.0 * np.outer(HEAD, HEAD) - np.eye(2)
-    cable = solve_funicular(forces, lengths, STIFFNESS, HEAD, ACROSS + HEAD)
-    image = solve_funicular(mirror @ forces, lengths, STIFFNESS, HEAD, HEAD - ACROSS)
-    np.testing.assert_allclose(image.curve, mirror @ cable.curve, atol=1e-11)
-    np.testing.assert_allclose(image.tension, cable.tension, rtol=1e-10)

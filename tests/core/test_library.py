@@ -26,13 +26,6 @@ def test_switched_off(word, monkeypatch):
     assert library.name_core() == "numpy"
 
 
-@needs_core
-def test_its_name_has_the_digest_of_its_text():
-    digest = sources.digest_sources()
-    assert library.name_core() == f"C {digest}"
-    assert len(digest) == 12
-
-
 def test_the_digest_has_the_flags(monkeypatch):
     """A library that may fuse multiplications is another one."""
     before = sources.digest_sources()
@@ -42,14 +35,6 @@ def test_the_digest_has_the_flags(monkeypatch):
     monkeypatch.setattr(sources, "FLAGS", flags)
     assert sources.digest_sources() != before
     sources.digest_sources.cache_clear()
-
-
-def test_the_digest_has_the_code_without_comments():
-    text = 'double a = 3.7; /* of b\n "c" */\n\n// d\nchar *e = "/* f */ // g";\n'
-    code = 'double a = 3.7;\nchar *e = "/* f */ // g";'
-    assert sources.take_code(text) == code
-    for old, new in (("3.7", "3.8"), ("f", "g"), ("//", "/")):
-        assert sources.take_code(text.replace(old, new)) != code
 
 
 def test_a_comment_makes_no_other_digest_and_a_constant_does(tmp_path, monkeypatch):
@@ -116,13 +101,6 @@ def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
 TRIANGLES = np.array([[0, 1, 2, 3, 4, 5]], dtype=np.int32)
 NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])
 NET = np.array([0, 5, 2], dtype=np.int32)
-
-
-@needs_core
-def test_plan_of_one_triangle():
-    built = build_plan(library.find_core(), TRIANGLES, NODES, NET)
-    n_nodes, n_triangles, n_net, n_fronts, widest = built[1:6]
-    assert (n_nodes, n_triangles, n_net, n_fronts, widest) == (6, 1, 3, 1, 12)
 
 
 @needs_core

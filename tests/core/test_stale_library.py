@@ -73,14 +73,6 @@ def test_without_a_compiler_every_run_says_so_in_one_line(checkout):
         assert error.count("\n") == 1
 
 
-@pytest.mark.long
-def test_a_command_says_so_in_its_language(checkout):
-    command = ("-m", "netdesign", "doctor", "--language", "de")
-    error = run(checkout, *command, PATH="", CC="")[1]
-    assert error.startswith("Hinweis: netdesign computes in NumPy")
-    assert error.count("\n") == 1
-
-
 @needs_compiler
 def test_text_that_does_not_compile_is_told_and_nothing_is_left(checkout):
     (checkout / "netdesign/core/core.h").write_text("#error no such thing\n")
@@ -89,21 +81,6 @@ def test_text_that_does_not_compile_is_told_and_nothing_is_left(checkout):
     assert "no such thing" in error
     assert error.count("\n") == 1
     assert list_core(checkout) == {"_core.so"}
-
-
-def test_workers_do_not_say_it_again(checkout):
-    program = checkout / "program.py"
-    program.write_text(
-        "from concurrent.futures import ProcessPoolExecutor as Pool\n"
-        "from multiprocessing import get_context\n"
-        "from netdesign.core.library import name_core\n"
-        "if __name__ == '__main__':\n"
-        "    with Pool(1, mp_context=get_context('spawn')) as pool:\n"
-        "        print(name_core(), pool.submit(name_core).result())\n"
-    )
-    out, error = run(checkout, str(program), PATH="", CC="")
-    assert out == "numpy numpy\n"
-    assert error.count("\n") == 1
 
 
 @pytest.mark.parametrize("is_switched_off", [True, False])

@@ -42,18 +42,6 @@ def test_bytes_that_are_no_text_are_told_by_their_line():
         decode_utf8(b"\xef\xbb\xbfa = 1\n\xff\n")
 
 
-@pytest.mark.parametrize(
-    ("folder", "file"),
-    [
-        ("standards", "nf-p-95-304-style/document.toml"),
-        ("templates", "page.html"),
-        ("templates", "example_input.toml"),
-    ],
-)
-def test_folders_of_this_installation_are_found(folder, file):
-    assert (find_resource(folder) / file).is_file()
-
-
 @pytest.fixture
 def package(tmp_path):
     """An empty package in a folder of its own."""

@@ -1,6 +1,5 @@
 """Standard streams: readers who stop, disks that are full, code pages without signs."""
 
-import io
 import json
 import os
 import subprocess
@@ -9,9 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.edge.output import _Lasting
 from netdesign.words.catalogue import load_texts
-from tests.each import each
 from tests.make import write_tiny
 from tests.program import QUICK, start_program
 
@@ -121,37 +118,3 @@ def test_a_document_is_utf_8_whatever_the_code_page_and_standard_error(tmp_path)
     document = json.loads(ended.stdout.decode())
     assert document["verdict"] == "not_proven"
     assert document["rows"][0]["id"] == "Rangée φ 1"
-
-
-class _Failing(io.RawIOBase):
-    """Takes some bytes, then fails as told."""
-
-    def __init__(self, error, after):
-        self.error, self.left = error, after
-        self.taken = b""
-
-    def writable(self):
-        return True
-
-    def write(self, data, /):
-        if self.left <= 0:
-            raise self.error
-        part = bytes(data[: self.left])
-        self.taken += part
-        self.left -= len(part)
-        return len(part)
-
-
-@each("after", [0, 1, 700, 8192, 20_001])
-@each("error", [BrokenPipeError(32, "Broken pipe"), OSError(28, "No space left")])
-def test_a_lost_stream_takes_all_that_follows(error, after):
-    raw = _Failing(error, after)
-    lasting = _Lasting(raw)
-    stream = io.TextIOWrapper(io.BufferedWriter(lasting), encoding="utf-8")
-    text = "line é\n" * 5000
-    for _ in range(3):
-        assert stream.write(text) == len(text)
-        stream.flush()
-    assert raw.taken == text.encode()[:after]
-    is_pipe = isinstance(error, BrokenPipeError)
-    assert lasting.fault is (None if is_pipe else error)

@@ -8,16 +8,15 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution
-from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.rows import build_point_task
-from netdesign.envelope.search import FrictionSkip, search_rows, solve_first
+from netdesign.envelope.search import search_rows
 from netdesign.envelope.signed_forces import SIGNED, read_signed
 from netdesign.outcome import Outcome
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
 from tests.each import each
 from tests.envelope.tasks import build_row
-from tests.solving.made_up_workers import Recording, Spoiling, finish
+from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import LAYOUT, solve_case
 
 SETTINGS = SolverSettings(accuracy=0.004, levels=MESH_LEVELS[:4])
@@ -105,31 +104,6 @@ def test_what_fails_roughly_is_solved_again():
     (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil)))
     assert found.gap is None
     assert all(result.case.density > 260.0 for _, result in list_rough(found))
-
-
-def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
-    """What friction cannot change is taken from the accurate case, not the rough."""
-    task = replace(
-        TASK,
-        ranges=Ranges(
-            intervals=(
-                ("density", Interval(low=400.0, high=418.0)),  # all are near
-                ("friction_angle", Interval(low=0.92, high=1.01)),
-            )
-        ),
-    )
-    points = [(side, share) for side in (0.0, 0.37, 1.0) for share in (0.0, 0.41, 1.0)]
-    skip = FrictionSkip(task.ranges.axes)
-    workers, steps = Recording(), solve_first(task, points, skip)
-    results, rough = finish(steps, Runner(workers=workers).solve)
-    assert skip.skipped > 0
-    assert not rough
-    coarsest = solve_case(
-        build_point_task(task, points[0], replace(SETTINGS, levels=MESH_LEVELS[:2]))
-    )
-    assert {one.solution.cost.elements for one in results}.isdisjoint(
-        {coarsest.solution.cost.elements}
-    )
 
 
 def name_signed(result):

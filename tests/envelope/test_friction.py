@@ -80,33 +80,6 @@ def test_another_line_and_a_failed_case_answer_for_nothing(end):
     assert needs_solve(skip, HIGH)
 
 
-def test_two_chances_are_solved_one_by_one_and_apart(end):
-    skip = FrictionSkip(AXES)
-    for line in (0.1, 0.2, 0.3, 0.4):
-        skip.learn((line, 0.0), sticking(end))
-    chances = [(line, 1.0) for line in (0.4, 0.1, 0.2, 0.3)]
-    assert skip.choose(chances) == [(0.1, 1.0), (0.3, 1.0)]
-    skip.learn((0.1, 1.0), sticking(end))
-    skip.learn((0.3, 1.0), sticking(end))
-    assert skip.choose([(0.2, 1.0), (0.4, 1.0)]) == []
-
-
-def test_after_a_disagreement_no_line_ends_early(end):
-    skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
-    assert skip.choose([LOW, HIGH]) == [LOW, HIGH]
-
-
-def test_a_line_is_solved_upwards_until_its_snow_sticks(end):
-    """Another line goes on beside it."""
-    skip, beside = after_two_tests(end), (0.4, 0.5)
-    assert skip.choose([HIGH, beside, MIDDLE, LOW]) == [LOW, beside]
-    skip.learn(LOW, sticking(end, sticks=False))
-    skip.learn(beside, sticking(end))
-    assert skip.choose([HIGH, MIDDLE]) == [MIDDLE]
-    skip.learn(MIDDLE, sticking(end))
-    assert skip.choose([HIGH]) == []
-
-
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
     """What the skip relies on, on the real thing: rough ground, an upright net."""
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])

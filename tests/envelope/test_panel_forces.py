@@ -12,7 +12,6 @@ from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.panel_forces import (
     PANEL_QUANTITIES,
     PanelForces,
-    resolve_panels,
 )
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS
@@ -99,31 +98,6 @@ def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
             assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
 
 
-def test_governing_cases_of_the_panel_are_confirmed_too(found):
-    named = {one.member for one in found.confirmations}
-    assert {"panel_foot_anchor", "panel_uphill_guy", "panel_lower_along"} <= named
-    for one in found.confirmations:
-        high = one.confirmed.member_forces[one.member].high
-        assert found.extremes[one.member].widened.high >= high
-        assert abs(one.difference) < 0.1
-
-
-def test_forces_of_the_section_are_bounded_as_without_a_panel(found, runner):
-    (plain,) = search_rows([replace(TASK, panels=())], runner)
-    for member, extreme in plain.extremes.items():
-        beside = found.extremes[member]
-        slack = 0.01 * extreme.widened.high
-        assert beside.force.value == pytest.approx(extreme.force.value, abs=slack)
-        assert beside.widened.high == pytest.approx(extreme.widened.high, abs=2 * slack)
-
-
-def test_uphill_guy_is_larger_by_the_panel_and_foot_and_post_smaller(found):
-    forces = {name: one.force.value for name, one in found.extremes.items()}
-    assert forces["panel_uphill_guy"] > 1.05 * forces["uphill_guy"]
-    assert forces["panel_foot_anchor"] < forces["foot_anchor"]
-    assert forces["panel_post"] < forces["post"]
-
-
 @pytest.fixture
 def failing(monkeypatch):
     """No panel in heavy snow."""
@@ -164,26 +138,3 @@ def test_a_panel_that_fails_leaves_a_gap_in_a_grid(failing):
     found = find_extremes(results)
     assert found["post"].governing.case.density == 397.0
     assert found["panel_post"].governing.case.density < 397.0
-
-
-@pytest.mark.parametrize("method", ["transient", "staggered"])
-def test_a_history_has_no_panel(method):
-    case = draw_case(np.random.default_rng(8))
-    state = replace(solve(case).solution, method=method)
-    failed = resolve_panels([PANEL], build_scene(case).net, state)
-    assert isinstance(failed, FailedPanel)
-    assert failed.outcome is Outcome.OUT_OF_VALIDITY
-    assert failed.reason.key == "panel.steady_only"
-
-
-def test_ropes_that_nothing_checks_cost_no_case_and_keep_their_bounds(
-    found, grid, runner
-):
-    """Pulls along the row decide at a row's end only; without one they are told."""
-    (ended,) = search_rows([replace(TASK, has_end=True)], runner)
-    assert len(found.results) <= len(ended.results)
-    for name in RopeForce:
-        tops = [one.extremes[name].widened.high for one in (found, ended)]
-        largest = max(result.member_forces[name].value for result in grid)
-        assert largest <= min(tops)
-        assert max(tops) < 1.2 * largest

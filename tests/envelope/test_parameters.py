@@ -94,17 +94,6 @@ def test_glide_takes_the_thickness_that_ranges_with_it():
     assert both.ground.slip_length == pytest.approx(alone.ground.slip_length / 2.0)
 
 
-def test_corners_are_met_exactly_and_single_values_are_no_axis():
-    ranges = box(
-        inclination=(0.1, 0.1), friction_angle=(0.2, 0.7), density=(250.0, 450.0)
-    )
-    assert ranges.axes == ("density", "friction_angle")
-    assert ranges.place((0.0, 1.0)) == {
-        "density": 250.0, "friction_angle": 0.7, "inclination": 0.1,
-    }  # fmt: skip
-    assert ranges.place((0.5, 0.5))["density"] == 350.0
-
-
 def test_a_case_knows_the_scenes_own_values_and_the_others():
     case = build_case(SCENE, {"friction_angle": 0.2, "slack": 0.1})
     assert (case.density, case.friction_angle) == (300.0, 0.2)
@@ -138,11 +127,3 @@ def test_glide_ranges_on_sliding_ground_only(kind, name):
         place_scene(still, {name: 1.17})
     with pytest.raises(ModelError, match="does not slide"):
         require_valid(still, box(density=(250.0, 300.0), **{name: (1.1, 1.3)}))
-
-
-def test_no_value_but_a_glide_changes_the_ground():
-    others = {k: v for k, v in VALUES.items() if k != "glide_factor"}
-    for kind in GROUND_KINDS:
-        slip = 1.37 if kind == "sliding" else 0.0
-        scene = replace(SCENE, ground=GroundLaw(kind=kind, slip_length=slip))
-        assert place_scene(scene, others).ground == scene.ground

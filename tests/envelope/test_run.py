@@ -5,10 +5,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import Scene
 from netdesign.envelope.run import run_cases
-from netdesign.outcome import SENTENCE, Outcome
-from netdesign.solving import workers
+from netdesign.outcome import Outcome
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import place_support
 from tests.solving.small_scene import LAYOUT, solve_case
@@ -17,15 +15,6 @@ MEMBERS = {
     *("foot_anchor", "uphill_guy", "uphill_anchor", "downhill_guy", "downhill_anchor"),
     *("post", "post_base", "mesh", "post_foot"),
 }
-
-
-class FaultyScene(Scene):
-    """Raises what no case may raise: a bug."""
-
-    @property
-    def flow_problem(self):
-        message = "spoilt"
-        raise ZeroDivisionError(message)
 
 
 def sizes(result):
@@ -113,22 +102,3 @@ def test_a_support_that_cannot_stand_fails_by_name(task):
     assert result.outcome is Outcome.NO_EQUILIBRIUM
     assert "no equilibrium" in str(result.reason)
     assert result.member_forces == {}
-
-
-def test_a_bug_in_one_case_spares_the_others(task):
-    tasks = [task(250.0), task(300.0, kind=FaultyScene), task(350.0)]
-    results = run_cases(tasks)
-    assert densities(results) == [250.0, 300.0, 350.0]
-    assert [result.is_converged for result in results] == [True, False, True]
-    assert results[1].outcome is Outcome.PROGRAM_FAULT
-    assert results[1].reason == SENTENCE
-    assert results[1].fault.kind == "ZeroDivisionError"
-
-
-def test_an_interrupt_is_no_failed_case(task, monkeypatch):
-    def interrupted(*_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(workers, "solve_scene", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        run_cases([task(250.0)])

@@ -1,6 +1,5 @@
 """The envelope of a row on the real solver, coarse; and of many rows together."""
 
-import math
 from contextlib import closing
 from dataclasses import replace
 
@@ -9,12 +8,11 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope import rows
 from netdesign.envelope.panel_forces import POST_PULLS
 from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.envelope.rows import build_point_task, refine_settings
-from netdesign.envelope.search import RowSearch, run_grid, search_rows
-from netdesign.outcome import ModelError, Outcome
+from netdesign.envelope.search import run_grid, search_rows
+from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
@@ -22,7 +20,7 @@ from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
 from tests.envelope.tasks import build_row
-from tests.solving.made_up_workers import Spoiling, finish
+from tests.solving.made_up_workers import Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 TASK = build_row((250.0, 400.0), (15.0, 45.0))
@@ -118,26 +116,6 @@ def test_a_governing_case_that_cannot_be_calculated_again_leaves_a_gap(found):
     )
 
 
-def test_a_search_can_be_stepped(found):
-    """By hand, with any solver: the same as all rows together."""
-    finer = found.task.confirmed_by
-    search = RowSearch(replace(TASK, confirmed_by=finer))
-    assert search.gap == math.inf
-    gaps = []
-
-    def solve(jobs):
-        gaps.append(search.gap)
-        return Runner().solve(jobs)
-
-    result = finish(search.run(), solve)
-    assert result.maxima.points == found.maxima.points
-    assert result.maxima.upper_bound == found.maxima.upper_bound
-    assert [one.member for one in result.confirmations] == [
-        one.member for one in found.confirmations
-    ]
-    assert 0.0 < gaps[-1] <= TASK.search.gap * (1.0 + 1e-9)
-
-
 def test_a_second_run_solves_nothing_and_ends_the_same(tmp_path):
     ends = []
     for _ in range(2):
@@ -205,23 +183,6 @@ def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
     assert rope >= max(foot, head) * (1.0 - 1e-12)
     governing = found.extremes["foot"].governing
     assert governing.solution.foot.size == foot
-
-
-@pytest.fixture
-def refuses(monkeypatch):
-    """The model refuses every scene."""
-
-    def refuse(*_):
-        raise ModelError("refused")
-
-    monkeypatch.setattr(rows, "place_scene", refuse)
-
-
-@pytest.mark.usefixtures("refuses")
-def test_a_search_of_refused_cases_is_not_closed():
-    (found,) = search_rows([TASK], Runner())
-    assert not found.maxima.is_closed
-    assert {str(result.reason) for result in found.results} == {"refused"}
 
 
 # --- a grid in lines of ascending friction -------------------------------------------

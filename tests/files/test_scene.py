@@ -5,12 +5,10 @@ import tomllib
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.files.scene import SceneFile, build_scene_of_file, read_scene
 from netdesign.files.solution import write_solution_document
-from netdesign.outcome import ModelError, Outcome, SceneFileError
-from netdesign.snow.creep_law import compute_fluidity
+from netdesign.outcome import ModelError, SceneFileError
 from netdesign.snow.ground import build_ground_from_glide_factor
 from tests.each import each
 from tests.full_scene import FULL_SCENE
@@ -210,16 +208,6 @@ def test_nodes_of_the_document_carry_the_snow_on_the_net(solved):
     assert {node["sliding"] for node in nodes} <= {True, False}
 
 
-def test_a_failure_carries_its_reason_and_no_number():
-    failure = FailedSolution(outcome=Outcome.DIVERGED, reason="residual grew")
-    document = write_solution_document(failure, SolverSettings(), wall_s=1.0)
-    assert document == {
-        "schema": "netdesign.solution/1",
-        "outcome": "diverged",
-        "reason": "residual grew",
-    }
-
-
 # --- layers, temperature, contacts, walls, sets of one's own -------------------------
 
 
@@ -244,11 +232,6 @@ def test_layers_give_the_mean_density(tables):
     pack = build(tables).snowpack
     assert pack.density == pytest.approx((450 + 3 * 300) / 4, rel=1e-14)
     assert [layer.temperature for layer in pack.layers] == [None, 268.15]
-
-
-def test_temperature_becomes_fluidity(tables):
-    tables["snow"]["temperature_C"] = -10.0
-    assert build(tables).fluidity == compute_fluidity(263.15)
 
 
 def test_creep_law_of_ones_own(tables):
@@ -288,29 +271,6 @@ def test_fault_in_a_layer_is_told_with_its_place(tables, key, values):
         take_layers(tables, LAYERS[0], {**LAYERS[1], key: value})
         with pytest.raises(ValueError, match=rf"(?m)^snow\.layers\.1\.{key}"):
             build(tables)
-
-
-def test_layer_outside_the_calibration_is_flagged(tables):
-    """The mean density alone would not tell."""
-    take_layers(
-        tables,
-        {"thickness_m": 3.0, "density_kg_m3": 450.0},
-        {"thickness_m": 1.0, "density_kg_m3": 200.0},
-    )
-    scene = build(tables)
-    assert scene.creep_law.is_calibrated(scene.snowpack.relative_density)
-    assert not scene.is_calibrated
-
-
-def test_layer_where_the_set_is_inadmissible(tables):
-    tables["snow"]["creep_law"] = "gagliardini-1997"
-    take_layers(
-        tables,
-        {"thickness_m": 3.0, "density_kg_m3": 600.0},
-        {"thickness_m": 1.0, "density_kg_m3": 400.0},
-    )
-    with pytest.raises(ModelError, match=r"relative density = 0\.436.*shrink sideways"):
-        build(tables)
 
 
 @pytest.mark.parametrize(

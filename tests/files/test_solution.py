@@ -41,16 +41,3 @@ def test_ground_without_pressure_gives_numbers():
             shares.append(solution.balance.ground_tension_share)
     assert 1.0 in shares
     assert min(shares) >= 0.0
-
-
-# A net of much slack that the snow would press on the ground beside its foot.
-TOUCHING = draw_scene(3, 560)
-
-
-def test_refused_net_says_what_to_change():
-    scene = build_tables(TOUCHING)
-    refused = solve_scene(scene, ROUGH)
-    assert isinstance(refused, FailedSolution)
-    assert "less slack, less inclination or a stiffer net is needed" in str(
-        refused.reason
-    )

@@ -92,12 +92,6 @@ def test_panel_and_row_end_are_those_of_their_functions(section, mid):
     assert row_end["post_kN"] == pytest.approx(end.post_compression / 1e3)
 
 
-def test_without_an_angle_guy_and_end_post_are_not_known(section):
-    written, _ = write(section, panel=PANEL)
-    assert written["row_end"]["end_guy_kN"] is None
-    assert written["row_end"]["post_kN"] is None
-
-
 @pytest.mark.parametrize("language", ["en", "de", "fr"])
 def test_a_panel_that_fails_leaves_its_reason(section, language):
     low = Rope(stiffness=2e7, sag=0.3)
@@ -106,9 +100,3 @@ def test_a_panel_that_fails_leaves_its_reason(section, language):
     assert written["plain"]["post_kN"] > 0.0
     assert written["panel"] is None
     assert written["reason"]
-
-
-def test_a_staggered_history_has_no_panel(section):
-    written, _ = write(replace(section, method="staggered"), panel=PANEL)
-    assert written["panel"] is None
-    assert "steady state of a net, not on a history" in written["reason"]

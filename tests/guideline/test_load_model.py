@@ -80,22 +80,6 @@ def test_dimensioning_form_of_the_guideline():
     assert MODEL.dimensioning_creep is None
 
 
-def test_share_of_the_normal_part():
-    """a = 0.5 in the place of 0.35; nothing else changes."""
-    usual, dense = a_load(), a_load(normal_share=0.5)
-    assert dense.normal == pytest.approx(usual.normal * 0.5 / 0.35, rel=1e-14)
-    assert dense.parallel == usual.parallel
-
-
-def test_two_load_cases_press_alike():
-    """0.77 of the height in snow of 0.40 t/m3 gives the same pressure within 3 %.
-
-    Up to 1500 m; load case 2 takes the load of case 1 itself, at every altitude.
-    """
-    second = a_load(density=400.0, height_vertical=3.0 * MODEL.case_2_height)
-    assert second.rigid == pytest.approx(a_load().rigid, rel=0.03)
-
-
 @pytest.mark.parametrize(
     ("altitude", "factor"),
     [(0, 1.0), (1500, 1.0), (2000, 1.10), (3000, 1.30), (4000, 1.30)],

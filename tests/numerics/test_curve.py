@@ -41,31 +41,6 @@ def test_order_three_on_a_smooth_curve():
     assert errors[-1] < 2e-5
 
 
-def test_curve_is_smooth_at_its_points():
-    """One slope on both sides; a polygon would have two."""
-    points = sines(UNEVEN)
-    small = 1e-6
-    inner = UNEVEN[1:-1]
-    before = interpolate_curve(UNEVEN, points, inner - small)
-    after = interpolate_curve(UNEVEN, points, inner + small)
-    middle = points[:, 1:-1]
-    np.testing.assert_allclose(middle - before, after - middle, atol=1e-10)
-
-
-def test_a_moved_point_is_felt_by_two_pieces_on_either_side():
-    known = np.arange(9.0)
-    points = sines(known)
-    moved = points.copy()
-    moved[:, 4] += 1.0
-    wanted = np.linspace(0.0, 8.0, 161)
-    change = interpolate_curve(known, moved, wanted) - interpolate_curve(
-        known, points, wanted
-    )
-    felt = np.abs(change).max(axis=0) > 0.0
-    assert wanted[felt].min() > 2.0
-    assert wanted[felt].max() < 6.0
-
-
 def test_a_curve_is_traced_smoothly_through_its_points():
     """Nodes on a quarter circle, as far apart as a coarse mesh has them."""
     angles = [0.0, 0.02, 0.1, 0.4, 0.7, 1.1, math.pi / 2]

@@ -43,19 +43,3 @@ def test_derivatives_are_those_of_what_is_missing(problem, seed):
         change = (up - down) / (2.0 * step)
         scale = np.abs(change).max()
         np.testing.assert_allclose(found[:, column], change, atol=2e-8 * scale)
-
-
-def test_ropes_bend_as_their_loads_ask(problem):
-    """H u of a uniform pull is a parabola in each span; none moves at its supports."""
-    point = draw_point(problem, 2)
-    stations = problem.ropes.stations
-    count = stations.xi.size
-    point[:-2] = np.repeat(problem.strip.foot_pull / problem.load_size, count + 1)
-    state = read_point(problem, 0, point)
-    xi = np.append(stations.xi, 0.0)
-    is_held = problem.ropes.panels[0].has_mid_anchors
-    shape = (xi - xi**2 if is_held else 1.0 - xi**2) * problem.half**2 / 2.0
-    expected = np.outer(problem.strip.foot_pull, shape) / state.loads.along[0]
-    np.testing.assert_allclose(state.loads.displacements[0], expected, atol=1e-12)
-    both = state.loads.pulls.sum(axis=0)
-    np.testing.assert_allclose(both.T, np.tile(problem.strip.load, (count + 1, 1)))

@@ -24,12 +24,6 @@ def test_length_of_a_parabola(sag):
     assert compute_excess_length(sag) == pytest.approx(closed, rel=1e-12)
 
 
-def test_flat_parabola_keeps_its_digits():
-    sag = 1.7e-7
-    assert compute_excess_length(sag) == pytest.approx(8 / 3 * sag**2, rel=1e-12)
-    assert compute_excess_length(0.0) == 0.0
-
-
 @each("sag", [0.0, 0.051, 0.15])
 @each("stiffness", [1.3e6, 1.8e7, 1e13])
 def test_rope_has_its_length(stiffness, sag):
@@ -45,19 +39,6 @@ def test_rope_has_its_length(stiffness, sag):
 
     length, _ = quad(unstressed, 0.0, 1.0, epsabs=1e-14)
     assert length - 1.0 == pytest.approx(compute_excess_length(sag), abs=1e-13)
-
-
-def test_force_along_falls_with_sag_and_rises_with_stiffness():
-    pull = np.array([[0.0], [41e3]]) * ROPE_POINTS
-
-    def along(stiffness, sag):
-        rope = Rope(stiffness=stiffness, sag=sag)
-        return find_force_along(pull, rope)
-
-    by_sag = [along(18e6, sag) for sag in (0.0, 0.02, 0.05, 0.1, 0.2)]
-    assert (np.diff(by_sag) < 0.0).all()
-    by_stiffness = [along(stiffness, 0.05) for stiffness in (1e6, 1e7, 1e8, 1e9)]
-    assert (np.diff(by_stiffness) > 0.0).all()
 
 
 def test_derivatives_of_the_lengths():

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.cable.funicular import reach_ends
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError, Outcome
@@ -62,26 +61,6 @@ def test_strip_hangs_as_the_section_does(a_scene, kind):
     np.testing.assert_allclose(curve, solution.net_curve, atol=1e-8)
     assert strip.shares.sum() == pytest.approx(1.0, abs=1e-14)
     np.testing.assert_allclose(strip.load, np.add(foot, head), atol=1e-8 * scale)
-
-
-def test_strips_between_moved_ropes_are_in_balance(solved):
-    """Whatever they pull with: their ends follow, and forces turn nothing."""
-    strip = take_strip(solved(inclination_deg=30.0))
-    rng = np.random.default_rng(7)
-    moved, lengths = np.zeros((2, 2, 3)), strip.chord * np.array([0.93, 1.02, 1.11])
-    moved[0] = rng.uniform(-0.21, 0.17, (2, 3))
-    feet = strip.foot_pull[:, None] * rng.uniform(0.7, 1.3, (2, 3))
-    reached, _ = reach_ends(strip.alike, feet - strip.alike.to_foot[:, None])
-    curves = draw_strips(strip, lengths, moved, feet)
-    for curve, start, foot, end in zip(
-        curves, moved[0].T, feet.T, (lengths * reached).T, strict=True
-    ):
-        np.testing.assert_allclose(curve[:, 0], start, atol=1e-14)
-        np.testing.assert_allclose(curve[:, -1], start + end, atol=1e-12)
-        turned = curve[0] * strip.forces[1] - curve[1] * strip.forces[0]
-        pairs = ((start, foot), (start + end, strip.load - foot))
-        held = sum(x * pull[1] - y * pull[0] for (x, y), pull in pairs)
-        assert turned.sum() == pytest.approx(held, abs=1e-9 * np.hypot(*strip.load))
 
 
 @each("mid", [False, True])

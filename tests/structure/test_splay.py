@@ -67,14 +67,6 @@ def test_all_forces_on_the_head_are_in_balance(pull, share, is_one_sided):
     assert least >= -1e-10  # no guy pushes
 
 
-def test_without_a_load_along_the_row_each_guy_takes_half():
-    flat = compute_head_forces((31.0, -97.0), POINTS)
-    found = compute_splayed_head((31.0, -97.0), POINTS, sideways=0.0, splay=BETA)
-    half = flat.uphill_guy_tension / (2.0 * math.cos(BETA))
-    assert found.uphill_guy_tension == pytest.approx(half, rel=1e-12)
-    assert found.post_compression == flat.post_compression
-
-
 def test_post_that_does_not_stand_between_its_guys_is_not_held():
     beside = SupportPoints(
         net_foot=(0.0, 0.0),

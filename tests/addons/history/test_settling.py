@@ -92,6 +92,20 @@ def test_density_is_that_of_the_start_over_the_jacobian(
     assert found.density.shape == (a_body(law).mass.size, 1)
 
 
+def test_warm_snow_stays_warm(a_flow_problem):
+    """Warmth multiplies the fluidity, whatever the density has become."""
+    law = a_flow_problem()
+    body = settled(a_body(law), 0.9)
+    cold = build_material(settling(), law, body)
+    warm = build_material(
+        settling(), law, replace(body, warmth=np.full_like(body.warmth, 3.0))
+    )
+    np.testing.assert_allclose(
+        warm.fluidity_ratio, 3.0 * cold.fluidity_ratio, rtol=1e-14
+    )
+    np.testing.assert_array_equal(warm.bulk_ratio, cold.bulk_ratio)
+
+
 @pytest.mark.parametrize("tops", [(), (0.4,)], ids=["uniform", "layers"])
 def test_without_densification_the_material_is_that_of_the_start(a_flow_problem, tops):
     law = a_flow_problem()

@@ -86,11 +86,17 @@ def test_free_ground_leaves_its_weight_to_the_wall(
     assert solution.force.x == pytest.approx(expected, rel=1e-8)
 
 
-def test_adhering_snow_hangs_on_the_wall(a_scene):
-    """Held by the wall, the settling snow pulls it towards the ground."""
-    solution = press(a_scene, **PRESSED)
-    assert solution.force.y < 0.0
-    assert not solution.wall_slides.any()
+def test_smooth_wall_normal_to_the_slope_has_no_shear(a_scene):
+    solution = press(a_scene, 0.0, **PRESSED)
+    assert abs(solution.force.y) < 1e-9 * solution.force.x
+    assert solution.wall_slides[1:].all()
+
+
+def test_fluidity_leaves_the_force(a_scene):
+    scene = walled(a_scene, **PRESSED)
+    slow = solve_rigid(scene, COARSE)
+    fast = solve_rigid(replace(scene, fluidity=9.0 * scene.creep_fluidity), COARSE)
+    assert fast.force.x == slow.force.x
 
 
 def test_one_sided_wall_and_ground_do_not_pull(a_scene):
