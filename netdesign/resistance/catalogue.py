@@ -215,6 +215,10 @@ class Product:
     values: Mapping[str, Span]
     sources: tuple[Message, ...]
 
+    def list_ends(self, *names: str) -> list[float]:
+        """Least and largest values of some quantities, where it has them."""
+        return [end for name in names for end in self.values.get(name, ())]
+
 
 @lru_cache(maxsize=1)
 def load_products() -> dict[str, Any]:

@@ -14,7 +14,7 @@ from netdesign.resistance.ground import AnchorType, Soil
 from netdesign.resistance.steel import HEAD_GRADE, RoundSection, find_ground_lever
 from netdesign.site.lines import Types
 from netdesign.site.readings import Row
-from netdesign.site.type_resistances import SOIL_COLUMNS, lacks_inner, read_inner
+from netdesign.site.type_resistances import SOIL_COLUMNS, find_steel
 from netdesign.structure.members import END_ANCHORS, NAMED_BY, EndMember, Member
 from netdesign.structure.row_position import find_axis_at_dip
 
@@ -97,10 +97,7 @@ def _build_section(line: Row) -> RoundSection | None:
         if tube is not None and wall is not None:
             inner = tube - 2.0 * wall
             return RoundSection(outer=tube, inner=inner, strength=HEAD_GRADE)
-        outer, strength = line["bar_diameter"].given_si, line["bar_strength"].given_si
-        if outer is None or strength is None or lacks_inner(line):
-            return _assume_section(line)
-        return RoundSection(outer=outer, inner=read_inner(line), strength=strength)
+        return find_steel(line) or _assume_section(line)
     except ModelError:
         return None
 

@@ -137,7 +137,6 @@ _LEAST_STRUCK = 2  # cells; a longer line is struck out where most of it is
 _TOLERANCE = 0.05  # of a value of the catalogue
 _LOSS = 0.25  # what corrosion or a termination may take of a force of the catalogue
 _FORCES = ("tendon", "rope")
-_TESTED = ("pull_out", "test_mean")
 _TESTED_BEYOND = 1.5  # times a bond stress of the catalogue, and as much below
 _ANY_GROUND = say("plausible.any_ground")
 
@@ -163,9 +162,8 @@ def list_doubts(line: Row) -> Iterator[Doubt]:
             yield reading, doubt
     meant = {key: reading for key, reading in typed.items() if key not in alone}
     yield from _list_eccentric(meant, line)
-    for key in _TESTED if _TESTED[0] in line else ():
-        if key not in alone and (doubt := _doubt_pulled(key, line)):
-            yield line[key], doubt
+    if "pull_out" in line:
+        yield from _list_pulled(line, alone)
 
 
 def _list_doubted_cells(line: Row) -> Iterator[Doubt]:
@@ -256,16 +254,21 @@ def _list_eccentric(typed: Row, line: Row) -> Iterator[Doubt]:
         yield reading, say("plausible.eccentric", number=number, unit=unit)
 
 
-def _doubt_pulled(key: str, line: Row) -> Message | None:
-    """Doubt about a pull-out force, also about the mean of the lines of sheet Tests."""
+def _list_pulled(line: Row, doubted: Container[str]) -> Iterator[Doubt]:
+    """Doubt about a pull-out force, or the mean of its tests, also of sheet Tests."""
+    is_tested = line["proven"].word == "tests"
+    has_mean = is_tested and line["test_mean"].state == "given"
+    key = "test_mean" if has_mean else "pull_out"
     reading = line[key]
-    if reading.state != "given":
-        return None
-    doubt = _doubt_tested(reading, line) if key == "test_mean" else None
-    return doubt or _doubt_bond(reading, key, line)
+    if reading.state != "given" or key in doubted:
+        return
+    doubt = _doubt_tested(reading, line) if is_tested else None
+    doubt = doubt or _doubt_bond(reading, line, is_tested=is_tested)
+    if doubt:
+        yield reading, doubt
 
 
-def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
+def _doubt_bond(reading: Reading, line: Row, *, is_tested: bool) -> Message | None:
     """Doubt about a pull-out force beyond what ground holds on the bond, or far below.
 
     A force from a test may lie further beyond the catalogue than a computed force.
@@ -275,7 +278,7 @@ def _doubt_bond(reading: Reading, key: str, line: Row) -> Message | None:
         return None
     ground = line["ground"]
     low, high = find_bond_span(ground.word)
-    room = 1.0 if key == "pull_out" else _TESTED_BEYOND
+    room = _TESTED_BEYOND if is_tested else 1.0
     if low / room <= bond <= high * room:
         return None
     return say(
@@ -318,7 +321,7 @@ def _list_unlike_product(
         spans = [product.values[name] for name in names if name in product.values]
         if not spans:
             continue
-        if key in _FORCES or key == "bar_strength":  # yield to ultimate
+        if key in _FORCES:  # yield to ultimate
             spans = [(min(low for low, _ in spans), max(high for _, high in spans))]
         loss = _LOSS if key in _FORCES else _TOLERANCE
         if any(

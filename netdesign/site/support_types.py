@@ -42,12 +42,12 @@ from netdesign.site.readings import Reading, Row
 from netdesign.site.type_lines import find_depth
 from netdesign.site.type_resistances import (
     SECTION,
+    SOLID,
     compute_buckling,
     find_proof_limit,
+    find_steel,
     find_tests,
-    lacks_inner,
     may_be_rope,
-    read_inner,
     reduce_breaking,
     reduce_loop,
 )
@@ -228,23 +228,22 @@ def list_catalogue(types: Types) -> tuple[Resistance, ...]:
 
 def _describe_type(line: Row, mode: str, member: AnyMember) -> Resistance:
     """Resistance of a type in one mode, given or not."""
-    strength, is_pulled, is_anchor = line[mode], mode == "pull_out", "ground" in line
+    is_pulled, is_anchor = mode == "pull_out", "ground" in line
     tests = find_tests(line) if is_pulled else None
-    is_given = strength.state == "given"
+    value, derivation = (None, None) if tests else _find_strength(line, mode)
+    strength, is_given = line[mode], value is not None
     # A report counts once sheet Declared names it; other numbers are makers' values.
     is_computed = is_pulled or strength.derivation is not None
     basis = ("computed" if is_computed else "declared") if is_given else ""
-    is_strut = is_given and mode == "compression" and is_computed
-    value, derivation = _find_strength(line, mode)
+    is_strut = is_given and mode == "compression"
     is_rope = mode == "tendon" and may_be_rope(line)
-    place = (strength if is_given or not tests else line["test_least"]).place
     return Resistance(
         member=member,
         mode=mode,
-        value=None if tests else value,
+        value=value,
         basis="tested" if tests else basis,
         type_id=line["id"].word,
-        source=place or line["id"].place,
+        source=strength.place or line["id"].place,
         derivation=derivation,
         tests=tests,
         buckling_length=line["buckling_length"].si if is_strut else None,
@@ -275,13 +274,14 @@ def _read_wear(line: Row, mode: str) -> Wear | None:
         return Wear(kind="rope")
     if "protection" not in line or mode == "pull_out":
         return None
-    outer = line["bar_diameter"].given_si
+    outer, steel = line["bar_diameter"].given_si, find_steel(line)
+    is_solid = outer is not None and line["kind"].word == SOLID
     return Wear(
         kind=line["kind"].word,
         protection=line["protection"].word,
         soil=line["soil"].word,
         outer=outer,
-        inner=None if outer is None or lacks_inner(line) else read_inner(line),
+        inner=steel.inner if steel else 0.0 if is_solid else None,
     )
 
 

@@ -158,7 +158,7 @@ def count_in_tests(
         )
         of_line = [left.pop(key) for key in keys if key in left]
         for of_ground in of_line:
-            for reading in (line[key] for key in _OF_TESTS):
+            for reading in (line[key] for key in TEST_COLUMNS):
                 if reading.state == "given":
                     refuse_beside(of_ground[0]["force"], reading, findings)
             ground = own if has_own else of_ground[0]["ground"]
@@ -195,9 +195,6 @@ def _group_tests(
     return groups
 
 
-_OF_TESTS = ("pull_out", "test_count", "test_mean")  # columns that tests fill in
-
-
 def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     """Line with number, least and mean of its tests, and their ground."""
     first, forces = tests[0]["force"], [test["force"].number for test in tests]
@@ -209,7 +206,8 @@ def _fill_in(line: Row, tests: Sequence[Row], ground: Reading) -> Row:
     }
     singles = tuple(map(_read_single, tests))
     counted["test_count"] = replace(counted["test_count"], singles=singles)
-    return {**line, **counted, "ground": ground}
+    proven = replace(line["proven"], state="given", value="tests")
+    return {**line, **counted, "proven": proven, "ground": ground}
 
 
 def _read_single(test: Row) -> SingleTest:
@@ -248,12 +246,9 @@ def name_values(
     values: dict[str, Reading] = {}
     for key in keys:
         field = row[key].field
-        spans = [
-            product.values[name] for name in field.of_product if name in product.values
-        ]
-        if not spans:
+        ends = product.list_ends(*field.of_product)
+        if not ends:
             continue
-        ends = [end for span in spans for end in span]
         value = max(ends) if key in largest else min(ends)
         reading = replace(row[key], state="given", value=from_si(value, field.unit))
         values[key] = replace(reading, derivation=how, cell=row["id"].cell)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
 
 from netdesign.outcome import ModelError
 from netdesign.resistance.catalogue import (
@@ -23,77 +21,54 @@ from netdesign.resistance.post import (
     BucklingResistance,
     compute_buckling_resistance,
 )
-from netdesign.resistance.products import find_product
+from netdesign.resistance.products import find_bar, find_product
 from netdesign.resistance.steel import RoundSection
 from netdesign.site.cells.findings import Finding
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.columns.fields import from_si
+from netdesign.site.readings import Row, refuse
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 _DEFAULT_TERMINATION, _DEFAULT_CURVE = "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given
-_SOLID = "bar"
+SOLID = "bar"  # kind of an anchor that is no tube
 SECTION = ("area", "second_moment", "buckling_length", "yield_strength")  # of a post
-TEST_COLUMNS = ("test_count", "test_least", "test_mean")
+TEST_COLUMNS = ("test_count", "pull_out", "test_mean")
 SOIL_COLUMNS = ("soil_cohesion", "soil_friction", "soil_weight")
 
 
-def compute_tendon(line: Row, findings: list[Finding]) -> Row:
-    """Line of an anchor type with the tendon that its steel has, where none is typed.
+def find_steel(line: Row) -> RoundSection | None:
+    """Bar that the name of an anchor's type means, with a diameter that is typed.
 
-    Parameters
-    ----------
-    line : Row
-        With the steel that its name means.
-    findings : list of Finding
-        Appended to: steel that cannot be.
+    None where force and diameter are both typed, and where a typed diameter may be that
+    of a hollow bar.
     """
-    steel = (line["bar_diameter"], line["bar_strength"])
-    is_open = line["tendon"].state != "blank" or lacks_inner(line)
-    if is_open or any(reading.state != "given" for reading in steel):
-        return line
-    return _compute("tendon", _bar, line, steel[0], findings)
-
-
-def compute_compression(line: Row, findings: list[Finding]) -> Row:
-    """Line of a post's type with the compression that its section bears.
-
-    Parameters
-    ----------
-    line : Row
-        As read; the compression stays open without all of its section.
-    findings : list of Finding
-        Appended to: a section that cannot be.
-    """
-    if any(line[key].state != "given" for key in SECTION):
-        return line
-    if line["buckling_curve"].state == "faulty":
-        return line
-    return _compute("compression", _buckling, line, line["area"], findings)
-
-
-def _compute(
-    key: str,
-    rule: Callable[[Row], tuple[float, Message]],
-    line: Row,
-    first: Reading,
-    findings: list[Finding],
-) -> Row:
-    """Line with a resistance worked out from dimensions, in the cell of the first."""
+    product, outer = find_bar(line["id"].word), line["bar_diameter"]
+    if product is None or outer.state != "given" or line["kind"].word == "rope anchor":
+        return None
+    is_typed = outer.derivation is None
+    if is_typed and line["tendon"].state == "given" and not line["tendon"].derivation:
+        return None
+    strengths = product.list_ends("yield_strength", "ultimate_strength")
+    hollows = product.list_ends("inner_diameter")
+    may_be_hollow = is_typed and not hollows and line["kind"].word != SOLID
+    if not strengths or may_be_hollow:
+        return None
+    inner = max(hollows, default=0.0)
     try:
-        value, derivation = rule(line)
-    except ModelError as error:
-        refuse(first, say("type.no_resistance"), error.message, findings)
-        return line
-    computed = replace(
-        line[key],
-        state="given",
-        value=kilonewton_from_newton(value),
-        derivation=derivation,
-        cell=first.cell,
-    )
-    return {**line, key: computed}
+        return RoundSection(outer=outer.si, inner=inner, strength=min(strengths))
+    except ModelError:  # the diameter is not that of the name, which is asked about
+        return None
+
+
+def describe_steel(steel: RoundSection) -> Message:
+    """How a tendon's resistance follows from its steel."""
+    outer, inner = (from_si(size, "mm") for size in (steel.outer, steel.inner))
+    strength = from_si(steel.strength, "MPa")
+    if inner:
+        return say("derivation.tube", outer=outer, inner=inner, strength=strength)
+    return say("derivation.bar", diameter=outer, strength=strength)
 
 
 def find_tests(row: Row) -> PullOutTests | None:
@@ -102,10 +77,10 @@ def find_tests(row: Row) -> PullOutTests | None:
     Without a number of tests it is 1; without a mean, the mean is the least force.
     """
     count, least, mean = (row[key] for key in TEST_COLUMNS)
-    if least.state != "given" or "faulty" in (count.state, mean.state):
+    if row["proven"].word != "tests" or least.state != "given":
         return None
     average = least.si if mean.given_si is None else mean.si
-    if least.si > average:  # ``check_tests`` has refused it
+    if "faulty" in (count.state, mean.state) or least.si > average:  # is refused
         return None
     return PullOutTests(
         count=count.given_count or 1,
@@ -118,13 +93,14 @@ def find_tests(row: Row) -> PullOutTests | None:
 def check_tests(row: Row, findings: list[Finding]) -> None:
     """Refuse tests, or a ground's strength, that are incomplete or contradictory."""
     _refuse_incomplete(row, SOIL_COLUMNS, findings)
-    if row["test_least"].state != "given":  # the others say nothing without it
+    if row["pull_out"].state != "given":  # the others say nothing without it
         _refuse_incomplete(row, TEST_COLUMNS, findings)
         return
     mean = row["test_mean"].given_si
-    if mean is not None and row["test_least"].si > mean:
+    is_tested = row["proven"].word == "tests"
+    if is_tested and mean is not None and row["pull_out"].si > mean:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
-        refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
+        refuse(row["pull_out"], rule, say("type.at_most_mean"), findings)
 
 
 def _refuse_incomplete(
@@ -165,25 +141,6 @@ def _describe_origin(datum: Datum) -> Message:
     """Status and source of a number of the catalogue."""
     status = name("status", datum.status)
     return say("derivation.origin", status=status, source=datum.source)
-
-
-def _bar(row: Row) -> tuple[float, Message]:
-    diameter, strength = row["bar_diameter"], row["bar_strength"]
-    section = RoundSection(
-        outer=diameter.si, inner=read_inner(row), strength=strength.si
-    )
-    value = section.axial_resistance
-    inner = row["inner_diameter"]
-    if inner.state == "given":
-        return value, say(
-            "derivation.tube",
-            outer=diameter.number,
-            inner=inner.number,
-            strength=strength.number,
-        )
-    return value, say(
-        "derivation.bar", diameter=diameter.number, strength=strength.number
-    )
 
 
 def reduce_breaking(row: Row) -> tuple[float, Message | None]:
@@ -249,7 +206,8 @@ def find_proof_limit(row: Row, *, has_loop: bool) -> float | None:
     return limit_proof_load(tendon, max(tendon, ultimate))
 
 
-def _buckling(row: Row) -> tuple[float, Message]:
+def resist_buckling(row: Row) -> tuple[float, Message]:
+    """Compression that a post's section bears [N], and how."""
     curve, buckling = name_curve(row), compute_buckling(row)
     imperfection = find_imperfection(curve)
     return buckling.value, say(
@@ -266,25 +224,6 @@ def _buckling(row: Row) -> tuple[float, Message]:
         length=row["buckling_length"].number,
         origin=_describe_origin(imperfection),
     )
-
-
-def lacks_inner(line: Row) -> bool:
-    """Whether an anchor that may be hollow lacks its inner diameter.
-
-    A bar that is recognised by its name has one, or is solid.
-    """
-    is_solid = line["kind"].word == _SOLID
-    return (
-        line["bar_diameter"].state == "given"
-        and line["bar_diameter"].derivation is None
-        and line["inner_diameter"].state != "given"
-        and not is_solid
-    )
-
-
-def read_inner(line: Row) -> float:
-    """Inner diameter of an anchor's steel [m]; 0 of a solid bar."""
-    return line["inner_diameter"].given_si or 0.0
 
 
 def compute_buckling(line: Row) -> BucklingResistance:

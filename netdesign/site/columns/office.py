@@ -15,7 +15,6 @@ from netdesign.site.columns.all_tables import (
     SHEETS,
     Data,
     build_field,
-    find_quantity,
     list_names,
     load_file,
 )
@@ -115,13 +114,6 @@ def load_plan(table: str) -> SheetPlan:
         return SheetPlan(name=table, fields=heads, names=names, items=fields)
     is_needed = table in ("rows", "net_types")
     return SheetPlan(name=table, fields=fields, names=names, required=is_needed)
-
-
-@cache
-def list_derived(table: str) -> tuple[Field, ...]:
-    """What follows from a line of a table, and has no column there."""
-    entry = load_file("office")["sheets"][table]
-    return tuple(find_quantity(entry["of"], key) for key in entry.get("derived", ()))
 
 
 def is_heading(text: str) -> bool:

@@ -154,7 +154,7 @@ def _join_types(
     return {
         "anchor_types": complete_anchors(name_by_ground(anchors), findings),
         "ropes": typed["ropes"],
-        "posts": join_posts(typed["posts"], project, typed["net_types"], findings),
+        "posts": join_posts(typed["posts"], project, typed["net_types"]),
     }
 
 

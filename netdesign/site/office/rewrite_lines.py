@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 
+from netdesign.outcome import ModelError
+from netdesign.resistance.steel import RoundSection
 from netdesign.site.columns.fields import from_si
 from netdesign.site.office.rewrite_log import (
     Line,
@@ -15,7 +17,7 @@ from netdesign.site.office.rewrite_log import (
 )
 from netdesign.site.readings import Reading, Row
 from netdesign.site.titles import name_net_type
-from netdesign.site.type_resistances import compute_tendon
+from netdesign.site.type_resistances import SOLID
 from netdesign.structure.row_position import find_dip
 from netdesign.words.message import say
 
@@ -172,11 +174,26 @@ _PROOF = ("pull_out", "test_count", "test_mean")
 def _rewrite_anchor(line: Row, log: RewriteLog) -> Line:
     anchor = copy_line("anchor_types", line, "Anchors", log, ("dip", *_PROOF))
     steel = (line["bar_diameter"], line["bar_strength"], line["inner_diameter"])
-    tendon = compute_tendon(line, [])["tendon"]
-    if tendon.derivation is not None:
-        anchor["tendon"] = float(f"{tendon.number:.5g}")
-        log.change(say("rewrite.computed", name=tendon.field.name), *steel)
+    tendon = _compute_tendon(*steel, is_solid=line["kind"].word == SOLID)
+    if line["tendon"].state == "blank" and tendon is not None:
+        anchor["tendon"] = float(f"{tendon / 1e3:.5g}")
+        log.change(say("rewrite.computed", name=line["tendon"].field.name), *steel)
     return anchor | _rewrite_proof(line, log)
+
+
+def _compute_tendon(
+    outer: Reading, strength: Reading, inner: Reading, *, is_solid: bool
+) -> float | None:
+    """Yield force of a bar [N]; None without all that it follows from."""
+    is_known = inner.state == "given" or is_solid
+    if outer.state != "given" or strength.state != "given" or not is_known:
+        return None
+    hollow = inner.given_si or 0.0
+    try:
+        bar = RoundSection(outer=outer.si, inner=hollow, strength=strength.si)
+    except ModelError:
+        return None
+    return bar.axial_resistance
 
 
 def _rewrite_proof(line: Row, log: RewriteLog) -> Line:

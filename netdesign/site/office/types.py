@@ -9,8 +9,8 @@ from dataclasses import replace
 from netdesign.resistance.products import find_bar
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import find_quantity
-from netdesign.site.columns.fields import from_si, to_si
-from netdesign.site.columns.office import list_derived
+from netdesign.site.columns.fields import to_si
+from netdesign.site.columns.office import load_plan
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -21,22 +21,18 @@ from netdesign.site.readings import (
 )
 from netdesign.site.type_lines import count_in_tests, fill_in_section, name_values
 from netdesign.site.type_resistances import (
+    SECTION,
     check_tests,
-    compute_compression,
-    compute_tendon,
+    describe_steel,
+    find_steel,
+    resist_buckling,
 )
+from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 _GRADE = 235.0  # least grade of rolled sections [MPa]
 _ABOVE_NET = 0.3  # of a post beyond the net's head, our judgement [m]
 _STEEPEST = 20.0  # largest tilt of a post whose cell is empty [deg]
-_STEEL = ("bar_diameter", "bar_strength", "inner_diameter")
-
-
-def _add_derived(line: Row, table: str) -> dict[str, Reading]:
-    """Line with empty readings of the quantities that are computed from it later."""
-    unknown = {field.key: read_nothing(field, None) for field in list_derived(table)}
-    return {**unknown, **line}
 
 
 def join_anchors(
@@ -57,43 +53,16 @@ def join_anchors(
     findings : list of Finding
         Appended to.
     """
+    unknown = {
+        field.key: read_nothing(field, None) for field in load_plan("soils").fields
+    }
     by_ground = {soil["ground"].word: soil for soil in soils if soil["ground"].word}
-    tested = {(test["type"].word, test["ground"].word) for test in tests}
     anchors: list[Row] = []
     for line in lines:
-        name, ground = line["id"].word, line["ground"].word
-        soil = by_ground.get(ground, {})
-        row = _add_derived(line, "anchor_types") | {
-            key: reading for key, reading in soil.items() if key != "ground"
-        }
-        row["soil"] = project["soil"]
-        is_tested = not tested.isdisjoint({(name, ground), (name, "")})
-        anchors.append(row if is_tested else row | _read_proof(row))
+        soil = by_ground.get(line["ground"].word, unknown)
+        row = {**soil, **line, "soil": project["soil"]}
+        anchors.append(row)
     return count_in_tests(anchors, tests, findings) if tests else anchors
-
-
-def _read_proof(line: Row) -> dict[str, Reading]:
-    """Pull-out resistance by its proof: the least of tests, or a single number."""
-    force, count, mean = (line[key] for key in ("pull_out", "test_count", "test_mean"))
-    least = rename(force, line["test_least"].field)
-    if force.state != "given":
-        return {"test_least": least}
-    if line["proven"].word != "tests":
-        return {
-            "test_count": read_nothing(count.field, None),
-            "test_mean": read_nothing(mean.field, None),
-        }
-    if count.state == "blank":
-        count = work_out(force, count.field, 1.0, say("office.one_test"))
-    if mean.state == "blank":
-        mean = work_out(force, mean.field, force.number, say("office.mean_is_least"))
-    nothing = read_nothing(force.field, None)
-    return {
-        "pull_out": nothing,
-        "test_least": least,
-        "test_count": count,
-        "test_mean": mean,
-    }
 
 
 def complete_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:
@@ -101,46 +70,41 @@ def complete_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]
     anchors: list[Row] = []
     for line in lines:
         refuse_misfits(line, findings)
-        anchors.append(_fill_in_steel(line, findings))
-        check_tests(anchors[-1], findings)
+        check_tests(line, findings)
+        anchors.append(_fill_in_steel(line))
     return anchors
 
 
-def _fill_in_steel(row: Row, findings: list[Finding]) -> Row:
-    """Line of an anchor with the steel of a bar, and the tendon that it makes.
-
-    The steel follows from the name, or its strength from force and diameter.
-    """
-    force, diameter = row["tendon"], row["bar_diameter"]
-    if row["kind"].word == "rope anchor" or "faulty" in (force.state, diameter.state):
-        return row
-    product = find_bar(row["id"].word)
-    is_whole = diameter.state == force.state == "given"
-    if product is not None and not is_whole:
-        keys = [key for key in _STEEL if row[key].state != "given"]
+def _fill_in_steel(line: Row) -> Row:
+    """Line of an anchor with the bar that its name means, and the tendon it makes."""
+    product, force = find_bar(line["id"].word), line["tendon"]
+    if product is None or line["kind"].word == "rope anchor":
+        return line
+    if line["bar_diameter"].state == "blank":
         how = say("derivation.named_bar", product=product.id, sources=product.sources)
-        steel = name_values(row, keys, product, ("inner_diameter",), how)
-        return compute_tendon({**row, **steel}, findings)
-    if is_whole:
-        area = 0.25 * math.pi * diameter.si**2
-        strength, field = from_si(force.si / area, "MPa"), row["bar_strength"].field
-        how = say("office.strength_of_force", place=force.place)
-        if field.bounds[0] <= strength <= field.bounds[1]:
-            return {**row, "bar_strength": work_out(force, field, strength, how)}
-    return row
+        line = {**line, **name_values(line, ("bar_diameter",), product, (), how)}
+    steel = find_steel(line)
+    if steel is None or force.state != "blank":
+        return line
+    tendon = replace(
+        force,
+        state="given",
+        value=kilonewton_from_newton(steel.axial_resistance),
+        derivation=describe_steel(steel),
+        cell=line["bar_diameter"].cell,
+    )
+    return {**line, "tendon": tendon}
 
 
 def join_posts(
     lines: Sequence[Row],
     project: Row,
     nets: Sequence[Row],
-    findings: list[Finding],
 ) -> list[Row]:
     """Posts, as long as the net types that name them ask for."""
     joined: list[Row] = []
     for line in lines:
-        row = _add_derived(line, "posts")
-        row["base_friction"] = project["base_friction"]
+        row = {**line, "base_friction": project["base_friction"]}
         if row["yield_strength"].state == "blank":
             how = say("office.least_grade")
             row["yield_strength"] = _assume(row, "yield_strength", _GRADE, how)
@@ -148,8 +112,18 @@ def join_posts(
         if row["buckling_length"].state == "blank" and length is not None:
             how = say("office.length_of_post", above=_ABOVE_NET)
             row["buckling_length"] = _assume(row, "buckling_length", length, how)
-        joined.append(compute_compression(fill_in_section(row), findings))
+        joined.append(_add_compression(fill_in_section(row)))
     return joined
+
+
+def _add_compression(row: Row) -> Row:
+    """Post with the compression that its section bears; blank without all of it."""
+    compression = read_nothing(find_quantity("Posts", "compression"), None)
+    if all(row[key].state == "given" for key in SECTION):
+        force, how = resist_buckling(row)
+        value = kilonewton_from_newton(force)
+        compression = work_out(row["area"], compression.field, value, how)
+    return {**row, "compression": compression}
 
 
 def _assume(row: Row, key: str, value: float, how: Message) -> Reading:
