@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from netdesign.core import library, sources
-from netdesign.snow import compiled
 from netdesign.snow.compiled import build_plan
 
 ROOT = Path(library.__file__).resolve().parents[2]
@@ -117,10 +116,3 @@ NET = np.array([0, 5, 2], dtype=np.int32)
 def test_numbers_out_of_range_are_refused(triangles, net):
     with pytest.raises(ValueError, match="compiled core refuses"):
         build_plan(library.find_core(), triangles, NODES, net)
-
-
-@needs_core
-def test_a_template_whose_factor_is_too_large_has_no_plan(monkeypatch):
-    monkeypatch.setattr(compiled, "_MOST_NUMBERS", 12)
-    found = build_plan(library.find_core(), TRIANGLES, NODES, NET)
-    assert found is None

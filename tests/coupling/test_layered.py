@@ -6,7 +6,6 @@ The suite takes a few draws; ``python -m pytest -m robustness`` takes hundreds.
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import build_tables
@@ -24,10 +23,9 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.coupling.drawn_scenes import draw_layered_site
 
-GROUNDS = ("no-slip", "free", "sliding")
 # Linear solves times triangles that a scene may take, solved or refused: some 20
-# microseconds each, so 3 s; 0.1.0 took up to 14 s over a scene of this kind.
-MOST_WORK = 1.5e5
+# microseconds each, so 2 s; 0.1.0 took up to 14 s over a scene of this kind.
+MOST_WORK = 1e5
 
 
 def layered_scene(layers, *, slope_deg, upslope, ground, height=None, **net):
@@ -45,29 +43,6 @@ def layered_scene(layers, *, slope_deg, upslope, ground, height=None, **net):
         friction_angle=math.radians(net["friction_deg"]),
     )
     return Scene(snowpack=pack, ground=ground, net=net)
-
-
-def draw_scene(number, *, is_denser_below):
-    """2 to 4 layers on one of three grounds, all figures untidy."""
-    rng = np.random.default_rng([5, number])
-    count = int(rng.integers(2, 5))
-    shares = rng.uniform(0.2, 1.0, count)
-    thickness = rng.uniform(1.5, 4.5) * shares / shares.sum()
-    density = rng.uniform(150.0, 500.0, count)
-    if is_denser_below:
-        density = np.sort(density)[::-1]
-    kind = GROUNDS[number % 3]
-    slip = float(rng.uniform(0.3, 6.0)) if kind == "sliding" else 0.0
-    return layered_scene(
-        zip(thickness, density, strict=True),
-        slope_deg=rng.uniform(28.0, 55.0),
-        upslope=float(rng.uniform(5.0, 40.0)),
-        inclination_deg=rng.uniform(15.0, 35.0),
-        stiffness=float(np.exp(rng.uniform(np.log(2e6), np.log(1e8)))),
-        slack=float(rng.uniform(0.0, 0.1)),
-        friction_deg=rng.uniform(15.0, 45.0),
-        ground=GroundLaw(kind=kind, slip_length=slip),
-    )
 
 
 @pytest.fixture
@@ -93,20 +68,14 @@ def work(monkeypatch):
     return spent
 
 
-# Of a practical scene, solved or refused: some 2 s.
-MOST_PRACTICAL_WORK = 1e5
-DRAWN = [(draw_scene, number, MOST_WORK) for number in range(9)]
-PRACTICAL = [(draw_layered_site, seed, MOST_PRACTICAL_WORK) for seed in range(6)]
-
-
 @pytest.mark.parametrize("is_denser_below", [True, False])
-@pytest.mark.parametrize(("draw", "number", "most"), [*DRAWN, *PRACTICAL])
-def test_drawn_layers_are_solved(work, draw, number, most, is_denser_below):
-    scene = draw(number, is_denser_below=is_denser_below)
+@pytest.mark.parametrize("seed", range(9))
+def test_drawn_layers_are_solved(work, seed, is_denser_below):
+    scene = draw_layered_site(seed, is_denser_below=is_denser_below)
     solution = solve_steady(scene, on_failure="raise")
     assert solution.balance.relative_residual <= 1e-8
     assert solution.balance.suction_share <= 0.05
-    assert 0 < sum(work) <= most
+    assert 0 < sum(work) <= MOST_WORK
 
 
 def is_of_geometry(scene, refused):
@@ -129,7 +98,7 @@ def test_of_hundreds_of_practical_layers_less_than_one_in_a_hundred_is_refused(
         work.clear()
         scene = draw_layered_site(seed, is_denser_below=is_denser_below)
         solution = solve_steady(scene)
-        assert sum(work) <= MOST_PRACTICAL_WORK, seed
+        assert sum(work) <= MOST_WORK, seed
         if isinstance(solution, Solution):
             assert solution.balance.relative_residual <= 1e-8, seed
         elif is_of_geometry(scene, solution):
@@ -173,20 +142,6 @@ def test_a_net_lets_go_of_snow_that_would_pull_on_it():
     ]
     assert any("lets go of it (one-sided)" in flag for flag in flags[0])
     assert not any("lets go" in flag for flag in flags[1])
-
-
-def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
-    couple = steady.couple
-
-    def couple_two_sided(problem, *given, **named):
-        if problem.snow.net_contact == "one-sided":
-            raise SolveError(Outcome.NO_EQUILIBRIUM, "nowhere")
-        return couple(problem, *given, **named)
-
-    monkeypatch.setattr(steady, "couple", couple_two_sided)
-    refused = solve_steady(stiff_over_soft())
-    assert refused.outcome is Outcome.OUT_OF_VALIDITY
-    assert "would pull on the net" in str(refused.reason)
 
 
 @pytest.fixture
@@ -289,21 +244,3 @@ def test_a_net_that_does_not_come_to_rest_has_its_cause_told(number, cause):
     failed = solve_steady(build_tables(draw_any_scene(1, number)))
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
     assert cause in [one.key for one in failed.reason.arguments["causes"]]
-
-
-@pytest.mark.parametrize("friction_deg", [0.0, 1.37])
-def test_near_the_limit_errors_reach_to_the_net_that_holds_on(friction_deg):
-    """From one contact to the other pulls would jump by more than their errors."""
-    tables = draw_any_scene(3, 203)
-    tables["net"]["friction_deg"] = friction_deg
-    scene = build_tables(tables)
-    rough = SolverSettings(accuracy=0.02)
-    solution = solve_steady(scene, rough, on_failure="raise")
-    asked = solve_steady(
-        replace(scene, net_contact="one-sided"), rough, on_failure="raise"
-    )
-    assert solution.is_released
-    for end in ("foot", "head"):
-        own, alone = getattr(solution, end), getattr(asked, end)
-        assert (own.x, own.y) == (alone.x, alone.y)
-        assert own.error > alone.error + 1e-4 * alone.size

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.interface import STEADY_ERROR as MODEL
-from netdesign.coupling.interface import ErrorModel, Looseness, refine
+from netdesign.coupling.interface import Looseness, refine
 from netdesign.coupling.scene import MESH_LEVELS
 
 DIRECTION = np.array([0.6, -0.8])
@@ -80,17 +80,3 @@ def test_error_is_that_of_the_vector():
         MESH_LEVELS[:2], lambda *_: next(vectors), lambda v: [v], 0.1, MODEL
     )
     assert estimate.error == pytest.approx(0.9 * np.sqrt(2.0) + MODEL.floor, rel=1e-12)
-
-
-def test_every_vector_has_to_be_accurate():
-    """The second still moves when the first has come to rest."""
-    pairs = iter([(1.0, 1.0), (1.0, 2.0), (1.0, 2.0), (1.0, 2.0)])
-    states, estimates = refine(
-        MESH_LEVELS,
-        lambda *_: next(pairs),
-        lambda pair: [size * DIRECTION for size in pair],
-        0.01,
-        ErrorModel(share=0.9, floor=2.5e-3),
-    )
-    assert len(states) == 3
-    assert len(estimates) == 2

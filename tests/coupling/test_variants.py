@@ -112,19 +112,6 @@ def test_temperature_of_all_layers_changes_no_force(a_scene, ground, slip):
     )
 
 
-def test_warm_layer_below_lets_the_snow_press_harder(a_scene):
-    """It creeps faster on a rough ground, so that the net holds more of the snow."""
-    scene = a_scene(ground="no-slip", inclination_deg=30.0)
-    density = scene.snowpack.density
-    even = sound(scene)
-    warm = layered(
-        scene,
-        Layer(thickness=0.5, density=density, temperature=272.0),
-        Layer(thickness=3.5, density=density, temperature=258.0),
-    )
-    assert sound(warm).foot.size > 1.2 * even.foot.size
-
-
 # --- contacts ----------------------------------------------------------------
 
 

@@ -2,15 +2,12 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import EndPull, FailedSolution
+from netdesign.coupling.solution import EndPull
 from netdesign.envelope.search import FrictionSkip
-from netdesign.outcome import Outcome
 from netdesign.solving.workers import Job, solve_job
-from netdesign.words.message import say
 from tests.solving.test_store import solve_one
 
 AXES = ("density", "friction_angle")
@@ -28,15 +25,6 @@ def sticking(end, *, sticks=True, foot=1e5):
     slides[:] = not sticks
     pull = EndPull(x=foot, y=0.0, error=1.0)
     return replace(end, net_slides=slides, foot=pull)
-
-
-@pytest.mark.parametrize(("place", "sticks"), [(0.0049, True), (0.0051, False)])
-def test_slip_by_the_very_foot_is_no_slip(end, place, sticks):
-    """By the foot some snow slips at any friction; the places are shares of the net."""
-    curve = np.outer([0.6, 0.8], [0.0, place, 0.5, 1.0])
-    slides = np.array([False, True, False, False])
-    state = replace(end, net_curve=curve, net_slides=slides)
-    assert state.sticks == sticks
 
 
 def needs_solve(skip, point):
@@ -66,18 +54,6 @@ def test_sliding_snow_answers_for_nothing(end):
     skip.learn(MIDDLE, sticking(end))
     assert not needs_solve(skip, HIGH)
     assert needs_solve(skip, LOW)  # less friction than what is known to stick
-
-
-def test_another_line_and_a_failed_case_answer_for_nothing(end):
-    skip = after_two_tests(end)
-    skip.learn(
-        LOW,
-        FailedSolution(
-            outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")
-        ),
-    )
-    skip.learn((0.4, 0.0), sticking(end))
-    assert needs_solve(skip, HIGH)
 
 
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):

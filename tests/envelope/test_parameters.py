@@ -78,15 +78,6 @@ def test_layers_keep_their_proportions_as_their_thickness_ranges():
     assert placed.layers[0].temperature == 271.0
 
 
-@each("name", PARAMETERS)
-def test_values_go_to_the_unit_of_their_key_and_back(name):
-    one = PARAMETERS[name]
-    scale = {"deg": math.pi / 180.0, "kN_per_m": 1e3}
-    unit = next((s for end, s in scale.items() if one.key.endswith(end)), 1.0)
-    assert one.read(0.7) == pytest.approx(0.7 * unit, rel=1e-12)
-    assert one.show(one.read(0.7)) == pytest.approx(0.7, rel=1e-12)
-
-
 def test_glide_takes_the_thickness_that_ranges_with_it():
     """The slip length of a glide factor is a share of the thickness."""
     both = place_scene(SCENE, {"glide_factor": 1.4, "thickness": 1.5})

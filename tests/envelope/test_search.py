@@ -9,19 +9,18 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import POST_PULLS
-from netdesign.envelope.ranges import PARAMETERS, Case
+from netdesign.envelope.ranges import PARAMETERS
 from netdesign.envelope.rows import build_point_task, refine_settings
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
-from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
 from tests.envelope.tasks import build_row
 from tests.solving.made_up_workers import Spoiling
-from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
+from tests.solving.small_scene import COARSE, LAYOUT, solve_case
 
 TASK = build_row((250.0, 400.0), (15.0, 45.0))
 RANGES = TASK.ranges
@@ -116,18 +115,6 @@ def test_a_governing_case_that_cannot_be_calculated_again_leaves_a_gap(found):
     )
 
 
-def test_a_second_run_solves_nothing_and_ends_the_same(tmp_path):
-    ends = []
-    for _ in range(2):
-        with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
-            runner = Runner(store=store)
-            (one,) = search_rows([TASK], runner)
-        values = one.maxima.values.tolist()
-        ends.append((one.maxima.upper_bound, values, one.maxima.is_closed))
-    assert runner.counts.solved == 0
-    assert ends[0] == ends[1]
-
-
 def test_rows_that_share_net_and_snow_share_cases(found):
     other = replace(LAYOUT, post_spacing=2.5)
     runner = Runner()
@@ -135,16 +122,6 @@ def test_rows_that_share_net_and_snow_share_cases(found):
     foot = one.members.index("foot_anchor")
     assert one.maxima.maximum[foot] / two.maxima.maximum[foot] == pytest.approx(1.4)
     assert runner.counts.reused >= len(one.results) - 15
-
-
-def test_rows_together_end_as_each_alone(found):
-    other = replace(TASK, scene=build_scene(
-        Case(density=300.0, friction_angle=0.5, inclination=0.3)))  # fmt: skip
-    together = search_rows([TASK, other], Runner())
-    alone = [search_rows([task], Runner())[0] for task in (TASK, other)]
-    for one, two in zip(together, alone, strict=True):
-        assert one.maxima.points == two.maxima.points
-        assert one.maxima.upper_bound == two.maxima.upper_bound
 
 
 def spoil_rough_dense(job, end):

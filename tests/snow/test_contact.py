@@ -9,8 +9,6 @@ from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
     may_lift,
     net_components,
-    start_contact,
-    update_contact,
 )
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import compute_residual
@@ -29,46 +27,6 @@ def solve(law, mesh):
 
 def upward(mesh):
     return 2 * mesh.template.ground[1:] + 1
-
-
-def update(law, mesh, contact, *, velocity=(), reaction=()):
-    """Update after given entries of velocity and reaction, zero elsewhere."""
-    fields = np.zeros((2, mesh.n_dofs))
-    for field, changes in zip(fields, (velocity, reaction), strict=True):
-        for place, value in changes:
-            field[place] = value
-    return update_contact(law, mesh, contact, *fields)
-
-
-@pytest.mark.parametrize("sides", ["one-sided", "two-sided"])
-def test_what_would_pull_lets_go_if_it_may(inclined, a_flow_problem, sides):
-    law = replace(a_flow_problem(), ground_contact=sides, net_contact=sides)
-    normal, _ = net_components(inclined)
-    pulls = [(upward(inclined)[4], -1.0), (normal[3], 1.0)]
-    pushes = [(upward(inclined)[5], 1.0), (normal[4], -1.0)]
-    contact = update(law, inclined, start_contact(inclined), reaction=[*pulls, *pushes])
-    may = sides == "one-sided"
-    assert np.flatnonzero(contact.is_lifted).tolist() == ([4] if may else [])
-    assert np.flatnonzero(contact.is_open).tolist() == ([3] if may else [])
-
-
-@pytest.mark.parametrize(("speed", "stays_apart"), [(1.0, True), (-1.0, False)])
-def test_what_moves_back_is_held_again(inclined, a_flow_problem, speed, stays_apart):
-    """Away from the support: upwards on the ground, against the normal on the net."""
-    law = replace(a_flow_problem(), ground_contact="one-sided", net_contact="one-sided")
-    start = start_contact(inclined)
-    lifted, is_open = start.is_lifted.copy(), start.is_open.copy()
-    lifted[4] = is_open[3] = True
-    normal, _ = net_components(inclined)
-    contact = update(
-        law,
-        inclined,
-        replace(start, is_lifted=lifted, is_open=is_open),
-        velocity=[(upward(inclined)[4], speed), (normal[3], -speed)],
-    )
-    assert contact.is_lifted[4] == stays_apart
-    assert contact.is_open[3] == stays_apart
-    assert contact.is_pressed[3] is np.False_
 
 
 @pytest.mark.parametrize("kind", ["free", "sliding"])

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import Outcome
 from netdesign.snow import kernel
 from netdesign.snow.contact import free_unknowns, start_contact
@@ -13,12 +12,10 @@ from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import compute_residual, remove_rounding
 from netdesign.snow.law import (
     STRESS_FLOOR,
-    FlowLayer,
     Material,
     linearise_creep,
     linearise_sliding,
 )
-from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
 from tests.each import each
 
@@ -51,27 +48,6 @@ def slip_velocity(mesh, state):
 @pytest.fixture
 def inclined(a_mesh):
     return a_mesh(inclination_deg=30.0, sag=0.08)
-
-
-# --- start -------------------------------------------------------------------
-
-
-def test_layers_of_any_stiffness_start_near_their_stresses(a_flow_problem):
-    """Without a guess as few steps as uniform snow takes, whatever the contrast."""
-    stiff = (
-        FlowLayer(top=0.31, bulk_ratio=1.21, fluidity_ratio=2.6, density=0.92),
-        FlowLayer(top=0.56, bulk_ratio=2.16, fluidity_ratio=2.9e-3, density=1.5),
-        FlowLayer(bulk_ratio=1.04, fluidity_ratio=16.4, density=0.76),
-    )
-    template = build_template(6.7, MESH_LEVELS[0], (0.31, 0.56))
-    heights = template.net_fractions
-    curve = np.array([0.58 * heights + 0.2 * heights * (1.0 - heights), heights])
-    mesh = build_placed_mesh(template, place_nodes(template, curve), "velocity")
-    uniform = a_flow_problem(ground="sliding", slip_ratio=0.44, friction=np.inf)
-    layered = replace(uniform, layers=stiff)
-    plain, found = (solve_flow(law, mesh, tolerance=1e-2) for law in (uniform, layered))
-    assert found.outcome is Outcome.CONVERGED
-    assert found.linear_solves <= plain.linear_solves + 1
 
 
 # --- law ---------------------------------------------------------------------
@@ -153,41 +129,6 @@ def test_equilibrium_where_nothing_holds(inclined, a_flow_problem, ground, slip_
     free[2 * inclined.template.net + 1] = False
     np.testing.assert_allclose(residual[free], 0.0, atol=1e-11)
     np.testing.assert_allclose(residual, state.reaction, atol=1e-8)
-
-
-@pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
-def test_power_of_gravity_is_spent(inclined, a_flow_problem, ground, slip_ratio):
-    """In the snow, on a sliding ground, and by friction, which never gives any."""
-    law = a_flow_problem(ground=ground, slip_ratio=slip_ratio, friction=0.05)
-    state = solve(law, inclined)
-    load = inclined.to_node_axes(np.outer(law.gravity, inclined.load))
-    strain = kernel.compute_strain(inclined, state.unknowns)
-    in_snow = (inclined.weights * (state.stress * strain).sum(axis=-1)).sum()
-    on_ground = 0.0
-    if state.base_shear is not None:
-        along = kernel.compute_base_velocity(inclined, state.unknowns)
-        on_ground = (inclined.base_weights * state.base_shear * along).sum()
-    _, drag = forces_on_net(inclined, state)
-    friction = (drag * slip_velocity(inclined, state)).sum()
-    assert friction >= 0.0
-    assert on_ground >= 0.0
-    assert load @ state.unknowns == pytest.approx(
-        in_snow + on_ground + friction, rel=1e-8
-    )
-
-
-@pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
-def test_velocities_on_net_and_ground(inclined, a_flow_problem, ground, slip_ratio):
-    law = a_flow_problem(ground=ground, slip_ratio=slip_ratio)
-    velocity = inclined.to_slope_axes(solve(law, inclined).unknowns)
-    template = inclined.template
-    assert np.abs(velocity[1, template.ground]).max() == 0.0
-    if ground == "no-slip":
-        assert np.abs(velocity[0, template.ground]).max() == 0.0
-    else:
-        assert velocity[0, template.ground[-1]] > 0.0
-    normal = (velocity[:, template.net] * inclined.net_normal).sum(axis=0)
-    np.testing.assert_allclose(normal, 0.0, atol=1e-16)
 
 
 def test_sliding_ground_obeys_its_law(inclined, a_flow_problem):

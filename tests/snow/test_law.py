@@ -153,21 +153,6 @@ def test_load_of_layers_is_their_weight(a_flow_problem, inclination, element):
     np.testing.assert_allclose(load, weight, rtol=1e-12)
 
 
-@pytest.mark.parametrize("element", ["velocity", "mixed"])
-def test_equal_layers_are_one(a_flow_problem, element):
-    """On one mesh: nothing but the sampling differs."""
-    whole = replace(a_flow_problem(ground="no-slip"), element=element)
-    layer = whole.layers[0]
-    parts = tuple(replace(layer, top=top) for top in (*TOPS, 1.0))
-    mesh = layered_mesh(30.0, element)
-    one, three = (
-        solve_flow(law, mesh, tolerance=1e-10).state
-        for law in (whole, replace(whole, layers=parts))
-    )
-    scale = np.abs(one.reaction).max()
-    np.testing.assert_allclose(three.reaction, one.reaction, atol=1e-9 * scale)
-
-
 @each("exponent", [1.0, 3.0])
 @each("fluidity", [0.037, 1.0, 4.3])
 def test_ground_slips_by_the_fluidity_of_the_snow_on_it(

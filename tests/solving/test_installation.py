@@ -18,10 +18,6 @@ def resources(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_the_same_installation_is_known_again(resources):
-    assert identify_installation() == identify_installation()
-
-
 @pytest.mark.parametrize("name", ["standards", "templates"])
 def test_a_changed_profile_or_template_is_another_installation(resources, name):
     before = identify_installation()

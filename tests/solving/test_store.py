@@ -12,7 +12,7 @@ from netdesign.envelope.ranges import Case
 from netdesign.outcome import Outcome
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import CaseEnd, decode_end, encode_end
+from netdesign.solving.solve import CaseEnd
 from netdesign.solving.store import CaseStore, name_case
 from netdesign.solving.workers import Job, solve_job
 from netdesign.words.message import say
@@ -48,10 +48,6 @@ def said():
 def opened(tmp_path, said):
     """Open the store of this test, as often as wanted."""
     return lambda: CaseStore(tmp_path / "cases.sqlite", said.append)
-
-
-def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
-    assert_same(decode_end(encode_end(solve_one())), solve_one())
 
 
 def test_what_is_kept_is_found_by_a_later_run(opened, said):
@@ -140,13 +136,6 @@ def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
         assert set(other.find(["a", "b"])) == {"b"}
     assert len(said) == 1
     assert "case a is damaged" in str(said[0])
-
-
-def test_two_runs_share_a_store_at_the_same_time(opened):
-    with opened() as one, opened() as other:
-        one.keep("a", solve_one())
-        other.keep("b", solve_one())
-        assert set(one.find(["a", "b"])) == {"a", "b"} == set(other.find(["a", "b"]))
 
 
 def test_a_store_that_breaks_under_way_costs_its_use_not_the_run(opened, said):

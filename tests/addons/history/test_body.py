@@ -67,16 +67,6 @@ def uneven(body, seed=6):
     )
 
 
-LAYERS = (
-    FlowLayer(top=0.4, bulk_ratio=1.8, density=1.2, warmth=2.0),
-    FlowLayer(top=1.0, bulk_ratio=1.8, density=1.0 - 0.2 * 0.4 / 0.6, warmth=0.5),
-)
-
-
-def layered(law):
-    return replace(law, layers=LAYERS)
-
-
 @pytest.mark.parametrize("seed", range(5))
 def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_problem, seed):
     """Weight of each from the area between two level lines, up to the net."""
@@ -116,30 +106,6 @@ def test_snow_that_rests_keeps_its_mesh(a_flow_problem, head_x, level):
     np.testing.assert_allclose(moved.mass, body.mass, atol=ROUNDING)
     np.testing.assert_allclose(moved.warmth, body.warmth, rtol=1e-9)
     assert fallen == pytest.approx(0.0, abs=ROUNDING)
-
-
-def test_a_mended_mesh_is_not_mended_again(a_flow_problem):
-    """Against a bulging net: what the first mending has placed stays."""
-    body = a_body(a_flow_problem(), head_x=0.3, sag=0.1)
-    head = on_net(body)[:, -1]
-    once, _ = move_body(body, body.vertices, on_net(body), head)
-    twice, _ = move_body(once, once.vertices, on_net(once), head)
-    np.testing.assert_allclose(twice.vertices, once.vertices, atol=1e-13)
-    np.testing.assert_allclose(twice.mass, once.mass, atol=ROUNDING)
-
-
-@pytest.mark.parametrize("tops", [(), (0.4,)], ids=["uniform", "layers"])
-def test_rigid_shift_along_the_slope(a_flow_problem, tops):
-    law = layered(a_flow_problem()) if tops else a_flow_problem()
-    body = a_body(law, tops=tops)
-    shift = np.array([[0.07], [0.0]])
-    net = on_net(body) + shift
-    moved, fallen = move_body(body, body.vertices + shift, net, net[:, -1])
-    np.testing.assert_allclose(moved.density, body.density, rtol=1e-11)
-    np.testing.assert_allclose(moved.warmth, body.warmth, rtol=1e-11)
-    assert fallen == pytest.approx(0.0, abs=ROUNDING)
-    ends = moved.vertices[0].min(), moved.vertices[0].max()
-    assert ends == pytest.approx((0.07 - ASPECT, 0.07), abs=1e-14)
 
 
 # --- mass --------------------------------------------------------------------
@@ -260,10 +226,4 @@ def test_snow_that_cannot_be_moved_is_refused(a_flow_problem, spoil, said, level
     vertices, net = spoil(body, on_net(body))
     with pytest.raises(SolveError, match=said) as failure:
         move_body(body, vertices, net, net[:, -1])
-    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
-
-
-def test_start_that_folds_over_is_refused(a_flow_problem):
-    with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
-        a_body(a_flow_problem(), sag=-8.0)
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY

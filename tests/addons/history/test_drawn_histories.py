@@ -166,14 +166,3 @@ def test_snow_that_gathers_for_long_leaves_its_plateau(a_scene):
     assert run.plateau.was_left
     assert run.plateau.drift > 0.05
     assert run.moments[-1].foot @ run.moments[0].foot > 0.0
-
-
-def test_a_steady_start_is_quiet_from_its_first_instant():
-    """Its pulls are the steady state's; a sagged start's up to 2.8 times as large."""
-    for seed, ground in enumerate(GROUNDS * 2):
-        scene = draw_scene(800 + seed, ground=ground, is_uniform=True)
-        run = run_history(scene, COARSE, TransientSettings(), 1e-3)
-        scale = scene.force_scale / at_rest(scene)
-        for end, share in zip(("foot", "head"), scale, strict=True):
-            sizes = [np.hypot(*getattr(moment, end)) for moment in run.moments]
-            np.testing.assert_allclose(np.array(sizes) * share, 1.0, atol=0.03)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.verification.closed_forms import slide_on
-from netdesign.addons.history import instant as instant_module
 from netdesign.addons.history.instant import advance, advance_under
 from netdesign.addons.history.net_pulls import (
     compute_node_forces,
@@ -18,7 +17,7 @@ from netdesign.addons.history.net_pulls import (
 from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
 from netdesign.addons.history.state import build_problem
 from netdesign.addons.history.transient import run_history
-from netdesign.outcome import Outcome, SolveError
+from netdesign.outcome import SolveError
 from tests.addons.history.starts import begin
 from tests.each import each
 
@@ -93,25 +92,6 @@ def test_net_forces_are_those_at_the_steps_end(a_scene, friction):
     assert (np.abs(tangential) - limit).max() < 1e-9
 
 
-def test_step_ends_where_its_velocities_lead(a_scene):
-    """Implicit Euler first, then BDF2 of steps that differ."""
-    problem, state = begin(a_scene())
-    first = advance(problem, state, STEP, **TIGHT)
-    count = state.moved.shape[1]
-    moved = first.displaced - state.body.vertices
-    np.testing.assert_allclose(moved, STEP * first.velocity[:, :count], atol=1e-15)
-
-    later = pass_on(state, first, STEP)
-    step = 1.5 * STEP
-    second = advance(problem, later, step, **TIGHT)
-    # derivative at the end of the parabola through the three positions
-    slope = (second.displaced - later.body.vertices) / step
-    curvature = (slope - moved / STEP) / (step + STEP)
-    np.testing.assert_allclose(
-        slope + step * curvature, second.velocity[:, :count], rtol=1e-9, atol=1e-12
-    )
-
-
 # --- order -------------------------------------------------------------------
 
 
@@ -158,17 +138,6 @@ def test_stepping_is_of_second_order(a_scene, friction, parts):
     assert sizes[-1] < 2e-4 * np.abs(pulls[-1]).max()
 
 
-# --- starts and failures -----------------------------------------------------
-
-
-def test_balance_that_rounding_spoils_is_no_step(a_scene, monkeypatch):
-    """Converged stress and net, but force missing: never a result."""
-    problem, state = begin(a_scene())
-    monkeypatch.setattr(instant_module, "_ROUNDING_SHARE", 0.0)
-    with pytest.raises(SolveError):
-        advance(problem, state, STEP, **TIGHT)
-
-
 # --- under given forces ------------------------------------------------------
 
 
@@ -199,26 +168,3 @@ def test_given_forces_and_base_drag_are_in_balance(a_scene):
     weight = state.body.mass.sum() * math.sin(math.radians(40.0))
     pulled = instant.foot_pull[0] + instant.head_pull[0]
     assert pulled + dragged == pytest.approx(weight, rel=1e-9)
-
-
-def few(problem, state):
-    advance(problem, state, STEP, **TIGHT | {"max_iterations": 2})
-
-
-def few_under_given_forces(problem, state):
-    given = EXCHANGE | {"max_iterations": 2}
-    advance_under(problem, state, 1e-5, held(problem, state), **given)
-
-
-@each(
-    "step, drag, said",
-    [
-        (few, 0.0, "a step of snow and net"),
-        (few_under_given_forces, 0.05, "under the net's forces"),
-    ],
-)
-def test_too_few_iterations_are_an_error(a_scene, step, drag, said):
-    problem, state = begin(a_scene(), base_drag=drag)
-    with pytest.raises(SolveError, match=said) as failure:
-        step(problem, state)
-    assert failure.value.outcome is Outcome.MAX_ITERATIONS

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.addons.history import state
 from netdesign.addons.history.instant import advance
 from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
@@ -15,7 +14,6 @@ from netdesign.addons.history.state import (
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.numerics.curve import interpolate_curve
-from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.ground import GroundLaw
 from tests.addons.history.starts import begin
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
@@ -66,18 +64,6 @@ def test_polygon_lies_on_the_net_at_rest(seed):
     np.testing.assert_allclose(
         join_points(state.net_nodes, problem.head)[:, -1], problem.head
     )
-
-
-def test_a_scene_without_a_steady_state_says_what_to_choose(a_scene, monkeypatch):
-    def fail(*_, **__):
-        raise SolveError(Outcome.NO_EQUILIBRIUM, "the net has none.")
-
-    monkeypatch.setattr(state, "find_net_equilibrium", fail)
-    scene = a_scene()
-    with pytest.raises(SolveError, match=r"none\): choose the start sagged") as failure:
-        begin(scene, "steady", SIZE)
-    assert failure.value.outcome is Outcome.NO_EQUILIBRIUM
-    assert begin(scene, "straight", SIZE)[1].time == 0.0
 
 
 THIN_GROUNDS = (

@@ -8,8 +8,6 @@ import pytest
 
 from netdesign.addons.evidence.verification.closed_forms import slide_on
 from netdesign.addons.history.net_pulls import (
-    compute_tensions,
-    hold_net,
     measure_arcs,
 )
 from netdesign.cable.net import compute_ratio_bounds, compute_turning_angles
@@ -79,23 +77,6 @@ def test_optimality_of_random_nets(seed):
     np.testing.assert_allclose(forces.sum(axis=1), 0.0, atol=1e-12 * size)
     moment = (case.points[0] * forces[1] - case.points[1] * forces[0]).sum()
     assert moment == pytest.approx(0.0, abs=1e-11 * size)
-
-
-@pytest.mark.parametrize("friction", [40.0, 1e4])
-def test_nothing_glides_under_large_friction(friction):
-    """As a net that is held; the second friction parts it at every node."""
-    rng = np.random.default_rng(8)
-    points = bulged_points(rng, 12, grading=0.3)
-    old = measure_arcs(points) / rng.uniform(1.01, 1.012, 13)
-    net = Case(points, old, friction).solve()
-    assert not net.slide_signs.any()
-    np.testing.assert_array_equal(net.lengths, old)
-    tensions = compute_tensions(measure_arcs(points), old, STIFFNESS)
-    np.testing.assert_allclose(net.tensions, tensions, rtol=1e-13)
-    held = hold_net(points, old, stiffness=STIFFNESS)
-    for name in ("tensions", "forces", "foot_pull", "head_pull"):
-        expected = getattr(net, name)
-        np.testing.assert_allclose(getattr(held, name), expected, rtol=1e-12)
 
 
 def arc_points(count, opening=1.2, exponent=1.0):

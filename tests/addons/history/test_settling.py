@@ -9,9 +9,7 @@ from netdesign.addons.history.body import Settling, build_body, build_material
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
-    DENSEST_SNOW,
     compute_bulk_factor,
-    compute_factors,
     compute_shear_factor,
 )
 from netdesign.snow.law import FlowLayer, sample_material
@@ -34,26 +32,6 @@ def settled(body, jacobian):
 
 def settling(**changes):
     return replace(Settling(creep_law=LAW, mean_density=DENSITY), **changes)
-
-
-# --- coefficients ------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", CREEP_LAWS)
-def test_factors_of_many_densities_are_those_of_each(name):
-    """Both branches, their joint, the clamp and the densest snow."""
-    law = CREEP_LAWS[name]
-    densities = np.array(
-        [
-            *(0.1, 0.3, 0.4, 0.51, 0.7, np.nextafter(law.branch, 0.0)),
-            *(law.branch, 0.9, 0.98, DENSEST_SNOW),
-        ]
-    )
-    shear, bulk = compute_factors(law, densities)
-    expected = [compute_shear_factor(law, float(d)) for d in densities]
-    np.testing.assert_allclose(shear, expected, rtol=1e-14)
-    expected = [compute_bulk_factor(law, float(d)) for d in densities]
-    np.testing.assert_allclose(bulk, expected, rtol=1e-14)
 
 
 # --- material ----------------------------------------------------------------

@@ -32,33 +32,6 @@ def foot(moments):
     return np.array([np.hypot(*moment.foot) for moment in moments])
 
 
-def test_steps_are_all_alike(a_scene):
-    """Explicit: one length for all, half of it with half the share or half the drag."""
-    short = replace(SETTINGS, horizon=0.002)
-    first, half, light = (
-        run_exchange(a_scene(), settings).moments
-        for settings in (
-            short,
-            replace(short, step_share=0.5),
-            replace(short, base_drag=0.05),
-        )
-    )
-    step = first[0].time
-    np.testing.assert_allclose(np.diff([m.time for m in first]), step, rtol=1e-9)
-    assert half[0].time == pytest.approx(step / 2.0, rel=1e-12)
-    assert light[0].time == pytest.approx(step / 2.0, rel=1e-12)
-
-
-def test_drag_takes_its_share_of_the_weight(a_scene):
-    """While the snow moves, net and drag hold it; at rest the net alone."""
-    scene = a_scene()
-    moments = run_exchange(scene, SETTINGS).moments
-    held = [(moment.foot + moment.head)[0] for moment in moments]
-    weight = 5.0 * math.sin(math.radians(40.0))
-    assert held[0] < 0.5 * weight
-    assert 0.7 * weight < held[-1] < 1.02 * weight
-
-
 def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
     without = partial(advance_increment, max_rounds=0)
     monkeypatch.setattr(staggered, "advance_increment", without)

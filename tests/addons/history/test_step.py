@@ -110,19 +110,3 @@ def test_a_corner_that_slips_keeps_to_the_nets_line_and_to_friction(
     pressure, shear = y * force[0] - x * force[1], x * force[0] + y * force[1]
     size = np.abs(found.imbalance).max()
     assert shear == pytest.approx(problem.snow.friction * pressure, abs=1e-9 * size)
-
-
-def test_midpoints_move_with_their_vertices_and_pass_on_their_forces(a_scene, core):
-    problem, state = begin(a_scene())
-    equations = assemble_step(problem, state, STEP)
-    net = equations.template.net
-    rng = np.random.default_rng(5)
-    held = equations.split(equations.hold(rng.normal(size=state.velocity.shape)))
-    ends = held[:, net[:-1:2]] + held[:, net[2::2]]
-    np.testing.assert_allclose(2.0 * held[:, net[1::2]], ends, atol=1e-15)
-    assert not held[:, net[[0, -1]]].any()
-    # forces at the vertices do the work of all forces
-    forces = rng.normal(size=2 * held.shape[1])
-    at_vertices = equations.pull_vertices(forces)
-    work = (equations.split(forces)[:, net] * held[:, net]).sum()
-    assert (at_vertices * held[:, net[::2]]).sum() == pytest.approx(work, rel=1e-12)

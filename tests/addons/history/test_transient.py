@@ -91,21 +91,6 @@ def test_more_accuracy_takes_more_steps_to_the_same_pull(a_scene, start):
             )
 
 
-def test_fluidity_only_rescales_time(a_scene):
-    """Seven times the fluidity: the same history in a seventh of the time."""
-    scene = a_scene()
-    slow = solve(scene, horizon=7 * 86400.0)
-    fast = solve(replace(scene, fluidity=7.0 * scene.creep_fluidity), horizon=86400.0)
-    for end in ("foot", "head"):
-        np.testing.assert_allclose(
-            sizes(fast.history.moments, end),
-            sizes(slow.history.moments, end),
-            rtol=1e-9,
-        )
-    times = [[m.time for m in s.history.moments] for s in (slow, fast)]
-    np.testing.assert_allclose(times[0], 7.0 * np.array(times[1]), rtol=1e-9)
-
-
 def solve(scene, **options) -> Solution:
     options = {"horizon": 86400.0, "accuracy": 0.1, **options}
     settings = TransientSettings(**options)

@@ -208,18 +208,6 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
     assert ("R2", "uphill_guy") in followed
 
 
-def test_what_nobody_typed_is_told_as_assumed(judge, study):
-    assert all(
-        one.is_assumed for row in study.rows for one in row.reliability.variables
-    )
-    told = judge(tell("snow_height", 0.27, period=80.0), tell("model", 0.25))
-    for row in told.rows:
-        typed = {one.name for one in row.reliability.variables if not one.is_assumed}
-        assert typed == {"snow_height", "model"}
-        sources = {str(one.source.arguments) for one in row.reliability.variables}
-        assert "{'text': 'told here'}" in sources
-
-
 @each(
     "quantity",
     [
@@ -242,15 +230,6 @@ def test_a_design_point_beyond_what_was_solved_is_not_available(judge):
     assert record.beta is None
     assert record.reason.key in ("reliability.beyond", "reliability.missed")
     assert record.variables == []
-
-
-def test_without_a_distribution_it_is_not_available(searched, judge):
-    site, solved = searched
-    rows = tuple(replace(row, glide_factor=None) for row in site.rows)
-    solver = CaseSolver(WITH.settings, WITH.creep_law)
-    found = judge_site(replace(site, rows=rows), solved, STANDARD, WITH, solver)
-    gliding = found.rows[1].reliability
-    assert (gliding.beta, gliding.reason.key) == (None, "reliability.no_distribution")
 
 
 def test_a_fault_of_its_own_is_a_reason_and_no_fault_of_the_checks(

@@ -12,7 +12,6 @@ from tests.addons.terrain.map_files import GIVEN, SWISS, watch, write_rows
 from tests.peak_memory import needs_peak
 
 DRAW = np.random.default_rng(4)
-GERMAN = {"Werkreihe": "Bödeli-1", "Netzhöhe [cm]": 350.0, "Stützenabstand [m]": 3.2}
 
 
 def draw_rows(**given):
@@ -42,18 +41,6 @@ def test_rows_are_those_of_geojson(tmp_path, end, size):
         assert dict(one.cells) == pytest.approx(dict(other.cells))
         assert one.points == pytest.approx(other.points, abs=1e-9)
     assert found.crs == SWISS
-
-
-def test_units_of_a_geopackage_are_read_and_all_its_layers(tmp_path):
-    path = write_rows(tmp_path / "rows.gpkg", draw_rows(**GERMAN), layer="oben")
-    write_rows(path, draw_rows(**{**GIVEN, "id": "B"}), layer="unten")
-    ring = [(0.0, 0.0), (90.0, 0.0), (90.0, 90.0), (0.0, 0.0)]
-    write_rows(path, [(ring, {"kind": "starting zone"})], kind=3, layer="zone")
-    write_rows(path, [(ring[:1], {"kind": "station"})], kind=1, layer="station")
-    plan = read_plan(path)
-    assert [one.id[0] for one in plan.lines] == ["B"] * 6
-    assert plan.lines[0].net_height == pytest.approx(3.5)
-    assert list(plan.zones[0].exterior.coords) == ring
 
 
 def test_faults_name_the_layer_and_come_all_at_once(tmp_path):
@@ -146,24 +133,6 @@ def test_files_cut_or_with_other_bytes_are_rows_or_refused(tmp_path, capfd, end)
         assert sorted(one.name for one in path.parent.iterdir()) == before
     assert 0 < read < count
     assert capfd.readouterr() == ("", "")
-
-
-@pytest.mark.parametrize("end", [".gpkg", ".shp"])
-@pytest.mark.parametrize(
-    "content",
-    [b"", b"<OGRVRTDataSource></OGRVRTDataSource>", b"SQLite format 3\0" + bytes(90)],
-)
-def test_what_is_no_such_file_is_one_refusal(tmp_path, call, end, content):
-    from netdesign.addons.terrain.example import build_example, write_grid
-
-    (tmp_path / "g.asc").write_bytes(write_grid(build_example()))
-    for one in (".shp", ".shx", ".dbf", ".gpkg"):
-        (tmp_path / f"r{one}").write_bytes(content)
-    ended = call("terrain", "g.asc", f"r{end}", "--json")
-    assert ended.code == 3
-    assert "or damaged" in ended.err
-    assert len(ended.err.splitlines()) == 1
-    assert "GDAL" not in ended.err
 
 
 # Counts of records, of points, sizes of fields: place in its file, and bytes there.

@@ -99,24 +99,6 @@ def test_snow_reaches_across_a_bench_narrower_than_the_net_is_high(cell, width):
         )
 
 
-@each("cell", [0.5, 1.0])
-@each("seed", range(6))
-def test_snow_reaches_over_boulders(cell, seed):
-    """Forty lower than the snow, whose upper sides dip into the slope."""
-    drawn = np.random.default_rng(seed)
-    east, north = drawn.uniform(-16.0, 16.0, 40), drawn.uniform(-18.0, 6.0, 40)
-    tall, wide = drawn.uniform(0.5, 1.5, 40), drawn.uniform(0.5, 0.9, 40)
-
-    def slope(x, y):
-        away = (x[..., None] - east) ** 2 + (y[..., None] - north) ** 2
-        boulders = (tall * np.exp(-0.5 * away / wide**2)).max(axis=-1)
-        return 1500.0 + math.tan(PSI) * y + boulders
-
-    grid = build_grid(slope, cell=cell, size=100.0)
-    found = measure(grid, draw_line(ALONG_CONTOUR, net_height=4.0), most=30.0)
-    assert {one.end for one in found.ends} == {"cap"}
-
-
 def wave(y):
     return 40.0 * np.sin(y / 45.0)
 

@@ -186,21 +186,6 @@ def count_mid(anchors):
     return len(feet) - len({one["post"] for one in feet})
 
 
-@pytest.mark.parametrize(
-    ("options", "code"),
-    [
-        (("--out", "checked.geojson"), 2),
-        (("--rows", "rows.geojson"), 2),
-        (("--rows", "rows.geojson", "--out", "checked.json"), 2),
-        (("--rows", "rows.geojson", "--out", "checked.dxf"), 3),
-        (("--rows", "rows.geojson", "--out", "checked.gpkg"), 2),
-        (("--rows", "rows.geojson", "--out", "checked.geojson"), 3),
-    ],
-)
-def test_a_map_without_rows_a_place_or_a_study_is_refused(call, options, code):
-    assert call("terrain", "--verdicts", "study.json", *options).code == code
-
-
 VERDICTS = ("pass", "fail", "not_proven", "declared")
 
 

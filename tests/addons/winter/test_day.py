@@ -5,11 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.day import RowDay, build_day_scene, merge_layers
+from netdesign.addons.winter.day import build_day_scene, merge_layers
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.snow.snowpack import Layer, build_layered_snowpack
-from netdesign.structure.layout import SupportLayout
+from netdesign.snow.snowpack import build_layered_snowpack
 from tests.addons.winter.made_up_row import SLOPE, a_pack, a_solver
 
 
@@ -46,39 +45,12 @@ def test_uniform_day_is_its_own_steady_state():
     assert day.member_forces == {}
 
 
-def test_layout_gives_forces_of_the_members():
-    layout = SupportLayout(
-        post_spacing=3.5,
-        post_tilt=0.3,
-        uphill_anchor_distance=3.0,
-        downhill_anchor_distance=3.0,
-    )
-    solver = a_solver(layout=layout)
-    (day,) = solver.solve(solver.prepare({0: a_pack([1.5], [300.0])}, layered=False))
-    assert {"foot_anchor", "uphill_guy", "post"} <= day.member_forces.keys()
-    assert day.member_forces["foot_anchor"].value == pytest.approx(
-        3.5 * day.foot.value, rel=1e-9
-    )
-
-
 def test_snow_that_the_law_refuses_fails_with_its_reason():
     solver = a_solver()
     (day,) = solver.solve(solver.prepare({0: a_pack([1.0], [81.0])}, layered=True))
     assert day.ending == "failed"
     assert day.pull is None
     assert "3a" in str(day.reason)
-
-
-def test_layers_that_fail_are_tried_as_uniform_snow():
-    solver = a_solver()
-    too_thin = (Layer(thickness=1.99, density=300.0), Layer(thickness=0.01, density=90))
-    open_day = RowDay(
-        index=5, thickness=2.0, density=298.95, layers=too_thin, ending="open"
-    )
-    (day,) = solver.solve([open_day])
-    assert day.ending == "solved"
-    assert day.layers == ()
-    assert day.reason is not None
 
 
 def drawn_packs(seed=17, count=60):

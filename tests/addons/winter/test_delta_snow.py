@@ -1,7 +1,6 @@
 """Settling by delta-snow, each event by the hand."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -104,24 +103,9 @@ def test_snow_at_its_largest_density_everywhere_runs_off_in_proportion():
     assert day.runoff == pytest.approx(mass - 0.31 * RHO_MAX, rel=1e-13)
 
 
-def test_snow_at_its_largest_density_is_not_pressed():
-    day = DELTA_SNOW.step(a_pack([0.5], [RHO_MAX]), 1.3)
-    assert day.heights[0] == pytest.approx(0.5, rel=1e-13)
-
-
 def test_ageing_limit_at_its_middle_and_far_from_it():
     ageing = DELTA_SNOW_AGEING.largest_density
     assert isinstance(ageing, Ageing)
     low, middle, high = ageing.find_largest(np.array([-(10**7), 80, 10**7]))
     assert middle == pytest.approx(490.0, rel=1e-14)
     assert [low, high] == pytest.approx([380.0, 600.0], rel=1e-6)
-
-
-def test_constant_height_comes_to_rest():
-    """New snow fills what settles, until a day settles less than tau: then (D3)."""
-    packs = follow_heights([1.7] * 200, DELTA_SNOW)
-    means = [pack.density for pack in packs]
-    assert all(after >= before - 1e-12 for before, after in pairwise(means))
-    assert means[-1] == pytest.approx(means[-50], rel=1e-12)
-    settled = settled_by_hand(packs[-1].heights, packs[-1].densities)
-    assert 1.7 - 0.02362476 < sum(settled) < 1.7

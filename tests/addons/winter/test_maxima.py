@@ -34,15 +34,6 @@ def test_equivalent_density_pulls_as_much():
     assert alike.foot.value == pytest.approx(governing.foot.value, rel=2e-3)
 
 
-def test_winter_above_the_net_proves_no_maximum():
-    packs = follow([0.0, 0.9, 1.9, 1.6, 4.2, 1.5])
-    maximum, solved = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
-    assert maximum.ending == "overtopped"
-    assert not maximum.is_proven
-    assert maximum.foot > 0.0
-    assert all(day.ending == "solved" for day in solved)
-
-
 def test_winter_without_a_solved_day_proves_no_maximum():
     """New snow alone is lighter than the creep law allows; denser snow bounds it."""
     packs = follow([0.0, 0.9])

@@ -5,19 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.addons.evidence.benchmark import precision as truths
 from netdesign.addons.evidence.benchmark.precision import (
     HALVINGS,
     Row,
     Truth,
     measure_steady,
     refine_size,
-    solve_fine,
     solve_truth,
     summarise,
 )
 from netdesign.addons.evidence.benchmark.scenes import load_scenes
-from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.snow.mesh import MeshSize, build_template
 
@@ -101,19 +98,3 @@ def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     # FACTS.md, section 6: two independent codes
     assert np.hypot(*truth.foot) == pytest.approx(309.67e3, rel=3e-4)
     assert 2**HALVINGS == 4
-
-
-def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatch):
-    held = solved()
-
-    def refuse(*_, **__):
-        refusal = SuctionError(0.0517)
-        refusal.held = held
-        raise refusal
-
-    monkeypatch.setattr(truths, "solve_steady", refuse)
-    found = solve_fine(a_scene(), SolverSettings(levels=MESH_LEVELS[1:3]))
-    assert found.compare(held) == 0.0
-    held = None  # left before the finest mesh: no figure to compare with
-    with pytest.raises(SuctionError):
-        solve_fine(a_scene(), SolverSettings())
