@@ -8,6 +8,7 @@ import pytest
 from netdesign.addons.history.net_pulls import (
     compute_node_forces,
     compute_tensions,
+    measure_arcs,
     pull_nodes,
 )
 from netdesign.cable.net import (
@@ -71,3 +72,27 @@ def test_ends_of_a_parabola():
     foot, head = compute_end_directions(points)
     np.testing.assert_allclose(foot, np.array([1.0, 1.0]) / np.sqrt(2.0), rtol=1e-15)
     np.testing.assert_allclose(head, np.array([-1.0, 1.0]) / np.sqrt(2.0), rtol=1e-15)
+
+
+def arc_points(count, opening=1.2, exponent=1.0):
+    """Foot, ``count`` nodes and head on a circle of radius 1."""
+    angle = opening * (np.linspace(0.0, 1.0, count + 2) ** exponent - 0.5)
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5], ids=["even", "graded"])
+def test_arcs_of_a_circle_converge_at_order_four(exponent):
+    errors = [
+        abs(measure_arcs(arc_points(count, exponent=exponent)).sum() / 1.2 - 1.0)
+        for count in (7, 15, 31)
+    ]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert errors[-1] < 1e-6
+    assert orders.min() > 3.5
+
+
+def test_arcs_of_even_nodes_by_hand():
+    """Chord 2 R sin(beta / 2), longer by beta^2 / 24."""
+    beta = 1.2 / 6
+    expected = 2.0 * math.sin(beta / 2.0) * (1.0 + beta**2 / 24.0)
+    np.testing.assert_allclose(measure_arcs(arc_points(5)), expected, rtol=1e-13)

@@ -9,10 +9,7 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
 from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.panel_forces import (
-    PANEL_QUANTITIES,
-    PanelForces,
-)
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import refine_settings

@@ -9,12 +9,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.guideline.floor import (
-    SCAN_STEP,
-    NetRanges,
-    find_floors,
-    find_ways,
-)
+from netdesign.guideline.floor import SCAN_STEP, NetRanges, find_floors, find_ways
 from netdesign.guideline.load_cases import (
     NetGeometry,
     find_glide_factor,

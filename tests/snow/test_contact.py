@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.outcome import Outcome
-from netdesign.snow.contact import (
-    may_lift,
-    net_components,
-)
+from netdesign.snow.contact import may_lift, net_components
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import compute_residual
 

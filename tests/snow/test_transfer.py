@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.snow import flow
 from netdesign.snow.contact import FlowState, start_contact
 from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow import transfer_state
@@ -39,3 +41,18 @@ def test_stress_stays_in_its_layer(old, new):
     )
     carried = transfer_state(state, source.template, target.template)
     np.testing.assert_array_equal(carried.stress[..., 0], number_layers(target))
+
+
+@pytest.mark.parametrize("tops", [(), TOPS])
+@pytest.mark.parametrize("at_once", [256, 7])
+def test_nearest_points_are_those_of_a_tree(monkeypatch, tops, at_once):
+    """Also where two are as near: any of them is right."""
+    monkeypatch.setattr(flow, "_AT_ONCE", at_once)
+    flow._nearest_points.cache_clear()
+    source, target = (
+        build_template(7.31, MESH_LEVELS[level], tops) for level in (0, 1)
+    )
+    known, wanted = map(flow._list_points, (source, target))
+    near = known[flow._nearest_points(source, target)]
+    distance, _ = cKDTree(known).query(wanted)
+    np.testing.assert_allclose(np.hypot(*(near - wanted).T), distance, atol=1e-12)

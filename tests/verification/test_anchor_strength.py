@@ -6,10 +6,7 @@ import pytest
 
 from netdesign.checks import check_member, load_standard
 from netdesign.outcome import Verdict
-from netdesign.resistance.ground import (
-    PullOutTests,
-    limit_proof_load,
-)
+from netdesign.resistance.ground import PullOutTests, limit_proof_load
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
 

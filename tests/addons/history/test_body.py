@@ -6,11 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.addons.history.body import (
-    build_body,
-    compute_areas,
-    move_body,
-)
+from netdesign.addons.history.body import build_body, compute_areas, move_body
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.outcome import Outcome, SolveError
 from netdesign.snow.law import FlowLayer

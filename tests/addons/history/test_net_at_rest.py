@@ -8,9 +8,7 @@ import pytest
 from netdesign.addons.history.instant import advance
 from netdesign.addons.history.net_pulls import join_points, measure_arcs
 from netdesign.addons.history.settings import TRANSIENT_LEVELS
-from netdesign.addons.history.state import (
-    find_net_at_rest,
-)
+from netdesign.addons.history.state import find_net_at_rest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.numerics.curve import interpolate_curve

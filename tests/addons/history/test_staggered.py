@@ -8,10 +8,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.history import staggered
-from netdesign.addons.history.settings import (
-    StaggeredSettings,
-    TransientSettings,
-)
+from netdesign.addons.history.settings import StaggeredSettings, TransientSettings
 from netdesign.addons.history.staggered import (
     add_drag,
     advance_increment,

@@ -10,12 +10,7 @@ from rasterio.transform import Affine
 
 from netdesign.addons.terrain.grid import Grid, read_grid
 from netdesign.outcome import TerrainError
-from tests.addons.terrain.map_files import (
-    find_north,
-    watch,
-    write_asc,
-    write_tif,
-)
+from tests.addons.terrain.map_files import find_north, watch, write_asc, write_tif
 from tests.each import each
 from tests.peak_memory import needs_peak
 

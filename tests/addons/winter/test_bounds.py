@@ -8,10 +8,7 @@ import pytest
 
 from netdesign.addons.winter import maxima
 from netdesign.addons.winter.day import RowDay
-from netdesign.addons.winter.maxima import (
-    find_annual_maximum,
-    find_bound,
-)
+from netdesign.addons.winter.maxima import find_annual_maximum, find_bound
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.snow.ground import GroundLaw
 from netdesign.words.message import say

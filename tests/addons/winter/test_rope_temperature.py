@@ -6,11 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.measured import (
-    find_amplitude,
-    find_half_time,
-    find_swing,
-)
+from netdesign.addons.winter.measured import find_amplitude, find_half_time, find_swing
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw

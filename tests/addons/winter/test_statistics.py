@@ -3,12 +3,7 @@
 import pytest
 
 from netdesign.addons.winter.maxima import AnnualMaximum
-from netdesign.addons.winter.statistics import (
-    Gumbel,
-    LimitedGumbel,
-    Sample,
-    fit_gumbel,
-)
+from netdesign.addons.winter.statistics import Gumbel, LimitedGumbel, Sample, fit_gumbel
 from tests.each import each
 
 

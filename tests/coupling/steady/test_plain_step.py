@@ -6,8 +6,6 @@ condensed by scikit-fem, solved by SciPy's sparse direct solver. Pass ``advance`
 ``SolverSettings.step``. Theory: snow/THEORY.md, (N9) to (N14) and (N20).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -22,8 +20,8 @@ from netdesign.addons.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snow.contact import Contact, FlowState, free_unknowns, friction_shares
+from netdesign.numerics.arrays import Ints
+from netdesign.snow.contact import FlowState, free_unknowns, friction_shares
 from netdesign.snow.flow_step import linearise_base
 from netdesign.snow.forms import (
     assemble_gravity_form,
@@ -33,14 +31,8 @@ from netdesign.snow.forms import (
     build_basis,
 )
 from netdesign.snow.kernel import assemble_end_load
-from netdesign.snow.law import (
-    FlowProblem,
-    Material,
-    Tangent,
-    advance_stress,
-    linearise_creep,
-)
-from netdesign.snow.placed_mesh import EDGE_SHAPE, PlacedMesh
+from netdesign.snow.law import advance_stress, linearise_creep
+from netdesign.snow.placed_mesh import EDGE_SHAPE
 
 _BASE_DEGREE = 7  # four Gauss points an edge, as the kernel
 
@@ -52,21 +44,8 @@ class _Base(NamedTuple):
     order: Ints
 
 
-def advance(
-    problem: FlowProblem,
-    material: Material,
-    mesh: PlacedMesh,
-    state: FlowState,
-    contact: Contact,
-) -> FlowState:
-    """One Newton step on the stress.
-
-    A singular matrix gives values that are not finite, which ``solve_flow`` tells.
-
-    Verified by
-    -----------
-    tests/coupling/steady/test_plain_step.py
-    """
+def advance(problem, material, mesh, state, contact):
+    """One Newton step on the stress."""
     tangent = linearise_creep(problem, material, state.stress)
     matrix = _assemble_matrix(problem, mesh, tangent)
     force = _assemble_force(problem, material, mesh, tangent)
@@ -91,17 +70,13 @@ def advance(
     )
 
 
-def _assemble_matrix(
-    problem: FlowProblem, mesh: PlacedMesh, tangent: Tangent
-) -> sparse.csr_matrix:
+def _assemble_matrix(problem, mesh, tangent):
     if problem.element == "mixed":
         return assemble_mixed_form(mesh, tangent.modulus)
     return assemble_tangent_form(mesh, tangent.modulus)
 
 
-def _assemble_force(
-    problem: FlowProblem, material: Material, mesh: PlacedMesh, tangent: Tangent
-) -> Floats:
+def _assemble_force(problem, material, mesh, tangent):
     """Forces of the kept stress less those of gravity (n_dofs,), slope's axes."""
     density = np.broadcast_to(np.asarray(material.density), mesh.weights.shape)
     force = assemble_stress_form(mesh, tangent.intercept[..., :3])
@@ -116,7 +91,7 @@ def _assemble_force(
     return np.concatenate([force, kept])
 
 
-def _assemble_base_matrix(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
+def _assemble_base_matrix(mesh, modulus):
     base = _build_base_basis(mesh)
     form = skfem.BilinearForm(lambda v, w, at: at.modulus * v[0] * w[0])
     matrix = form.assemble(base.basis, modulus=_on_base(base, modulus)).tocoo()
@@ -124,7 +99,7 @@ def _assemble_base_matrix(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matri
     return sparse.csr_matrix(entries, shape=(mesh.n_dofs, mesh.n_dofs))
 
 
-def _assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
+def _assemble_base_force(mesh, shear):
     base = _build_base_basis(mesh)
     form = skfem.LinearForm(lambda w, at: at.shear * w[0])
     force = np.zeros(mesh.n_dofs)
@@ -132,7 +107,7 @@ def _assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     return force
 
 
-def _base_velocity(mesh: PlacedMesh, unknowns: Floats) -> Floats:
+def _base_velocity(mesh, unknowns):
     """Velocity along the ground in the kernel's order (n_edges, n_points)."""
     base = _build_base_basis(mesh)
     along = np.asarray(base.basis.interpolate(unknowns[: mesh.n_velocities])[0])
@@ -141,13 +116,7 @@ def _base_velocity(mesh: PlacedMesh, unknowns: Floats) -> Floats:
     return in_order.reshape(mesh.base_weights.shape)
 
 
-def _solve(
-    problem: FlowProblem,
-    mesh: PlacedMesh,
-    contact: Contact,
-    matrix: sparse.csr_matrix,
-    force: Floats,
-) -> Floats:
+def _solve(problem, mesh, contact, matrix, force):
     shares = friction_shares(problem, mesh, contact)
     if shares is not None:
         # normal rows are added to the tangential rows after them, eq. (N14)
@@ -159,7 +128,7 @@ def _solve(
     return np.asarray(skfem.solve(*condensed))
 
 
-def _compute_strain(mesh: PlacedMesh, velocity: Floats) -> Floats:
+def _compute_strain(mesh, velocity):
     """Generalised strains (n_triangles, n_points, 3 or 4) of slope's axes unknowns."""
     basis = build_basis(mesh)
     (xx, xy), (yx, yy) = basis.interpolate(velocity[: mesh.n_velocities]).grad
@@ -171,7 +140,7 @@ def _compute_strain(mesh: PlacedMesh, velocity: Floats) -> Floats:
 
 
 @lru_cache(maxsize=2)
-def _rotation(mesh: PlacedMesh) -> sparse.csr_matrix:
+def _rotation(mesh):
     """Node axes to slope's axes, a block a node; pressures stay."""
     cosine, sine = mesh.axes
     blocks = np.array([[cosine, -sine], [sine, cosine]]).transpose(2, 0, 1)
@@ -182,7 +151,7 @@ def _rotation(mesh: PlacedMesh) -> sparse.csr_matrix:
 
 
 @lru_cache(maxsize=2)
-def _build_base_basis(mesh: PlacedMesh) -> _Base:
+def _build_base_basis(mesh):
     curved = build_basis(mesh).mesh
     at_rest = np.abs(curved.p[1][curved.facets]).max(axis=0) == 0.0
     basis = skfem.FacetBasis(
@@ -199,7 +168,7 @@ def _build_base_basis(mesh: PlacedMesh) -> _Base:
     return _Base(basis, order)
 
 
-def _on_base(base: _Base, values: Floats) -> DiscreteField:
+def _on_base(base, values):
     """Values of the kernel's points at scikit-fem's."""
     shape = base.basis.dx.shape
     return DiscreteField(values.ravel()[base.order].reshape(shape))
