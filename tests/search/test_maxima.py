@@ -231,16 +231,3 @@ def test_a_bound_that_is_no_number_closes_nothing():
     )
     assert bounds.open == (1,)
     assert not bounds.is_closed
-
-
-def test_first_design_holds_corners_centre_and_the_parts_between():
-    assert list_first_design(1) == ((0.0,), (0.25,), (0.5,), (0.75,), (1.0,))
-    for dimension in (2, 3, 4, 5, 6):
-        points = list_first_design(dimension)
-        assert len(set(points)) == len(points)
-        assert {(0.5,) * dimension, (0.0,) * dimension, (1.0,) * dimension} <= set(
-            points
-        )
-        assert (0.25,) * dimension in points
-    assert len(list_first_design(3)) == 3**3 + 2**3
-    assert len(list_first_design(6)) == 2**6 + 1 + 12 + 2**6

@@ -221,3 +221,17 @@ def test_nonfinite_step(inclined, a_flow_problem):
         a_flow_problem(), inclined, start, tolerance=TIGHT, step=lambda *_: spoilt
     )
     assert (result.outcome, result.linear_solves) == (Outcome.NONFINITE, 1)
+
+
+@pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
+def test_velocities_on_net_and_ground(inclined, a_flow_problem, ground, slip_ratio):
+    law = a_flow_problem(ground=ground, slip_ratio=slip_ratio)
+    velocity = inclined.to_slope_axes(solve(law, inclined).unknowns)
+    template = inclined.template
+    assert np.abs(velocity[1, template.ground]).max() == 0.0
+    if ground == "no-slip":
+        assert np.abs(velocity[0, template.ground]).max() == 0.0
+    else:
+        assert velocity[0, template.ground[-1]] > 0.0
+    normal = (velocity[:, template.net] * inclined.net_normal).sum(axis=0)
+    np.testing.assert_allclose(normal, 0.0, atol=1e-16)

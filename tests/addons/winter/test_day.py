@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.addons.winter.day import build_day_scene, merge_layers
+from netdesign.addons.winter.day import RowDay, build_day_scene, merge_layers
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.snow.snowpack import build_layered_snowpack
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from tests.addons.winter.made_up_row import SLOPE, a_pack, a_solver
 
 
@@ -77,3 +77,15 @@ def test_thickness_and_mass_are_kept_and_few_layers_left():
 def test_pair_that_matters_least_goes_first():
     layers = merge_layers([0.5, 0.5, 0.5, 0.5], [400.0, 395.0, 250.0, 150.0], most=3)
     assert [la.density for la in layers] == pytest.approx([397.5, 250.0, 150.0])
+
+
+def test_layers_that_fail_are_tried_as_uniform_snow():
+    solver = a_solver()
+    too_thin = (Layer(thickness=1.99, density=300.0), Layer(thickness=0.01, density=90))
+    open_day = RowDay(
+        index=5, thickness=2.0, density=298.95, layers=too_thin, ending="open"
+    )
+    (day,) = solver.solve([open_day])
+    assert day.ending == "solved"
+    assert day.layers == ()
+    assert day.reason is not None

@@ -13,6 +13,7 @@ from netdesign.addons.winter.measured import (
     explain_unused,
     find_swing,
     list_measured_pulls,
+    name_measured_winters,
 )
 from netdesign.addons.winter.monitoring_sheet import MonitoringSeries
 from netdesign.addons.winter.season import Season
@@ -124,3 +125,8 @@ def test_times_without_a_date_stand_beside_no_winter():
     (told,) = explain_unused(a_site(), "R1", ())
     assert "no reading lies on a day" in str(told)
     assert explain_unused(a_site(tensions=(None,) * 4), "R1", ()) == ()
+
+
+def test_winters_with_readings_are_named():
+    pulls = list_measured_pulls(a_site(), "R1")
+    assert name_measured_winters(pulls) == {"2002/2003"}
