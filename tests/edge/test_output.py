@@ -15,23 +15,6 @@ def listing(folder):
     return sorted(path.name for path in folder.rglob("*") if path.is_file())
 
 
-def test_files_are_written_with_their_folders(tmp_path):
-    contents = {
-        tmp_path / "new" / "deep" / "a.json": b"{}",
-        tmp_path / "new" / "b.html": b"<p>\r\n",
-    }
-    write_files(contents, overwrite=True)
-    assert {path: path.read_bytes() for path in contents} == contents
-    assert listing(tmp_path) == ["a.json", "b.html"]
-
-
-def test_existing_files_are_replaced_whole(tmp_path):
-    path = tmp_path / "a"
-    path.write_bytes(b"long old content")
-    write_files({path: b"new"}, overwrite=True)
-    assert path.read_bytes() == b"new"
-
-
 @pytest.mark.parametrize(
     ("step", "at"), [("fsync", 1), ("chmod", 1), ("replace", 1), ("fsync", 2)]
 )

@@ -17,7 +17,6 @@ from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
-from netdesign.words.names import name_member
 from tests.envelope.tasks import build_row
 from tests.solving.made_up_workers import Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, solve_case
@@ -100,19 +99,6 @@ def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
             found.extremes[one.member].widened.high
             >= one.confirmed.member_forces[one.member].high
         )
-
-
-def test_a_governing_case_that_cannot_be_calculated_again_leaves_a_gap(found):
-    one = found.confirmations[0]
-    failed = replace(
-        one.confirmed, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
-    )
-    lost = replace(found, confirmations=(replace(one, confirmed=failed),))
-    assert found.gap is None
-    assert str(lost.gap) == (
-        f"{name_member(one.member)!s}: the governing case could not be calculated "
-        "again (spoilt)"
-    )
 
 
 def test_rows_that_share_net_and_snow_share_cases(found):

@@ -8,8 +8,6 @@ from scipy.integrate import quad
 
 from netdesign.panel.equations import (
     compute_excess_length,
-    estimate_force_along,
-    measure_lengths,
 )
 from netdesign.panel.inputs import Rope
 from netdesign.panel.strips import ROPE_POINTS
@@ -39,34 +37,3 @@ def test_rope_has_its_length(stiffness, sag):
 
     length, _ = quad(unstressed, 0.0, 1.0, epsabs=1e-14)
     assert length - 1.0 == pytest.approx(compute_excess_length(sag), abs=1e-13)
-
-
-def test_derivatives_of_the_lengths():
-    """Against central differences, of two ropes at once."""
-    rng = np.random.default_rng(17)
-    shear, along = rng.uniform(-9e4, 9e4, (2, 2, 24)), np.array([37e3, 181e3])
-    stiffness = np.array([1.7e6, 2.3e7])
-    found = measure_lengths(shear, stiffness, along)
-    share = 1e-5
-
-    def change(moved, scaled):
-        up = measure_lengths(shear + moved, stiffness, along * scaled).excess
-        down = measure_lengths(shear - moved, stiffness, along / scaled).excess
-        return (up - down) / 2.0
-
-    by_along = change(0.0, math.exp(share)) / share
-    np.testing.assert_allclose(found.by_log_along, by_along, rtol=1e-7)
-    assert (found.by_log_along < 0.0).all()
-    way = rng.uniform(-1.0, 1.0, shear.shape)
-    by_shear = change(way, 1.0)
-    expected = np.einsum("rcg,rcg->r", found.by_shear, way)
-    np.testing.assert_allclose(expected, by_shear, rtol=1e-6)
-
-
-@pytest.mark.parametrize("sag", [0.0, 0.06])
-def test_first_figure_solves_its_equation(sag):
-    load, span, rope = 37.1e3, 3.85, Rope(stiffness=14.2e6, sag=sag)
-    along, hung = estimate_force_along(load, span, rope)
-    assert along == pytest.approx(load * span**2 / (8 * hung), rel=1e-12)
-    stretched = 8 / 3 * (hung / span) ** 2
-    assert stretched == pytest.approx(8 / 3 * sag**2 + along / 14.2e6, rel=1e-9)

@@ -121,22 +121,6 @@ def test_confined_stress():
     np.testing.assert_allclose(np.diag(rate)[:2], 0.0, atol=1e-4)
 
 
-def test_strain_rate_inverts_the_law():
-    """(N1), (N2) written out give the stress back."""
-    rng = np.random.default_rng(6)
-    stress = rng.normal(size=(3, 3))
-    stress = stress + stress.T
-    law = replace(LAW, exponent=2.0)
-    a, b = compute_shear_factor(law, 0.45), compute_bulk_factor(law, 0.45)
-    rate = compute_strain_rate(law, 0.45, 3.0, stress)
-    trace = np.trace(rate)
-    deviator = rate - trace / 3.0 * np.eye(3)
-    size = math.sqrt(2.0 / a * (deviator**2).sum() + trace**2 / b)
-    back = 3.0 ** (-1 / 2) * size ** ((1 - 2.0) / 2.0)
-    found = back * (2.0 / a * deviator + trace / b * np.eye(3))
-    np.testing.assert_allclose(found, stress, rtol=1e-11)
-
-
 # --- fault 9: the law of another exponent is derived, not kept (N28) -----------------
 
 

@@ -17,8 +17,6 @@ from netdesign.addons.history.transient import run_history, solve_transient
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.snow.creep_law import PAPER_FLUIDITY
-from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
 from tests.each import each
@@ -88,20 +86,6 @@ def test_hundreds_of_drawn_histories_end_in_words_or_numbers(run):
 # --- what a history demands does not depend on its horizon -------------------
 
 
-def the_issues_scene(a_scene, glide_factor=1.2):
-    """Sliding ground on which a history of version 0.1.0 never came to rest."""
-    scene = a_scene(
-        slope_deg=38.0,
-        thickness_m=3.0,
-        length_m=18.0,
-        relative_density=400.0 / 917.0,
-        inclination_deg=35.0,
-        slack=0.05,
-    )
-    ground = build_ground_from_glide_factor(glide_factor, 3.0)
-    return replace(scene, ground=ground, fluidity=PAPER_FLUIDITY)
-
-
 def demand(scene, days):
     """Largest pulls that count at foot and head [N/m]."""
     settings = TransientSettings(horizon=days * DAY)
@@ -142,27 +126,3 @@ def test_demand_on_sliding_ground_does_not_depend_on_the_horizon(seed):
     over = first / at_rest(scene)
     assert over.min() > 0.97
     assert over.max() < 1.05
-
-
-def test_the_ground_stiffens_with_the_snow_on_it(a_scene):
-    """With a(D) of the first day the foot's pull would rise by 60 % in a month."""
-    scene = the_issues_scene(a_scene)
-    settings = TransientSettings(horizon=30.0 * DAY)
-    run = run_history(scene, COARSE, settings, 30.0 * DAY / scene.time_scale)
-    first, last = run.moments[0], run.moments[-1]
-    assert last.max_relative_density > 1.2 * first.max_relative_density
-    for end in ("foot", "head"):
-        change = np.hypot(*getattr(last, end)) / np.hypot(*getattr(first, end))
-        assert change == pytest.approx(1.04, abs=0.06)
-    assert run.plateau.reached
-    assert 0.0 < run.plateau.drift < 0.03
-
-
-def test_snow_that_gathers_for_long_leaves_its_plateau(a_scene):
-    """On ground that hardly holds it the snow comes down to the net: no plateau."""
-    scene = the_issues_scene(a_scene, 2.4)
-    settings = TransientSettings(horizon=300.0 * DAY, densifies=False)
-    run = run_history(scene, COARSE, settings, 300.0 * DAY / scene.time_scale)
-    assert run.plateau.was_left
-    assert run.plateau.drift > 0.05
-    assert run.moments[-1].foot @ run.moments[0].foot > 0.0

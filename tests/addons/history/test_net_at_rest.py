@@ -11,7 +11,6 @@ from netdesign.addons.history.settings import TRANSIENT_LEVELS
 from netdesign.addons.history.state import find_net_at_rest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.numerics.curve import interpolate_curve
 from netdesign.snow.ground import GroundLaw
 from tests.addons.history.starts import begin
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
@@ -44,24 +43,6 @@ def test_polygon_has_the_nets_length_and_the_steady_tensions(seed):
             problem.stiffness * rest.free_strain, rel=1e-4
         )
     assert tensions.min() > 0.0
-
-
-@each("seed", SEEDS)
-def test_polygon_lies_on_the_net_at_rest(seed):
-    """But for what chords are shorter than arcs."""
-    scene = draw_scene(500 + seed, ground=GROUNDS[seed % 3])
-    problem, state = begin(scene, "steady", SIZE)
-    rest = find_net_at_rest(scene, SIZE)
-    net = state.body.vertices[:, state.body.topology.net]
-    fractions = state.body.topology.template.net_fractions
-    expected = interpolate_curve(rest.places, rest.curve, fractions)[:, ::2]
-    np.testing.assert_allclose(net, expected, atol=4e-3)
-    stands_out = scene.net.height_normal > 1.01 * scene.snowpack.thickness
-    assert (state.top == "on-net") is stands_out
-    assert net[1, -1] == pytest.approx(1.0, abs=1e-4)  # moves with the sag
-    np.testing.assert_allclose(
-        join_points(state.net_nodes, problem.head)[:, -1], problem.head
-    )
 
 
 THIN_GROUNDS = (

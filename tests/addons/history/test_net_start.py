@@ -72,18 +72,6 @@ def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
     assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
 
 
-@pytest.mark.parametrize("start", ["straight", "sagged"])
-def test_head_above_the_snow_leaves_a_free_segment(a_scene, start):
-    problem, state = begin(a_scene(height_m=4.8, slack=0.03), start, LEVEL)
-    assert state.top == "on-net"
-    net = state.body.topology.net
-    assert state.carried.size == net.size - 1  # all but the foot
-    assert state.lengths.size == net.size
-    top = state.body.vertices[:, net[-1]]
-    assert top[1] == pytest.approx(1.0, abs=1e-12)
-    assert problem.head[1] == pytest.approx(1.2, rel=1e-12)
-
-
 # --- refused -----------------------------------------------------------------
 
 

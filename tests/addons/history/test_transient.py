@@ -11,7 +11,6 @@ from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSetting
 from netdesign.addons.history.transient import run_history, solve_transient
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.outcome import Outcome, SolveError
-from tests.each import each
 
 COARSE = TRANSIENT_LEVELS[0]
 SHORT = 0.02  # creep time in which a sagged net comes to rest
@@ -40,19 +39,6 @@ def test_mass_is_kept(a_scene, densifies):
     assert masses[-1] / (1.0 - history.fallen) == pytest.approx(masses[0], rel=1e-12)
 
 
-@each("inclination_deg", [0.0, 30.0])
-@each("friction_deg", [15.0, 30.0, 45.0])
-def test_the_papers_history_takes_few_steps(a_scene, inclination_deg, friction_deg):
-    """Straight start to the plateau; balance and smoothness are cases history-*."""
-    scene = a_scene(inclination_deg=inclination_deg, friction_deg=friction_deg)
-    settings = TransientSettings(start="straight", stops_at_plateau=True)
-    history = run_history(scene, TRANSIENT_LEVELS[1], settings, 5.0)
-    assert history.plateau.reached
-    assert history.rejected == 0
-    assert len(history.moments) <= 45
-    assert history.linear_solves <= 4.5 * len(history.moments)
-
-
 @pytest.mark.long
 @pytest.mark.parametrize(
     "friction_deg", [pytest.param(15.0, marks=pytest.mark.slow), 30.0]
@@ -72,23 +58,6 @@ def test_stated_error_holds_on_a_finer_mesh_with_finer_steps(a_scene, friction_d
         assert pull.error < 0.04 * pull.size
         true = sizes(fine.moments, end).max() * scene.force_scale
         assert abs(pull.size - true) < pull.error
-
-
-@pytest.mark.parametrize("start", ["straight", "sagged"])
-def test_more_accuracy_takes_more_steps_to_the_same_pull(a_scene, start):
-    """While the pulls still change, each within about its accuracy of the last."""
-    accuracies = (0.1, 0.01, 0.001)
-    runs = [run(a_scene(), start=start, accuracy=accuracy) for accuracy in accuracies]
-    counts = [len(history.moments) for history in runs]
-    assert counts[0] <= counts[1] < counts[2]
-    exact = runs[2].moments[-1]
-    for accuracy, history in zip(accuracies[:2], runs[:2], strict=True):
-        for end in ("foot", "head"):
-            np.testing.assert_allclose(
-                getattr(history.moments[-1], end),
-                getattr(exact, end),
-                atol=accuracy * np.hypot(*exact.foot),
-            )
 
 
 def solve(scene, **options) -> Solution:

@@ -75,13 +75,6 @@ def test_largest_forces_have_the_full_accuracy_and_no_other_day_may_exceed_them(
     assert sum(share(day.foot) > ACCURACY * 1.5 for day in days) > len(days) / 2
 
 
-def test_no_day_is_coarser_than_the_limit_or_than_what_was_asked_for():
-    for accuracy in (0.03, 0.09):
-        days = [day for day in follow(accuracy).curve if day.bands]
-        most = max(share(day.foot) for day in days)
-        assert most == pytest.approx(max(accuracy, COARSEST_CURVE))
-
-
 GROUNDS = [None, GroundLaw(kind="free"), slides(1.6, 2.0)]
 
 

@@ -48,14 +48,6 @@ def test_versions_take_turns_and_the_other_begins_every_second_repeat(compared):
     assert len(done) == len(runs) == count_runs(SIZE)
 
 
-def test_each_repeat_has_a_store_that_the_second_run_of_the_site_finds(compared):
-    runs, _ = compared
-    sites = [one for one in runs if one[1].timed[0][-1].endswith("/site")]
-    first, again = sites[:6], sites[6:]
-    assert len({folder for _, _, folder in first}) == 6
-    assert first == again
-
-
 def test_a_changed_site_differs_in_one_cell(tmp_path):
     write_sites(tmp_path, 9)
     site = {path.name: path.read_text() for path in (tmp_path / "site").iterdir()}
