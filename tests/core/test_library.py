@@ -1,6 +1,5 @@
 """The library of the compiled core: built, known by its text, switched off, refused."""
 
-import ctypes
 import shutil
 from pathlib import Path
 
@@ -61,16 +60,6 @@ def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
 
 
 @needs_compiler
-def test_a_library_of_another_text_is_not_taken(tmp_path, monkeypatch):
-    monkeypatch.delenv(sources.SWITCH, raising=False)
-    path = tmp_path / "_core.so"
-    assert sources.compile_core(sources.find_compiler(), path, ("-O0",)) == ""
-    assert isinstance(library._load(path), ctypes.PyDLL)
-    monkeypatch.setattr(library, "digest_sources", lambda: "of another")
-    assert library._load(path) is None
-
-
-@needs_compiler
 def test_every_c_file_is_compiled():
     names = {path.name for path in sources.ROOM.glob("*.[ch]")}
     assert names == {*sources.SOURCES, *sources.HEADERS}
@@ -86,15 +75,6 @@ def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
     assert sources.find_compiler() is None
-
-
-@needs_compiler
-def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
-    monkeypatch.delenv(sources.SWITCH, raising=False)
-    path = tmp_path / "_core.so"
-    fault = sources.compile_core(sources.find_compiler(), path, ("-DPOINTS=[",))
-    assert "error" in fault
-    assert not path.exists()
 
 
 TRIANGLES = np.array([[0, 1, 2, 3, 4, 5]], dtype=np.int32)

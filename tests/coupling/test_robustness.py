@@ -1,32 +1,26 @@
 """Whole ranges of friction, inclination, slack, stiffness, mesh: nothing fails.
 
 The suite runs a thinned part of them; ``python -m pytest -m robustness`` runs all,
-in about ten minutes. A scene may be refused before it is solved, and a history may
-end early with a reason; neither may hide in a result.
+in about ten minutes. A scene may be refused before it is solved; histories of drawn
+scenes are those of tests/addons/history/test_drawn_histories.py.
 """
 
 import itertools
-import math
 from contextlib import suppress
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from netdesign.addons.history.settings import TRANSIENT_LEVELS, TransientSettings
-from netdesign.addons.history.transient import run_history
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
-from netdesign.outcome import ModelError, SolveError
-from netdesign.snow.creep_law import PAPER_FLUIDITY
+from netdesign.outcome import ModelError
 from netdesign.snow.mesh import MeshSize
 
 FRICTIONS = [float(phi) for phi in range(46)]
 INCLINATIONS = [0.0, 10.0, 20.0, 30.0, 40.0]
 SLACKS = [0.0, 0.05, 0.15]
 STIFFNESSES = [2e3, 2e4, 1e5]
-DAY = 86400.0
 QUICK = SolverSettings(accuracy=0.1)
 
 
@@ -74,34 +68,6 @@ def explained(reasons):
     )
 
 
-def history_faults(a_scene, grid, start, level=0):
-    wrong = {}
-    for key, scene in build_scenes(a_scene, grid):
-        friction, inclination, *_ = key
-        scene = replace(scene, fluidity=PAPER_FLUIDITY)
-        settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
-        try:
-            run = run_history(
-                scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale
-            )
-        except SolveError as failure:  # a sagged net may lie on the ground
-            if "touches the ground" not in str(failure.reason):
-                wrong[key] = failure.reason
-            continue
-        if not max(moment.residual for moment in run.moments) < 1e-8:
-            wrong[key] = "balance"
-        elif run.ended and len(run.moments) < 3:
-            wrong[key] = run.ended
-        elif friction >= 15.0 and inclination <= 30.0 and not run.plateau.reached:
-            # smoother or steeper, the snow may slide past the head for good
-            wrong[key] = f"no plateau, {run.ended or 'not ended'}"
-        elif len(run.moments) + run.rejected > 400:
-            wrong[key] = f"{len(run.moments)} steps, {run.rejected} rejected"
-        elif not all(math.isfinite(m.tension_max) for m in run.moments):
-            wrong[key] = "not finite"
-    return wrong
-
-
 def thin(seed, count):
     """Some scenes of the whole grid."""
     grid = list_scenes(FRICTIONS)
@@ -111,13 +77,6 @@ def thin(seed, count):
 
 WHOLE = pytest.mark.robustness
 OF_FRICTION = [pytest.param(list_scenes([one]), marks=WHOLE) for one in FRICTIONS]
-OF_HISTORY = [
-    pytest.param(
-        list(itertools.product([one], INCLINATIONS[::2], SLACKS, STIFFNESSES[1:])),
-        marks=WHOLE,
-    )
-    for one in FRICTIONS
-]
 
 
 @pytest.mark.parametrize("grid", [thin(4, 80), *OF_FRICTION])
@@ -136,9 +95,3 @@ def test_steady_on_plain_meshes(a_scene, rows, frictions):
     settings = SolverSettings(accuracy=0.1, levels=(MESH_LEVELS[0], uniform(rows)))
     grid = list(itertools.product(frictions, [0.0, 30.0], [0.0], [2e4]))
     assert steady_reasons(a_scene, grid, settings) == {}
-
-
-@pytest.mark.parametrize("start", ["straight", "sagged"])
-@pytest.mark.parametrize("grid", [thin(5, 8), *OF_HISTORY])
-def test_histories(a_scene, grid, start):
-    assert history_faults(a_scene, grid, start) == {}

@@ -118,3 +118,14 @@ def test_glide_ranges_on_sliding_ground_only(kind, name):
         place_scene(still, {name: 1.17})
     with pytest.raises(ModelError, match="does not slide"):
         require_valid(still, box(density=(250.0, 300.0), **{name: (1.1, 1.3)}))
+
+
+def test_corners_are_met_exactly_and_single_values_are_no_axis():
+    ranges = box(
+        inclination=(0.1, 0.1), friction_angle=(0.2, 0.7), density=(250.0, 450.0)
+    )
+    assert ranges.axes == ("density", "friction_angle")
+    assert ranges.place((0.0, 1.0)) == {
+        "density": 250.0, "friction_angle": 0.7, "inclination": 0.1,
+    }  # fmt: skip
+    assert ranges.place((0.5, 0.5))["density"] == 350.0

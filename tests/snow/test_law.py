@@ -15,6 +15,7 @@ from netdesign.snow.law import (
     linearise_creep,
     linearise_sliding,
     sample_material,
+    squared_invariant,
 )
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.placed_mesh import build_placed_mesh
@@ -49,6 +50,18 @@ def both(a_flow_problem, ratio, exponent=3.0, fluidity=1.0):
 
 
 # --- mixed element -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_invariant_is_the_same(a_flow_problem, ratio):
+    """(N18) of the split stress is S^2 of (N8)."""
+    plain, mixed = both(a_flow_problem, ratio)
+    material = material_of(plain)
+    np.testing.assert_allclose(
+        squared_invariant(mixed, material, split(STRESSES, ratio)),
+        squared_invariant(plain, material, STRESSES),
+        rtol=1e-12,
+    )
 
 
 @each("ratio", RATIOS)

@@ -15,53 +15,28 @@ from tests.words.gaps import list_gaps
 
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
-FAMILIES: tuple[str, ...] = (
+FAMILIES = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
-    *("os_error.", "shape.", "symbol."),
-    *("finding.error", "finding.question", "finding.note", "case_count."),
-    *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
-    *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
-    *("creep_law.", "of_scope."),
-    *(f"geometry.{mode}_" for mode in ("inclination", "slope", "height", "gap")),
-    "geometry.spacing_",
-    *("winter_column.", "winter_outcome.", "day_outcome."),
-    *("label.", "load_case.", "load.", "load_name.", "load_force."),
-    *(
-        "product_source.",
-        "resistance_source.",
-        "plausible.source_",
-        "opinion.",
-        "schedule.",
-    ),
-    *("scope.", "todo.", "who.", "condition.", "diff_part."),
-    *("decision.", "matrix.", "anchors.", "row_page.", "worked.", "tests."),
-    *("assumed_range.", "rated.", "documents.", "panel_view.", "rewrite.of_"),
-    *("assumed_word.", "assumed_source."),
-    *(
-        "floor.profile_",
-        "route.",
-        "shared_sum.",
-    ),
-    *("reference.", "piece.", "verify_table."),
-    *("against_figure.", "against_clock.", "against_table."),
-    *("bench_word.", "bench_plot.", "bench_value."),
-    *("validation.", "validation_member."),
-    *("method.", "method_used.", "setting.", "start.", "end."),
-    *("paper_value.", "paper_plate."),
-    *("reliability.", "source.", "variable.", "distribution.", "consequences."),
-    *(
-        "profile_about.",
-        "profile_title.",
-        "profile_text.",
-        "profile_choice.",
-        "profile_source.",
-    ),
-    *(
-        "diff_value.",
-        "diff_check.",
-        "diff_project.",
-        "diff_area.",
-    ),
+    *("os_error.", "shape.", "symbol.", "finding.error", "finding.question"),
+    *("finding.note", "case_count.", "outcome.", "ended.", "member.", "mode."),
+    *("basis.", "status.", "axis.", "evidence.", "law.", "termination."),
+    *("verdict.", "meaning.", "factor.", "creep_law.", "of_scope."),
+    *("geometry.inclination_", "geometry.slope_", "geometry.height_"),
+    *("geometry.gap_", "geometry.spacing_", "winter_column.", "winter_outcome."),
+    *("day_outcome.", "label.", "load_case.", "load.", "load_name."),
+    *("load_force.", "product_source.", "resistance_source."),
+    *("plausible.source_", "opinion.", "schedule.", "scope.", "todo.", "who."),
+    *("condition.", "diff_part.", "decision.", "matrix.", "anchors."),
+    *("row_page.", "worked.", "tests.", "assumed_range.", "rated.", "documents."),
+    *("panel_view.", "rewrite.of_", "assumed_word.", "assumed_source."),
+    *("floor.profile_", "route.", "shared_sum.", "reference.", "piece."),
+    *("verify_table.", "against_figure.", "against_clock.", "against_table."),
+    *("bench_word.", "bench_plot.", "bench_value.", "validation."),
+    *("validation_member.", "method.", "method_used.", "setting.", "start."),
+    *("end.", "paper_value.", "paper_plate.", "reliability.", "source."),
+    *("variable.", "distribution.", "consequences.", "profile_about."),
+    *("profile_title.", "profile_text.", "profile_choice.", "profile_source."),
+    *("diff_value.", "diff_check.", "diff_project.", "diff_area."),
 )
 
 
@@ -69,13 +44,7 @@ FAMILIES: tuple[str, ...] = (
 # program. All others - reports with workbook and document, template, findings on the
 # input, the table on the terminal - every language has.
 ENGLISH_ONLY = (
-    "bench",
-    "commands",
-    "errors",
-    "evidence",
-    "files",
-    "paper",
-    "validation",
+    *("bench", "commands", "errors", "evidence", "files", "paper", "validation"),
     "winter",
 )
 FOLDER = PACKAGE / "words"

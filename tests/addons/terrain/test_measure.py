@@ -266,3 +266,11 @@ def test_gap_of_rows_beside_and_above():
     assert find_gap(a, [a, b, c, d]) == pytest.approx(3.0)
     assert find_gap(a, [a, b, d]) is None  # one end is free
     assert find_gap(d, [a, b, c, d]) is None
+
+
+def test_a_top_is_still_an_end_of_the_snow():
+    """A ridge 25 m above the row in plan; the grid goes on beyond it."""
+    grid = build_grid(lambda _, y: -np.abs(y - 5.0) * math.tan(PSI), size=160.0)
+    found = measure(grid, draw_line(ALONG_CONTOUR), most=60.0)
+    assert found.upslope.end in ("top", "flat")
+    assert found.upslope.length.value == pytest.approx(25.0 / math.cos(PSI), abs=4.0)
