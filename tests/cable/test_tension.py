@@ -18,6 +18,7 @@ from netdesign.cable.net import (
 )
 from tests.each import each
 
+STRAIGHT = np.array([[0.0, 0.5, 1.5], [0.0, 1.0, 3.0]])
 BULGED = np.array([[0.0, 0.4, 0.7, 0.5, 0.6], [0.0, 0.6, 1.3, 2.1, 3.0]])
 
 
@@ -96,3 +97,16 @@ def test_arcs_of_even_nodes_by_hand():
     beta = 1.2 / 6
     expected = 2.0 * math.sin(beta / 2.0) * (1.0 + beta**2 / 24.0)
     np.testing.assert_allclose(measure_arcs(arc_points(5)), expected, rtol=1e-13)
+
+
+def test_forces_sum_to_nothing():
+    net = pull(BULGED, np.array([3.0, 2.0, 2.5, 0.0]))
+    total = net.forces.sum(axis=1) + net.foot_pull + net.head_pull
+    np.testing.assert_allclose(total, 0.0, atol=1e-15)
+
+
+def test_ends_are_pulled_towards_each_other():
+    net = pull(STRAIGHT, np.array([2.0, 5.0]))
+    along = np.array([1.0, 2.0]) / math.sqrt(5.0)
+    np.testing.assert_allclose(net.foot_pull, 2.0 * along, rtol=1e-15)
+    np.testing.assert_allclose(net.head_pull, -5.0 * along, rtol=1e-15)

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome
 from netdesign.snow import kernel
 from netdesign.snow.contact import free_unknowns, start_contact
@@ -235,3 +237,33 @@ def test_velocities_on_net_and_ground(inclined, a_flow_problem, ground, slip_rat
         assert velocity[0, template.ground[-1]] > 0.0
     normal = (velocity[:, template.net] * inclined.net_normal).sum(axis=0)
     np.testing.assert_allclose(normal, 0.0, atol=1e-16)
+
+
+@pytest.mark.parametrize(("ground", "slip_length_m"), [("free", 0.0), ("no-slip", 0.0)])
+@pytest.mark.parametrize("friction_deg", [5.0, 30.0])
+def test_halving_the_stress_floor_moves_no_end_force(
+    a_scene, monkeypatch, ground, slip_length_m, friction_deg
+):
+    """Less than 1e-5 of it, as the constant's comment says."""
+    scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg, ground=ground)
+    settings = SolverSettings(
+        accuracy=0.1,
+        stress_tolerance=1e-8,
+        shape_tolerance=1e-7,
+        levels=MESH_LEVELS[1:3],
+    )
+    original = Scene.flow_problem.fget
+    pulls = []
+    for factor in (1.0, 0.5):
+        floor = STRESS_FLOOR * factor
+        monkeypatch.setattr(
+            Scene,
+            "flow_problem",
+            property(lambda s, f=floor: replace(original(s), stress_floor=f)),
+        )
+        solution = solve_steady(scene, settings, on_failure="raise")
+        pulls.append(
+            [solution.foot.x, solution.foot.y, solution.head.x, solution.head.y]
+        )
+    tension = np.hypot(*pulls[0][:2])
+    np.testing.assert_allclose(pulls[1], pulls[0], atol=1e-5 * tension)
