@@ -6,25 +6,13 @@ import pytest
 
 from netdesign.addons.winter.heights import (
     HeightSeries,
-    build_series,
     find_gaps,
     smooth,
-    split_winters,
 )
 
 
 def a_series(heights, first=date(2011, 12, 28)):
     return HeightSeries(first_day=first, heights=tuple(heights))
-
-
-def test_short_gaps_are_closed_by_a_line_and_listed():
-    readings = {date(2011, 12, 30): 0.9, date(2012, 1, 2): 1.2}
-    (gap,) = find_gaps(readings)
-    assert gap.is_closable
-    series = build_series(readings, {date(2012, 1, 2): 268.0})
-    assert series.heights == pytest.approx([0.9, 1.0, 1.1, 1.2], rel=1e-14)
-    assert series.filled == gap.days == (date(2011, 12, 31), date(2012, 1, 1))
-    assert series.air_temperatures == (None, None, None, 268.0)
 
 
 @pytest.mark.parametrize(
@@ -46,12 +34,3 @@ def test_median_of_three_days_drops_a_single_spike():
     smoothed = smooth(a_series([0.2, 0.3, 1.9, 0.35, 0.5]))
     assert smoothed.heights == (0.2, 0.3, 0.35, 0.5, 0.5)
     assert smooth(a_series([0.2, 0.3])).heights == (0.2, 0.3)
-
-
-def test_winters_begin_in_september():
-    series = a_series([0.0] * 400, first=date(2009, 8, 30))
-    assert split_winters(series) == {
-        "2008/2009": slice(0, 2),
-        "2009/2010": slice(2, 367),
-        "2010/2011": slice(367, 400),
-    }

@@ -9,7 +9,6 @@ from netdesign.addons.winter.day import RowDay
 from netdesign.addons.winter.maxima import (
     find_annual_maximum,
     find_equivalent,
-    find_many_maxima,
 )
 from netdesign.addons.winter.settling import DELTA_SNOW, follow_heights
 from netdesign.addons.winter.uniform_table import build_table
@@ -63,30 +62,6 @@ def test_table_is_the_solves_themselves():
     pull = table.find_pulls(np.array([2.1]), np.array([307.0]))[0][0]
     assert table.find_density(2.1, pull) == pytest.approx(307.0, rel=1e-3)
     assert table.find_density(2.1, 1e9) is None
-
-
-def test_maxima_through_the_table_are_those_of_solves():
-    heights = [0.0, 0.8, 1.3, 1.9, 2.3, 2.2, 2.1, 2.4, 2.3, 2.2]
-    winters = {
-        "2000/2001": follow(heights),
-        "2001/2002": follow([0.8 * h for h in heights]),
-        "2002/2003": follow([2.0 * h for h in heights]),
-        "2003/2004": follow([0.05 * h for h in heights]),
-    }
-    solver = a_solver(accuracy=0.02)
-    found = find_many_maxima({"delta-snow": winters}, solver)[0]["delta-snow"]
-    assert [one.ending for one in found] == [
-        "solved",
-        "solved",
-        "overtopped",
-        "no snow",
-    ]
-    alone, _ = find_annual_maximum("2000/2001", winters["2000/2001"], solver)
-    assert found[0].index == alone.index
-    assert found[0].foot == pytest.approx(alone.foot, rel=0.02)
-    assert found[0].equivalent_density == pytest.approx(
-        alone.equivalent_density, rel=0.02
-    )
 
 
 @each("number", range(8))

@@ -110,13 +110,6 @@ def a_site(**changes):
     return small_site.build_site(*small_site.ROWS, of_addons={"Monitoring": (series,)})
 
 
-def test_readings_keep_their_moments():
-    (pulls,) = list_measured_pulls(a_site(), "R1")
-    assert [force for _, force in pulls.pulls] == [11e3, 17e3, 23e3]
-    assert pulls.pulls[1][0] == datetime(2003, 2, 18, 23)
-    assert list_measured_pulls(a_site(), "R2") == ()
-
-
 def test_times_without_a_date_stand_beside_no_winter():
     site = a_site(start=None)
     assert list_measured_pulls(site, "R1") == ()
