@@ -6,7 +6,12 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.snow.ground import GroundKind, GroundLaw
-from netdesign.snow.snowpack import GravityMode, Snowpack
+from netdesign.snow.snowpack import (
+    GravityMode,
+    Layer,
+    Snowpack,
+    build_layered_snowpack,
+)
 
 ICE = 917.0  # [kg/m3]
 
@@ -17,8 +22,10 @@ def build_scene(
     thickness_m: float = 4.0,
     length_m: float = 20.0,
     relative_density: float = 0.4,
+    density_kg_m3: float | None = None,
+    layers: tuple[Layer, ...] = (),
     gravity: GravityMode = "full",
-    ground: GroundKind = "free",
+    ground: GroundKind | GroundLaw = "free",
     slip_length_m: float = 0.0,
     inclination_deg: float = 0.0,
     height_m: float | None = None,
@@ -28,18 +35,31 @@ def build_scene(
     creep_law: CreepLaw = BOUTILLIER_2004,
     **more: object,
 ) -> Scene:
-    """Scene in an engineer's units; by default the paper's reference scene."""
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(slope_deg),
+    """Scene in an engineer's units; by default the paper's reference scene.
+
+    Layers have their own thickness and density.
+    """
+    along = {
+        "slope_angle": math.radians(slope_deg),
+        "upslope_length": length_m,
+        "gravity": gravity,
+    }
+    snowpack = (
+        build_layered_snowpack(layers, **along)  # type: ignore[arg-type]
+        if layers
+        else Snowpack(
             thickness=thickness_m,
-            upslope_length=length_m,
-            density=ICE * relative_density,
-            gravity=gravity,
-        ),
-        ground=GroundLaw(kind=ground, slip_length=slip_length_m),
+            density=density_kg_m3 or ICE * relative_density,
+            **along,  # type: ignore[arg-type]
+        )
+    )
+    if not isinstance(ground, GroundLaw):
+        ground = GroundLaw(kind=ground, slip_length=slip_length_m)
+    return Scene(
+        snowpack=snowpack,
+        ground=ground,
         net=Net(
-            height_normal=thickness_m if height_m is None else height_m,
+            height_normal=snowpack.thickness if height_m is None else height_m,
             inclination=math.radians(inclination_deg),
             stiffness_per_m=1e3 * stiffness_kN_per_m,
             slack=slack,

@@ -4,13 +4,23 @@ import math
 
 import numpy as np
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
+from netdesign.snow.snowpack import Layer
+from tests.scenes import build_scene
 
 GROUNDS = ("free", "no-slip", "sliding")
 HIGH_GLIDE_FACTORS = (2.6, 2.8, 3.0, 3.2)
+
+
+def draw_net(rng, thickness, stands_out, *, rise, lean, stiff, friction):
+    """Net as high as the snow, or up to some share higher."""
+    return {
+        "height_m": thickness * (rng.uniform(1.0, rise) if stands_out else 1.0),
+        "inclination_deg": rng.uniform(*lean),
+        "stiffness_kN_per_m": float(np.exp(rng.uniform(*np.log(stiff)))),
+        "slack": float(rng.uniform(0.0, 0.08)),
+        "friction_deg": rng.uniform(*friction),
+    }
 
 
 def draw_scene(seed, *, ground=None, is_uniform=False):
@@ -21,29 +31,19 @@ def draw_scene(seed, *, ground=None, is_uniform=False):
     slip = float(thickness * np.exp(rng.uniform(math.log(0.05), math.log(8.0))))
     layers = () if is_uniform else draw_layers(rng, thickness)
     density = float(rng.uniform(200.0, 500.0))
-    if layers:
-        thickness = sum(layer.thickness for layer in layers)
-        mass = sum(layer.thickness * layer.density for layer in layers)
-        density = mass / thickness
     stands_out = bool(rng.integers(2))
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(rng.uniform(28.0, 55.0)),
-            thickness=thickness,
-            upslope_length=float(rng.uniform(5.0, 40.0)),
-            density=density,
-            layers=layers,
-            gravity="parallel" if rng.integers(2) else "full",
-        ),
+    thickness = sum(layer.thickness for layer in layers) or thickness
+    return build_scene(
+        thickness_m=thickness,
+        density_kg_m3=density,
+        layers=layers,
         ground=GroundLaw(kind=kind, slip_length=slip if kind == "sliding" else 0.0),
-        net=Net(
-            height_normal=thickness * (rng.uniform(1.0, 1.3) if stands_out else 1.0),
-            inclination=math.radians(rng.uniform(0.0, 35.0)),
-            stiffness_per_m=float(np.exp(rng.uniform(math.log(2e6), math.log(1e8)))),
-            slack=float(rng.uniform(0.0, 0.08)),
-            friction_angle=math.radians(rng.uniform(5.0, 45.0)),
-        ),
-    )
+        slope_deg=rng.uniform(28.0, 55.0),
+        length_m=float(rng.uniform(5.0, 40.0)),
+        gravity="parallel" if rng.integers(2) else "full",
+        **draw_net(rng, thickness, stands_out, rise=1.3, lean=(0.0, 35.0),
+                   stiff=(2e3, 1e5), friction=(5.0, 45.0)),
+    )  # fmt: skip
 
 
 def draw_smooth_site(seed):
@@ -51,23 +51,16 @@ def draw_smooth_site(seed):
     rng = np.random.default_rng([19, seed])
     thickness = float(rng.uniform(1.5, 4.5))
     stands_out = bool(rng.integers(2))
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(rng.uniform(30.0, 45.0)),
-            thickness=thickness,
-            upslope_length=float(rng.uniform(10.0, 30.0)),
-            density=float(rng.uniform(200.0, 480.0)),
-        ),
+    return build_scene(
+        thickness_m=thickness,
+        slope_deg=rng.uniform(30.0, 45.0),
+        length_m=float(rng.uniform(10.0, 30.0)),
+        density_kg_m3=float(rng.uniform(200.0, 480.0)),
         ground=build_ground_from_glide_factor(HIGH_GLIDE_FACTORS[seed % 4], thickness),
-        net=Net(
-            height_normal=thickness * (rng.uniform(1.0, 1.25) if stands_out else 1.0),
-            inclination=math.radians(rng.uniform(0.0, 30.0)),
-            stiffness_per_m=float(np.exp(rng.uniform(math.log(2e6), math.log(5e7)))),
-            slack=float(rng.uniform(0.0, 0.08)),
-            friction_angle=math.radians(rng.uniform(10.0, 45.0)),
-        ),
         ground_contact=("two-sided", "one-sided")[seed // 4 % 2],
-    )
+        **draw_net(rng, thickness, stands_out, rise=1.25, lean=(0.0, 30.0),
+                   stiff=(2e3, 5e4), friction=(10.0, 45.0)),
+    )  # fmt: skip
 
 
 def draw_layered_site(seed, *, is_denser_below):
@@ -84,29 +77,28 @@ def draw_layered_site(seed, *, is_denser_below):
     density = rng.uniform(150.0, 450.0, count)
     if is_denser_below:
         density = np.sort(density)[::-1]
-    layers = tuple(
-        Layer(thickness=float(high), density=float(rho))
-        for high, rho in zip(thickness * parts / parts.sum(), density, strict=True)
-    )
-    pack = build_layered_snowpack(
-        layers,
-        slope_angle=math.radians(rng.uniform(28.0, 50.0)),
-        upslope_length=thickness * float(rng.uniform(3.0, 10.0)),
-    )
-    stands_out = bool(rng.integers(2))
-    return Scene(
-        snowpack=pack,
+    layers = split(thickness, parts, density)
+    slope, length = rng.uniform(28.0, 50.0), thickness * float(rng.uniform(3.0, 10.0))
+    stands_out, glide = bool(rng.integers(2)), float(rng.uniform(1.2, 3.2))
+    return build_scene(
+        layers=layers,
+        slope_deg=slope,
+        length_m=length,
         ground=build_ground_from_glide_factor(
-            float(rng.uniform(1.2, 3.2)), pack.thickness
+            glide, sum(layer.thickness for layer in layers)
         ),
-        net=Net(
-            height_normal=pack.thickness
-            * (rng.uniform(1.0, 1.25) if stands_out else 1.0),
-            inclination=math.radians(rng.uniform(10.0, 35.0)),
-            stiffness_per_m=float(np.exp(rng.uniform(math.log(2e6), math.log(1e8)))),
-            slack=float(rng.uniform(0.0, 0.08)),
-            friction_angle=math.radians(rng.uniform(15.0, 45.0)),
-        ),
+        **draw_net(rng, thickness, stands_out, rise=1.25, lean=(10.0, 35.0),
+                   stiff=(2e3, 1e5), friction=(15.0, 45.0)),
+    )  # fmt: skip
+
+
+def split(thickness, parts, densities):
+    """Layers of such parts of a thickness, from the ground [m, kg/m3]."""
+    return tuple(
+        Layer(thickness=float(part), density=float(density))
+        for part, density in zip(
+            thickness * parts / parts.sum(), densities, strict=True
+        )
     )
 
 
@@ -116,10 +108,4 @@ def draw_layers(rng, thickness):
     if count == 1:
         return ()
     parts = rng.uniform(0.2, 1.0, count)
-    densities = np.sort(rng.uniform(150.0, 500.0, count))[::-1]
-    return tuple(
-        Layer(thickness=float(part), density=float(density))
-        for part, density in zip(
-            thickness * parts / parts.sum(), densities, strict=True
-        )
-    )
+    return split(thickness, parts, np.sort(rng.uniform(150.0, 500.0, count))[::-1])

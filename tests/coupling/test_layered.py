@@ -10,8 +10,7 @@ import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import build_tables
 from netdesign.addons.evidence.benchmark.scenes import draw_scene as draw_any_scene
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import round
 from netdesign.coupling.steady import solve as steady
@@ -19,30 +18,18 @@ from netdesign.coupling.steady.compiled import CompiledRounds
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome, SolveError
-from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from netdesign.snow.snowpack import Layer
 from tests.coupling.drawn_scenes import draw_layered_site
+from tests.scenes import build_scene
 
 # Linear solves times triangles that a scene may take, solved or refused: some 20
 # microseconds each, so 2 s; 0.1.0 took up to 14 s over a scene of this kind.
 MOST_WORK = 1e5
 
 
-def layered_scene(layers, *, slope_deg, upslope, ground, height=None, **net):
-    """Scene of thicknesses and densities [m, kg/m3]; the net ends with the snow."""
-    pack = build_layered_snowpack(
-        tuple(Layer(thickness=float(high), density=float(rho)) for high, rho in layers),
-        slope_angle=math.radians(slope_deg),
-        upslope_length=upslope,
-    )
-    net = Net(
-        height_normal=height or pack.thickness,
-        inclination=math.radians(net["inclination_deg"]),
-        stiffness_per_m=net["stiffness"],
-        slack=net["slack"],
-        friction_angle=math.radians(net["friction_deg"]),
-    )
-    return Scene(snowpack=pack, ground=ground, net=net)
+def lay(*pairs):
+    """Layers of thicknesses and densities [m, kg/m3], from the ground."""
+    return tuple(Layer(thickness=high, density=density) for high, density in pairs)
 
 
 @pytest.fixture
@@ -109,18 +96,14 @@ def test_of_hundreds_of_practical_layers_less_than_one_in_a_hundred_is_refused(
     assert len(of_geometry) < 0.01 * scenes, of_geometry
 
 
-# A hard layer between softer ones.
-HARD_MIDDLE = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
-
-
 def stiff_over_soft():
-    return layered_scene(
-        ((1.56, 252.0), (2.19, 428.0)),
+    return build_scene(
+        layers=lay((1.56, 252.0), (2.19, 428.0)),
         slope_deg=32.0,
-        upslope=14.0,
-        ground=GroundLaw(kind="no-slip"),
+        length_m=14.0,
+        ground="no-slip",
         inclination_deg=17.0,
-        stiffness=2e7,
+        stiffness_kN_per_m=20000,
         slack=0.008,
         friction_deg=41.0,
     )
@@ -191,14 +174,15 @@ def test_a_net_that_touches_the_ground_on_a_finer_mesh_is_refused(
 
 def stiff_scene():
     """A hard middle layer on ground that slips: rounds alone gain little."""
-    return layered_scene(
-        HARD_MIDDLE,
+    return build_scene(
+        layers=lay((0.91, 257.0), (0.77, 419.0), (1.3, 213.0)),
         slope_deg=42.0,
-        upslope=20.0,
-        ground=GroundLaw(kind="sliding", slip_length=1.3),
-        height=3.2,
+        length_m=20.0,
+        ground="sliding",
+        slip_length_m=1.3,
+        height_m=3.2,
         inclination_deg=27.5,
-        stiffness=9e6,
+        stiffness_kN_per_m=9000,
         slack=0.03,
         friction_deg=15.0,
     )
@@ -206,13 +190,13 @@ def stiff_scene():
 
 def loose_scene():
     """Its pulls were a third of the stated error away from where rounds lead."""
-    return layered_scene(
-        ((1.354, 252.5), (1.259, 485.9), (0.613, 473.0)),
+    return build_scene(
+        layers=lay((1.354, 252.5), (1.259, 485.9), (0.613, 473.0)),
         slope_deg=54.17,
-        upslope=25.66,
-        ground=GroundLaw(kind="free"),
+        length_m=25.66,
+        ground="free",
         inclination_deg=16.44,
-        stiffness=2.11e7,
+        stiffness_kN_per_m=21100,
         slack=0.0336,
         friction_deg=39.33,
     )

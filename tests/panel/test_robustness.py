@@ -3,21 +3,19 @@
 The suite takes a drawn few; ``python -m pytest -m robustness`` takes a thousand.
 """
 
-import math
 from collections import Counter
 
 import numpy as np
 import pytest
 
-from netdesign.cable.net import Net
-from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import ModelError
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solve import FailedPanel, solve_panel
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.snowpack import Snowpack
+from tests.scenes import build_scene
 
 QUICK = SolverSettings(accuracy=0.1)
 
@@ -31,21 +29,15 @@ def draw_ground(rng, thickness):
 
 def draw_scene(rng):
     thickness = rng.uniform(1.5, 4.5)
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=math.radians(rng.uniform(28, 50)),
-            thickness=thickness,
-            upslope_length=20.0,
-            density=rng.uniform(200, 500),
-        ),
+    return build_scene(
+        thickness_m=thickness,
+        slope_deg=rng.uniform(28, 50),
+        density_kg_m3=rng.uniform(200, 500),
         ground=draw_ground(rng, thickness),
-        net=Net(
-            height_normal=thickness,
-            inclination=math.radians(rng.uniform(0, 40)),
-            stiffness_per_m=10 ** rng.uniform(6.3, 8),
-            slack=rng.uniform(0, 0.15),
-            friction_angle=math.radians(rng.uniform(10, 45)),
-        ),
+        inclination_deg=rng.uniform(0, 40),
+        stiffness_kN_per_m=10 ** rng.uniform(3.3, 5),
+        slack=rng.uniform(0, 0.15),
+        friction_deg=rng.uniform(10, 45),
     )
 
 

@@ -267,3 +267,11 @@ def test_halving_the_stress_floor_moves_no_end_force(
         )
     tension = np.hypot(*pulls[0][:2])
     np.testing.assert_allclose(pulls[1], pulls[0], atol=1e-5 * tension)
+
+
+@pytest.mark.parametrize("fault", [np.nan, np.inf])
+def test_nonfinite_load(inclined, a_flow_problem, fault):
+    law = replace(a_flow_problem(), gravity=(fault, -1.0))
+    with np.errstate(invalid="ignore"):
+        result = solve_flow(law, inclined, tolerance=TIGHT)
+    assert result.outcome is Outcome.NONFINITE

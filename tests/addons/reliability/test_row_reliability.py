@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.addons.reliability.check_by_case import find_check_by_case
+from netdesign.addons.reliability.response import Line
 from netdesign.addons.reliability.row_reliability import rate_reliability
 from netdesign.addons.reliability.uncertainty_sheet import UncertainQuantity
 from netdesign.checks import load_standard
@@ -261,3 +262,16 @@ def test_the_store_keeps_rows_with_and_without_it_apart(searched):
     pairs = [(site, RUN), (site, WITH), (typed, WITH)]
     names = [name_rows(one, [STANDARD], run)["R2"] for one, run in pairs]
     assert len(set(names)) == 3
+
+
+def test_a_line_goes_through_its_values_and_on_along_its_tangent():
+    line = Line(
+        name="thickness", low=1.3, centre=2.1, high=2.9, solved=2.7, bend=-0.4
+    ).meet(2.7, 0.53)
+    assert line.find(np.array([2.7]))[0] == pytest.approx(0.53)
+    assert line.find(np.array([2.1]))[0] == 0.0
+    steps = np.array([2.9 - 1e-6, 2.9, 2.9 + 1e-6, 3.4, 3.4 * (3.4 / 2.9)])
+    found = line.find(steps)
+    inner, outer = np.diff(found[:3])
+    assert outer == pytest.approx(inner, rel=1e-4)
+    assert found[4] - found[3] == pytest.approx(found[3] - found[1])
