@@ -261,25 +261,6 @@ def test_a_picture_without_matplotlib_says_what_to_install(solution, monkeypatch
         solution.plot()
 
 
-def test_the_envelope_bounds_the_cases_in_it():
-    scene = build_scene()
-    ranges = nd.Ranges.of(density=nd.Interval(low=250.0, high=400.0))
-    found = nd.find_envelope(scene, ranges, LAYOUT, accuracy=0.02)
-    assert not found.gap
-    bound = found.extremes["foot_anchor"].widened.high
-    for density in (250.0, 317.0, 400.0):
-        solution = nd.solve_steady(build_scene(density=density))
-        forces = nd.find_anchor_forces(solution, LAYOUT).member_forces
-        assert forces["foot_anchor"] <= 1.001 * bound
-
-
-def test_the_load_of_the_guideline_follows_its_formula():
-    load = nd.find_guideline_load(build_scene(), glide_factor=1.8)
-    height = 3.0 / 0.766044443
-    rigid = 300.0 * 10.0 * height**2 / 2.0 * load.creep_factor * 1.8
-    assert load.rigid == pytest.approx(rigid, rel=1e-3)
-
-
 @pytest.mark.parametrize(
     ("snow", "told"), [({"density": 0.38}, "kg/m³"), ({"slope_angle": 40}, "rad")]
 )

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -14,10 +13,9 @@ from netdesign.edge.input_files import find_resource
 from netdesign.site.reader import read_site
 from netdesign.site.template.example import load_input_example
 from netdesign.words.message import say
-from tests.make import find_cell, lay_out, load_tables, write_rows, write_tiny
+from tests.make import find_cell, write_rows, write_tiny
 from tests.program import QUICK, call_program, spoilt_program, start_program
 from tests.report.reading import read_workbook
-from tests.site.csv_folder import write_csv_folder
 from tests.small_scene import ROUGH_SCENE
 
 PROFILE = "nf-p-95-304-style"
@@ -71,17 +69,6 @@ def test_what_does_not_pass_ends_with_its_code(tmp_path, typed, code, verdict):
     result = call_program("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
     assert result.code == code, result.err
     assert json.loads(result.out)["verdict"] == verdict
-
-
-@pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
-def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
-    sheets = lay_out(load_tables("tiny")) | {"Project": ["item;value", line]}
-    write_csv_folder(tmp_path / "site", sheets)
-    result = call_program("check", "site", *QUICK, cwd=tmp_path)
-    assert result.code == 3
-    assert f'Project.csv › Project › A2: "{line.split(";")[0]}"' in result.err
-    assert "profile" in result.err.split("accepted: ")[1]
-    assert {path.name for path in tmp_path.iterdir()} == {"site"}
 
 
 def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):
@@ -146,39 +133,6 @@ def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
     assert "net rows: largest forces and checks: 1 solved, about " in result.err
     for part in ("verdict", "rows", "profile", "range_inputs", "notes"):
         assert document[part] == study[part]
-
-
-def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
-    write_tiny(tmp_path / "site.xlsx")
-    options = ("--accuracy", "0.1", "--jobs", "2", "--quiet", "--no-html")
-    result = start_program(
-        *("check", "site.xlsx", "--out", "o", "--no-excel", *options), cwd=tmp_path
-    )
-    assert result.code == 0, result.err
-    assert result.err == ""
-    assert listing(tmp_path) == {"site.xlsx", str(Path("o") / "study.json")}
-    other = json.loads((tmp_path / "o" / "study.json").read_text(encoding="utf-8"))
-    for row, expected in zip(other["rows"], study["rows"], strict=True):
-        for case, known in zip(row["cases"], expected["cases"], strict=True):
-            assert case["case"] == known["case"]
-            # threads may add in another order
-            assert case["foot_anchor_kN"] == pytest.approx(
-                known["foot_anchor_kN"], rel=1e-9
-            )
-
-
-def test_outputs_that_somebody_changed_are_refused_before_solving(
-    home, checked, tmp_path
-):
-    copy = tmp_path / "home"
-    shutil.copytree(home, copy)
-    (copy / "out" / "study.json").write_text("mine", encoding="utf-8")
-    result = call_program("check", "site.xlsx", "--out", "out", *QUICK, cwd=copy)
-    assert result.code == 2
-    assert "exists already" in result.err
-    assert "--force" in result.err
-    assert "cases" not in result.err
-    assert (copy / "out" / "study.json").read_text(encoding="utf-8") == "mine"
 
 
 def test_several_profiles_get_a_folder_each(home, checked, tmp_path):

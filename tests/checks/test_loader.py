@@ -34,52 +34,6 @@ def test_every_profile_of_the_program_loads_under_its_own_id():
     assert [load_standard(name).id for name in names] == list(names)
 
 
-def test_nf_style_profile_claims_no_more_than_is_known():
-    standard = load_standard(NF_STYLE)
-    quoted = {v.id: v.clause for v in standard.values if v.status == "secondary"}
-    assert quoted == {
-        "geometry.inclination.min": "-",
-        "geometry.inclination.max": "-",
-        "anchor.distance.min": "EN 1997-1 8.4 (7)",  # of another standard
-    }
-    others = [v for v in standard.values if v.id not in quoted]
-    assert {(v.status, v.clause) for v in others} == {("assumed", "-")}
-    assert "Not the text of NF P 95-304" in standard.what_it_is_not
-
-
-def test_nf_style_profile_has_the_values_of_its_notes():
-    values = {v.id: v.value for v in load_standard(NF_STYLE).values}
-    of_notes = {
-        "geometry.inclination.min": 25.0,
-        "geometry.inclination.max": 35.0,
-        "geometry.slope.plausible.min": 25.0,
-        "geometry.slope.plausible.max": 60.0,
-        "geometry.height.ratio": 1.0,
-        "action.snow": 1.5,
-        "resistance.tendon": pytest.approx(1.15 * 1.3, rel=1e-15),
-        "resistance.pull_out.tested": 1.35,
-        "resistance.pull_out.computed": pytest.approx(1.35 * 1.40 * 1.25, rel=1e-15),
-        "resistance.rope": 1.5,
-        "resistance.compression": 1.05,
-        "resistance.bearing": 1.4,
-        "resistance.bending": pytest.approx(1.15 * 1.3, rel=1e-15),
-        "resistance.compression_bending": 1.05,
-        "resistance.sliding": 1.1,
-        "resistance.mesh": 1.5,
-        "resistance.connection": 1.5,
-        "resistance.wedge": 1.0,
-        "soil.cohesion": 1.25,
-        "soil.friction": 1.25,
-        "resistance.tension": 1.4,
-        "anchor.angle.rope": 30.0,
-        "anchor.dip.min": 10.0,
-        "resistance.direction": 1.4,
-        "anchor.distance.min": 1.5,
-    }
-    borrowed = ("end.", "lateral.", "post.", "tests.")
-    assert {k: v for k, v in values.items() if not k.startswith(borrowed)} == of_notes
-
-
 def test_values_are_kept_as_printed_and_in_si():
     standard = load_standard(NF_STYLE)
     inclination = standard.find("geometry.inclination.max")

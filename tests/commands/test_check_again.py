@@ -1,8 +1,6 @@
 """A check that is run again: rows from the store, the same files to the last byte."""
 
 import random
-import sqlite3
-from contextlib import closing
 from types import SimpleNamespace
 from unittest import mock
 
@@ -66,16 +64,6 @@ def test_a_time_of_its_own_stands_in_each_run(place, call, judged, monkeypatch):
     call(*SITE, *BARE, "--out", "two")
     assert b"2020-09-13T12:26:40" in (place / "two" / "study.json").read_bytes()
     assert judged == ["R1.1"]
-
-
-def test_a_damaged_row_is_told_and_calculated_again(place, call, judged):
-    call(*SITE, *BARE, "--force")
-    with closing(sqlite3.connect(place / "cases.sqlite")) as base:
-        base.execute("UPDATE rows SET packed = substr(packed, 1, 99)")
-        base.commit()
-    ended = call(*SITE, *BARE, "--force")
-    assert "of a net row is damaged; the row is calculated again" in ended.err
-    assert judged == ["R1.1"] * 2
 
 
 def test_its_own_files_are_replaced_and_no_others(place, call, judged):

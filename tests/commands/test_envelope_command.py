@@ -73,18 +73,6 @@ def test_the_document_is_that_of_the_interface(scene, store):
     assert len(found["log"]) == found["cases"]["asked"]
 
 
-def test_a_second_run_solves_nothing_and_says_the_same(scene, tmp_path):
-    store = tmp_path / "cases.sqlite"
-    first = document(scene, *RANGES, store=store)
-    second = document(scene, *RANGES, store=store)
-    assert first["cases"]["solved"] > 0
-    assert second["cases"]["solved"] == 0
-    assert (
-        second["cases"]["reused"] == first["cases"]["solved"] + first["cases"]["reused"]
-    )
-    assert without_run(second) == without_run(first)
-
-
 def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
     found = document(
         scene, "--density", "250:450:3", "--friction", "15:45:2", store=store
@@ -92,16 +80,6 @@ def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
     assert found["outcome"] == "sampled"
     assert found["cases"]["asked"] == 6
     assert all(one["upper_bound"] is None for one in found["extremes"])
-
-
-@pytest.mark.long
-def test_a_grid_never_exceeds_the_bound_of_the_search(scene, store):
-    searched = document(scene, *RANGES, store=store)
-    grid = document(
-        scene, "--density", "250:450:4", "--friction", "15:45:4", store=store
-    )
-    for one, other in zip(searched["extremes"], grid["extremes"], strict=True):
-        assert other["max"] <= one["high"]
 
 
 def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path):

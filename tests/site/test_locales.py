@@ -6,14 +6,12 @@ in English, French, German and Swiss; the truth is that decimal number.
 
 from decimal import Decimal
 
-import openpyxl
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from netdesign.site.cells.findings import Refusal
 from netdesign.site.cells.numbers import parse_number
-from netdesign.site.cells.spreadsheet import read_workbook
 
 # decimal mark, signs that may separate thousands
 LOCALES = {
@@ -74,23 +72,3 @@ def test_without_it_only_what_has_two_readings_is_refused(typed_number):
     if isinstance(parse_number(typed), Refusal):
         assert is_unclear
         assert len(text.split(marks[0])[0]) <= 3
-
-
-@settings(
-    max_examples=10,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
-@given(st.lists(typed_numbers(), min_size=20, max_size=50))
-def test_through_a_real_workbook_too(tmp_path, typed):
-    path = tmp_path / "numbers.xlsx"
-    workbook = openpyxl.Workbook()
-    for row, (text, truth, _) in enumerate(typed, start=1):
-        workbook.active.cell(row, 1, text)
-        workbook.active.cell(row, 2, float(truth))  # typed into a number cell
-    workbook.save(path)
-    (sheet,) = read_workbook(path, lambda _: True).sheets
-    for row, typed_number in enumerate(typed, start=1):
-        as_text, as_number = sheet.cell(row, 1), sheet.cell(row, 2)
-        assert as_text.value == typed_number[0]
-        assert parse_number(as_number.value) == float(typed_number[1])
-        assert is_taken_or_refused((as_text.value, *typed_number[1:]))

@@ -3,21 +3,13 @@ import math
 
 import pytest
 
-from netdesign.envelope.ranges import Interval
-from netdesign.resistance.ground import PullOutTests
 from netdesign.site import net_rows
 from netdesign.snow.ground import (
     LARGEST_GLIDE_FACTOR,
-    build_ground_from_glide_factor,
 )
-from netdesign.structure.members import DEPENDENT_MODES, LIFTED_MODE, MEMBER_MODES
 
 HEADINGS = 0
 FIRST, SECOND = 1, 2
-
-
-def places_and_rules(findings):
-    return [(f"{f.sheet}!{f.cell}", str(f.rule)) for f in findings]
 
 
 def echoes(net_row):
@@ -39,41 +31,6 @@ def test_ranges_are_read_and_an_inclination_not_given_is_assumed(book):
     assert shown["density of the snow, low"].unit == "kg/m3"
     assert not any("inclination" in one for one in shown)
     assert all(row.find_assumed("inclination") for row in site.rows)
-
-
-def test_empty_cells_of_net_and_support_are_ranges(book):
-    site = book.read()
-    row = site.rows[0]
-    shown = echoes(row)
-    for label in ("sag or slack of net", "post tilt δ", "uphill distance e₁"):
-        assert (shown[label].text, shown[label].value) == ("", "")
-    slack, tilt = row.find_assumed("slack"), row.find_assumed("post_tilt")
-    assert site.at_row(row).ranges["slack"] == Interval(low=slack.low, high=slack.high)
-    assert tilt.low <= row.layout.post_tilt <= tilt.high
-    for key in ("uphill_anchor_distance", "downhill_anchor_distance"):
-        found, placed = row.find_assumed(key), getattr(row.layout, key)
-        assert found.low < placed < found.high
-        assert found.low < row.net_height < found.high
-
-
-def test_vertical_height_becomes_thickness_normal_to_the_slope(book):
-    book["Rows"][HEADINGS][2] = "snow height [m vertical]"
-    book.put("snow", 4.0)
-    row = book.read().rows[0]
-    assert row.snow_thickness == pytest.approx(4.0 * math.cos(math.radians(40)))
-    derived = echoes(row)["snow thickness, from the snow height"]
-    assert (derived.value, derived.cell) == (row.snow_thickness, "Rows!C2")
-    assert str(derived.derivation) == "4 m · cos 40°"
-
-
-def test_a_glide_factor_gives_sliding_ground(book):
-    book.put("glide", "1,8")
-    row = book.read().rows[0]
-    assert row.ground == build_ground_from_glide_factor(1.8, 3.0)
-    assert row.glide_factor == 1.8
-    derived = echoes(row)["slip length, from the glide factor N"]
-    assert derived.value == row.ground.slip_length
-    assert derived.cell == "Rows!D2"
 
 
 def redo(formula):
@@ -101,24 +58,6 @@ def test_the_largest_glide_factor_is_that_of_the_table(book):
     book.put("glide", 3.35)
     (finding,) = book.refuse()
     assert "3.346" in str(finding.accepted)
-
-
-def test_there_is_a_resistance_for_every_member_and_mode(book):
-    row = book.read().rows[0]
-    found = {(r.member, r.mode): r for r in row.resistances}
-    beside = [
-        (f"{one}_anchor", mode)
-        for mode in ("bending", "direction")
-        for one in ("foot", "uphill", "downhill")
-    ]
-    assert tuple(found) == (*MEMBER_MODES, *beside, *DEPENDENT_MODES, LIFTED_MODE)
-    pull_out = found["foot_anchor", "pull_out"]
-    assert (pull_out.value, pull_out.basis) == (None, "tested")
-    assert pull_out.tests == PullOutTests(count=1, least=300e3, mean=300e3)
-    assert (pull_out.type_id, pull_out.source) == ("A1", "Anchors!C2")
-    assert found["foot_anchor", "tendon"].basis == "declared"
-    assert found["uphill_guy", "rope"].value == 0.75 * 250e3
-    assert found["post_base", "bearing"].value == 380e3
 
 
 def test_a_resistance_left_empty_or_a_member_without_type_has_none(book):
@@ -282,12 +221,6 @@ def test_ids_used_twice_are_refused_with_the_first_place(book):
     assert rules["Anchors", "A4"] == "is used twice: also in Anchors!A2"
 
 
-def test_missing_sheets_are_refused(book):
-    del book["Rows"]
-    (rows,) = book.refuse()
-    assert str(rows.rule) == 'lacks the sheet "Rows"'
-
-
 def test_more_net_rows_than_a_report_holds_are_refused(book, monkeypatch):
     most = 37
     monkeypatch.setattr(net_rows, "MAX_NET_ROWS", most)
@@ -398,28 +331,3 @@ def test_a_line_of_the_project_that_is_none_is_refused(book, line, cell, rule):
 
 
 # All at once
-
-
-def test_ten_faults_are_ten_findings_in_one_pass(book):
-    book.put("slope", "0,45O")
-    book.put("snow", 40)
-    book.put("upslope", "#REF!")
-    book.put("effective", "=7/2", sheet="Net types")
-    book.put("net anchor", "A-1")
-    book.put("row", "R1", SECOND)
-    book.put("ground", "slidin", SECOND)
-    book.put("tendon", "1,234", sheet="Anchors")
-    book["Parts"][HEADINGS][1] = "breaking force"
-    book["Project"][1][1] = "400 to 270"
-    assert sorted(places_and_rules(book.refuse())) == [
-        ("Anchors!B2", "is ambiguous: 1.234 or 1234"),
-        ("Net types!B2", "is a formula without a stored result"),
-        ("Parts!B1", "has no unit"),
-        ("Project!B2", "is below the low end in Project!B2"),
-        ("Rows!A3", "is used twice: also in Rows!A2"),
-        ("Rows!B2", "is not a number"),
-        ("Rows!C2", "is out of range"),
-        ("Rows!E2", "is an error value"),
-        ("Rows!H2", "is no id of sheet Anchors"),
-        ("Rows!J3", "is not a known word"),
-    ]

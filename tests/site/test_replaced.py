@@ -54,23 +54,6 @@ def test_a_replaced_cell_is_read_and_told(workbook):
     assert site.sha256 == built.sha256
 
 
-def test_the_catalogue_holds_types_that_no_row_uses(workbook):
-    site = read_site(workbook)
-    used = {one.type_id for row in site.rows for one in row.resistances}
-    listed = {one.type_id for one in site.catalogue if one.mode == "pull_out"}
-    assert listed - used, "all of them are used: the test has no point"
-    values = {
-        (one.type_id, one.mode): one.value
-        for row in site.rows
-        for one in row.resistances
-        if not one.dimensions and one.type_id
-    }
-    known = {(one.type_id, one.mode): one.value for one in site.catalogue}
-    shared = values.keys() & known.keys()
-    assert len(shared) >= 3
-    assert all(values[key] == known[key] for key in shared)
-
-
 @pytest.mark.parametrize("instead", [{}, {"Rows!B3": "33"}])
 def test_a_second_table_of_one_name_is_refused_and_no_row_lost(tmp_path, instead):
     """The rows of the first once vanished without a word."""

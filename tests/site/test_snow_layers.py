@@ -9,11 +9,9 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
-from netdesign.solving.runner import Runner
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun, build_scene
-from tests.grid import solve_site, wrap_results
-from tests.solving.made_up_workers import Recording
+from tests.grid import wrap_results
 
 SNOW = [
     ["row", "layer", "thickness [m normal]", "density [kg/m3]", "temperature [°C]"],
@@ -112,37 +110,3 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(layered, is_lay
     least, largest = 300 * 400 / mean, 500 * 480 / mean
     told = f"net row R1: layer densities of {least:.4g} to {largest:.4g} kg/m³ lie"
     assert note.startswith(told)
-
-
-def narrow(book):
-    """One row of one friction angle and one inclination."""
-    book["Project"][1][1], book["Project"][2][1] = "300 to 360", 30
-    book["Project"][3:] = [["net inclination", 30, "deg"]]
-    book["Rows"][2:] = []
-    return book
-
-
-def test_layers_reach_the_solver_and_change_its_forces(layered):
-    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-    site = narrow(layered).read()
-    workers = Recording()
-    results = solve_site(site, run, Runner(workers=workers))
-    packs = [job.scene.snowpack for job in workers.jobs]
-    assert [pack.density for pack in packs] == [
-        r.case.density for r in results[0].results
-    ]
-    for pack in packs:
-        # in proportion as typed, with the mean of the case
-        assert [layer.density for layer in pack.layers] == pytest.approx(
-            [density * pack.density / MEAN for density in (450, 300, 200)]
-        )
-    study = judge_site(site, results, load_standard("nf-p-95-304-style"), run)
-    (note,) = [str(note) for note in study.notes if "layers" in str(note)]
-    assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m³")
-    del layered["Snow"]
-    uniform = solve_site(narrow(layered).read(), run)
-    heads = [
-        found[0].results[0].member_forces["uphill_guy"].value
-        for found in (results, uniform)
-    ]
-    assert abs(heads[0] / heads[1] - 1) > 0.01

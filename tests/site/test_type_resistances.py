@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.make import find_cell, load_tables, read_tables, write_site
 
@@ -103,21 +103,6 @@ def test_a_type_without_a_ground_stands_in_that_of_every_row():
     assert (found.type_id, found.value, found.basis) == ("A1", None, "")
 
 
-def test_compression_of_a_post_by_hand():
-    """EN 1993-1-1, curve c: of 34 cm2, 318 cm4, 3 m and S235 411.1 kN."""
-    tables = tiny()
-    tables["posts"][0] |= {
-        **{"area": 34, "second_moment": 318, "buckling_length": 3.0},
-        **{"yield_strength": 235, "buckling_curve": "c"},
-    }
-    post = find(read_tables(tables), "post", "compression")
-    assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
-    assert "courbe c" in render(post.derivation, "fr")
-    assert "Knicklinie c" in render(post.derivation, "de")
-    del tables["posts"][0]["area"]
-    assert find(read_tables(tables), "post", "compression").value is None
-
-
 @each("name", ["HEB 120", "HEA 160"])
 def test_the_section_of_a_post_follows_from_its_name(name):
     tables = tiny()
@@ -196,16 +181,6 @@ def test_tests_count_for_their_type_in_their_ground(tmp_path, language):
         assert (found.ground, found.tests.count) == (ground, 4)
         assert found.tests.least == pytest.approx(1e3 * min(listed))
         assert found.tests.mean == pytest.approx(1e3 * fmean(listed))
-
-
-def test_they_are_what_the_same_numbers_on_sheet_anchors_are():
-    tests = [{"type": "A1", "ground": "till", "force": x} for x in (210.0, 260.0)]
-    counted = find(read_tables(with_tests(tests, ground="till")), *PULLED).tests
-    typed = {"pull_out": 210, "proven": "tests", "test_count": 2, "test_mean": 235}
-    tables = name_anchor(tiny(), "A1", tendon=900, ground="till", **typed)
-    known = find(read_tables(tables), *PULLED).tests
-    sums = ("count", "least", "mean")
-    assert [getattr(counted, x) for x in sums] == [getattr(known, x) for x in sums]
 
 
 PULLED = ("foot_anchor", "pull_out")
@@ -311,37 +286,6 @@ def test_a_link_that_is_none_is_one_finding(tmp_path, link):
     tables["links"] = [link]
     (finding,) = refuse(tmp_path, tables)
     assert finding.sheet == "Parts"
-
-
-def test_the_panel_of_a_row_in_si():
-    tables = tiny()
-    tables["ropes"].append({"id": "B2", "rope": 241, "axial_stiffness": 18700})
-    net = tables["net_types"][0]
-    net |= {
-        "lower_rope": "B2",
-        "ridge_sag": 8.3,
-        "lower_sag": 14.1,
-        "mid_anchors": "yes",
-    }
-    (row,) = read_tables(tables).rows
-    for panel in row.panels:
-        assert panel.post_spacing == row.layout.post_spacing
-        assert (panel.upper.stiffness, panel.lower.stiffness) == (60e6, 18.7e6)
-        assert panel.upper.sag == pytest.approx(0.083, rel=1e-12)
-        assert panel.lower.sag == pytest.approx(0.141, rel=1e-12)
-        assert panel.has_mid_anchors
-    del tables["ropes"][-1]["axial_stiffness"]
-    (row,) = read_tables(tables).rows
-    assert len({one.lower.stiffness for one in row.panels}) > 1
-    assert row.find_assumed("axial_stiffness") is not None
-    for key in ("ridge_rope", "lower_rope", "ridge_sag", "lower_sag"):
-        del net[key]
-    (row,) = read_tables(tables).rows
-    for side in ("lower", "upper"):
-        ropes = [getattr(one, side) for one in row.panels]
-        sags, known = {one.sag for one in ropes}, {one.stiffness for one in ropes}
-        assert (min(sags), max(sags)) == (0.08, 0.15)
-        assert (min(known), max(known)) == (3e6, 150e6)
 
 
 # What is listed of empty cells

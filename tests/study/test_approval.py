@@ -11,7 +11,7 @@ from netdesign.checks import Approval, Declaration, Proof, StatedValue, load_sta
 from netdesign.outcome import Verdict
 from netdesign.site.assumed import load_assumed
 from netdesign.snow.ground import GroundLaw
-from netdesign.study.guideline_load import find_altitude_factor, load_glide_limits
+from netdesign.study.guideline_load import load_glide_limits
 from netdesign.study.judge import judge_site
 from netdesign.study.scopes import SCOPES, Scope, list_of_scope
 from tests.grid import solve_site, wrap_results
@@ -83,11 +83,6 @@ BARE = {
 
 def find_check(row, name):
     return next((one for one in row.checks if one.id == name), None)
-
-
-def test_the_row_has_what_the_limits_are_compared_with():
-    factor = find_altitude_factor(build_row("R1", altitude=3050.0))
-    assert 1.2 < factor <= HAS["altitude_factor"]
 
 
 def test_inside_its_limits_one_document_proves_the_structure(judge):

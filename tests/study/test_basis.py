@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import Declaration, Proof, load_standard
+from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
-from netdesign.snow.snowpack import Layer
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
@@ -29,18 +28,6 @@ LIGHT = Ranges.of(
     **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0)}
 )
 SEARCHED = replace(RANGES)
-BEARING = Declaration(
-    row_id="R2",
-    member="post_base",
-    mode="bearing",
-    proof=Proof(
-        document="Report G-17",
-        author="B. Rüegg",
-        date="2026-03-09",
-        cell="Declared!B2",
-    ),
-)
-PULL_OUT = replace(BEARING, row_id="", member="foot_anchor", mode="pull_out")
 
 
 @pytest.fixture(scope="module")
@@ -93,54 +80,7 @@ def test_a_row_that_another_law_would_turn_is_named(judge, used):
     assert bool(turned) is (used > 0.9)
 
 
-def test_what_surely_fails_fails_in_light_snow_too(judge):
-    study = judge(build_row("R1", resistances=resist(WEAK)), ranges=LIGHT)
-    assert forces(study.rows[0])["foot_anchor.tendon"].verdict is Verdict.FAIL
-
-
 # --- checks declared as proven elsewhere ---------------------------------------------
-
-
-def test_a_declared_check_is_no_pass_and_neither_is_its_row(judge):
-    blank = resist(post_base__bearing=None)
-    rows = [build_row("R1"), build_row("R2", resistances=blank)]
-    open_ = judge(*rows)
-    assert [row.verdict for row in open_.rows] == [Verdict.PASS, Verdict.NOT_PROVEN]
-    study = judge(*rows, declared=(BEARING,))
-    assert study.verdict is Verdict.DECLARED
-    assert [row.verdict for row in study.rows] == [Verdict.PASS, Verdict.DECLARED]
-    check = forces(study.rows[1])["post_base.bearing"]
-    assert check.verdict is Verdict.DECLARED
-    assert check.declared.document == "Report G-17"
-    assert check.declared.cell == "Declared!B2"
-    assert "resistance missing" in str(check.reason)
-    assert check.demand_kN == forces(open_.rows[1])["post_base.bearing"].demand_kN
-    assert "Report G-17" in str(check.reason)
-
-
-def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
-    study = judge(build_row("R1"), build_row("R2"), declared=(PULL_OUT,))
-    for row in study.rows:
-        declared = [k for k, c in forces(row).items() if c.verdict is Verdict.DECLARED]
-        assert declared == ["foot_anchor.pull_out", "foot_anchor.pull_out.end"]
-        assert row.verdict is Verdict.DECLARED
-
-
-@pytest.mark.parametrize(
-    ("position", "expected"),
-    [
-        ("", ["foot_anchor.pull_out", "foot_anchor.pull_out.second"]),
-        ("edge", ["foot_anchor.pull_out.end"]),
-    ],
-)
-def test_an_end_of_another_type_is_declared_by_its_own_line(judge, position, expected):
-    ends = tuple(replace(one, type_id="T2") for one in resist())
-    row = build_row("R1", end_resistances=ends)
-    study = judge(row, declared=(replace(PULL_OUT, position=position),))
-    checks = forces(study.rows[0])
-    declared = [k for k, c in checks.items() if c.verdict is Verdict.DECLARED]
-    assert declared == expected
-    assert {c.verdict for k, c in checks.items() if k not in declared} == {Verdict.PASS}
 
 
 # --- snow above the net --------------------------------------------------------------
@@ -177,14 +117,6 @@ def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
         assert "snow overtops the net" in str(check.reason)
         assert check.changes == []
     assert second.verdict is Verdict.PASS
-
-
-def test_layers_of_an_overtopped_net_keep_their_proportions():
-    layers = (Layer(thickness=1.5, density=420.0), Layer(thickness=1.0, density=310.0))
-    row = build_row("R1", net_height=2.0, layers=layers)
-    held = row.layers_at(row.mean_density)
-    assert [layer.thickness for layer in held] == pytest.approx([1.2, 0.8])
-    assert [layer.density for layer in held] == pytest.approx([420.0, 310.0])
 
 
 @pytest.mark.parametrize(

@@ -4,21 +4,15 @@ import math
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from netdesign.calculation.quantity import Kind
-from netdesign.calculation.steps import Step
-from netdesign.checks import Check, OpenKind, load_standard
+from netdesign.checks import OpenKind, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
-from netdesign.study import best_ends
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
 from netdesign.study.row_to_check import CaseSolver, place_variant
-from netdesign.words.message import say
 from tests.small_site import (
     RANGES,
     RUN,
@@ -173,57 +167,3 @@ def test_what_fails_fails_with_every_panel_that_is_assumed():
                 assert assumed[key].verdict is not Verdict.PASS, key
     beyond = [one for one in assumed.values() if one.eased is not None]
     assert any(one.verdict is Verdict.NOT_PROVEN for one in beyond)
-
-
-def use(low, high, *points):
-    """Check of a utilisation between two ends."""
-    step = Step(symbol="μ", unit="-", value=high, low=low, high=high, kind=Kind.WORKED)
-    check = Check(id="post.compression", clause="-", member="post", mode="compression")
-    return replace(check, steps=[step], open=list(points))
-
-
-ENDS = st.tuples(st.floats(0.01, 3.0), st.floats(0.01, 3.0)).map(sorted)
-
-
-@given(ENDS, st.floats(0.0, 3.0))
-def test_the_best_ends_turn_a_fail_only(ends, least):
-    check = use(*ends)
-    eased = check.ease(least)
-    if check.verdict is Verdict.FAIL and least <= 1.0:
-        assert eased.verdict is Verdict.NOT_PROVEN
-    else:
-        assert eased.verdict is check.verdict
-    assert eased.utilisation_band[1] == check.utilisation_band[1]
-
-
-@given(ENDS, st.sampled_from(OpenKind), st.floats(0.0, 3.0))
-def test_a_point_more_makes_no_eased_check_better(ends, kind, least):
-    if kind is OpenKind.PROVEN_ELSEWHERE:
-        return
-    eased = use(*ends).ease(least)
-    more = eased.with_open(kind, say("check.fails"))
-    assert WORSE.index(more.verdict) >= WORSE.index(eased.verdict)
-
-
-def test_what_has_no_bound_where_it_is_worst_is_not_proven_where_it_has_one():
-    unbounded = use(0.5, 0.6).with_open(OpenKind.FAILS, say("check.fails"))
-    assert unbounded.verdict is Verdict.FAIL
-    assert unbounded.ease(math.inf).verdict is Verdict.FAIL
-    assert unbounded.ease(0.7).verdict is Verdict.NOT_PROVEN
-
-
-def test_what_is_told_does_not_hang_on_which_value_is_asked_first(monkeypatch):
-    """Each value alone is narrowed in the guideline's load, too."""
-    stiffness = assume("net_stiffness")
-    row = replace(OF_SLACK, assumed=(SLACK, stiffness))
-    spans = [(x.key, Interval(low=x.low, high=x.high)) for x in row.assumed]
-    site = build_site(row, ranges=Ranges(intervals=(*RANGES.intervals, *spans)))
-    (solved,) = search_site(site, RUN)
-    solver = CaseSolver(RUN.settings, RUN.creep_law)
-    told = []
-    for order in (best_ends.SEARCHED, best_ends.SEARCHED[::-1]):
-        monkeypatch.setattr(best_ends, "SEARCHED", order)
-        told.append(
-            list_decided(index(judge_row(site, row, solved, STANDARD, RUN, solver)))
-        )
-    assert told[0] == told[1] != {}

@@ -62,12 +62,3 @@ def test_it_is_beyond_one_all_the_same_and_never_passes(checks):
         assert check.has_open(OpenKind.ASSUMED_DECIDES)
         assert check.utilisation_band[1] > 1.0
         assert check.verdict is not Verdict.PASS
-
-
-def test_what_fails_beside_the_end_fails_without_the_ropes_too(checks):
-    inside = {one.id: one for one in checks if one.position == "intermediate"}
-    for check in checks:
-        if check.verdict is Verdict.FAIL and check.position == "second":
-            # its width is no less than that inside, and no less is pulled
-            alike = inside[check.id.removesuffix(".second")]
-            assert alike.used is None or alike.used <= check.used

@@ -33,14 +33,6 @@ def test_only_what_no_cell_says_is_left_as_a_condition(solved):
     assert study.conditions == study.rows[0].conditions
 
 
-def test_the_distance_to_an_edge_is_a_condition_of_the_longest_bore(solved):
-    row = solved[0].rows[0]
-    study, _ = judge(solved)
-    kinds = [kind for _, kind in (*row.anchors, *row.row_end.anchors)]
-    assert state(study)["edge"].value == max(kind.drilled for kind in kinds)
-    assert state(study)["edge"].who == "site"
-
-
 def test_the_cover_is_told_as_it_is_calculated(solved):
     row = solved[0].rows[0]
     study, checks = judge(solved, end_anchors=None)
@@ -76,12 +68,6 @@ def test_steel_that_nobody_protects_has_a_condition_and_is_proven(solved, wear, 
     left_out = replace(NF, not_checked=("corrosion",))
     study, _ = judge(solved, left_out, resistances=worn, end_resistances=None)
     assert key not in state(study)
-
-
-def test_the_place_of_a_lateral_anchor_is_a_condition_of_the_profile_s_distance(solved):
-    study, checks = judge(solved)
-    assert state(study)["apart"].value == NF.find("anchor.distance.min").value
-    assert checks["geometry.anchors"].verdict is Verdict.PASS
 
 
 def test_ground_that_nobody_names_is_a_condition(solved):
@@ -142,23 +128,3 @@ def test_a_missing_resistance_leaves_its_own_check_open_and_no_other(solved, see
             assert check.verdict is Verdict.NOT_PROVEN
             assert [x.kind for x in check.open] == [OpenKind.RESISTANCE_MISSING]
             assert check.demand_kN == pytest.approx(before[name].demand_kN)
-
-
-def test_what_is_open_of_a_row_says_the_resistance_that_is_needed(solved):
-    row = solved[0].rows[0]
-    bare = tuple(
-        replace(one, value=None, tests=None, basis="", lack=say("check.no_case_solved"))
-        if one.mode == "pull_out"
-        else one
-        for one in row.resistances
-    )
-    study, checks = judge(solved, resistances=bare)
-    (point,) = (
-        one
-        for one in study.rows[0].open
-        if one.kind is OpenKind.RESISTANCE_MISSING and one.needs_kN
-    )
-    lacking = [one for one in checks.values() if one.needed_kN and one.open]
-    assert point.needs_kN == max(one.needed_kN for one in lacking)
-    for one in lacking:
-        assert one.needed_kN >= one.demand_kN

@@ -7,19 +7,17 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.coupling.scene import Scene
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.report.files import ReportStyle, render_kind
 from netdesign.report.page.html import render_html
 from netdesign.site.model import InputEcho
-from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
 from netdesign.study.cases import have_same_forces, search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point, record_point
-from netdesign.study.row_to_check import CaseSolver, build_scene
+from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site
 
@@ -71,36 +69,6 @@ def study(site, envelopes, standard):
     return judge_site(site, envelopes, standard, RUN, solver)
 
 
-def test_the_worst_foot_case_is_deep_snow_that_glides_on_a_taut_net(envelopes):
-    for envelope in envelopes:
-        assert envelope.maxima.is_closed
-        values = envelope.extremes["foot_anchor"].governing.case.values
-        assert values["thickness"] == 2.5
-        assert values["slack"] == 0.021
-        assert values["glide_factor"] == 1.77
-        assert values["density"] == 371.0
-
-
-def test_a_case_is_that_of_a_row_with_its_values(site):
-    """Whichever way a value comes in, the scene is the same."""
-    case = Case(
-        density=311.0,
-        friction_angle=0.43,
-        inclination=0.52,
-        others=(("thickness", 2.3), ("slack", 0.05), ("glide_factor", 1.5)),
-    )
-    single = replace(case, others=())
-    for row in site.rows:
-        typed = replace(
-            row,
-            snow_thickness=2.3,
-            slack=0.05,
-            ground=build_ground_from_glide_factor(1.5, 2.3),
-        )
-        scene: Scene = build_scene(row, case, BOUTILLIER_2004)
-        assert scene == build_scene(typed, single, BOUTILLIER_2004)
-
-
 def test_points_go_to_records_and_back():
     values = RANGES.place((0.3, 0.7, 0.2, 0.9))
     case = Case.of(values)
@@ -131,11 +99,6 @@ def test_outputs_have_a_column_for_what_ranges(study):
     page = render_html(study)
     assert "Glide factor" in page
     assert "d 2.5 m, s 0.021, N 1.77" in page.replace("\N{NO-BREAK SPACE}", " ")
-
-
-def test_without_further_ranges_a_case_has_three_values():
-    point = record_point(Case(density=300.0, friction_angle=0.4, inclination=0.5))
-    assert [*point.values] == ["density_kg_m3", "friction_deg", "inclination_deg"]
 
 
 def test_a_question_changes_no_force_of_layered_snow():

@@ -24,11 +24,8 @@ from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.side_by_side import cut_site, name_rows
-from tests.grid import solve_site
 from tests.make import find_cell, load_rows, write_rows
 from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
-from tests.study.test_member_force import RANGES as LIGHT_RANGES
-from tests.study.test_member_force import ROW as LIGHT_ROW
 
 STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
 DRAWS = 24
@@ -145,18 +142,6 @@ def test_only_the_row_that_changed_is_judged_again(store, judged):
     judged.clear()
     assert write(check(build_site(rows[2], rows[0]), store))  # in another order
     assert judged == []
-
-
-def test_a_type_that_a_row_does_not_have_counts(store, judged):
-    """It may be the type that a change proposes."""
-    failing = replace(ROWS[1], resistances=resist(WEAK))
-    site = build_site(ROWS[0], failing)
-    check(site, store)
-    other = replace(resist(WEAK)[0], type_id="another", value=9.7e6)
-    judged.clear()
-    more = replace(site, catalogue=(other,))
-    assert write(check(more, store)) == write(check(more, None))
-    assert judged == ["R1", "R2"] * 2  # the last two without a store
 
 
 def test_a_known_row_asks_for_no_case(store):
@@ -276,12 +261,6 @@ def test_time_and_processes_are_no_part_of_a_name(quick_names):
     assert name_rows(again, STANDARDS, other) == name_rows(site, STANDARDS, RUN)
 
 
-def test_other_profiles_or_their_order_are_other_names(quick_names):
-    site = build_site(*ROWS)
-    orders = (STANDARDS, STANDARDS[::-1], STANDARDS[:1])
-    assert len({name_rows(site, one, RUN)["R1"] for one in orders}) == 3
-
-
 def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
     site = build_site(replace(ROWS[0], questions=(object(),)))
     assert name_rows(site, STANDARDS, RUN) == {}
@@ -343,11 +322,3 @@ def test_the_runner_counts_what_was_lost(lost):
         failed = FailedSolution(outcome=outcome, reason=say("worker.died"))
         runner._note("a", failed)
     assert (runner.counts.solved, runner.counts.lost) == (2, 1)
-
-
-def test_a_row_s_part_is_judged_as_in_the_whole_site(quick_names):
-    """In snow for which the creep law is not given, too."""
-    site = build_site(LIGHT_ROW, ranges=LIGHT_RANGES)
-    part, solved = cut_site(site, LIGHT_ROW), solve_site(site, RUN)
-    whole, cut = (judge_site(one, solved, STANDARDS[0], RUN) for one in (site, part))
-    assert cut.rows == whole.rows

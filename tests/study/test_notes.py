@@ -2,13 +2,10 @@
 
 import math
 import random
-from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.study.judge import gather_study
 from netdesign.study.notes import bear_snow, list_site_notes
 from tests.small_site import RANGES, ROWS, RUN, build_site
 
@@ -48,14 +45,6 @@ def test_an_accuracy_finer_than_the_search_is_told_as_that_of_the_cases(
     single = Ranges.of(**{k: Interval(low=end, high=end) for k, end in ends.items()})
     site = build_site(*ROWS, ranges=single)
     assert list_of_accuracy(site, accuracy) == []  # one case has no gap
-
-
-def test_the_note_stands_in_the_study():
-    standard = load_standard("nf-p-95-304-style")
-    run = replace(RUN, settings=replace(RUN.settings, accuracy=5e-4))
-    site = build_site(*ROWS)
-    keys = [one.key for one in gather_study(site, [], standard, run).notes]
-    assert "note.accuracy_of_cases" in keys
 
 
 def test_measured_forces_without_a_winter_say_what_they_need():

@@ -65,14 +65,6 @@ def test_acceptance_follows_load_result_and_design_force():
     assert [line[-1].text for line in singles.rows] == ["no", "no", "open"]
 
 
-def test_number_and_mean_alone_are_enough():
-    numbers = {"test_count": 3, "pull_out": 300}
-    anchor = STEEL | numbers | {"test_mean": 330}
-    study = study_row("eurocode", **(ROW | {"anchor": anchor}))
-    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.pull_out")
-    assert check.read("R_k") == pytest.approx(min(330 / 1.2, 300 / 1.05))
-
-
 def test_no_proof_load_pulls_the_tendon_beyond_its_limit():
     """500 kN with a loop of 0.8: at most 320 kN, whatever the anchor needs."""
     row = ROW | {"foot": (60.0, 54.0)}

@@ -8,7 +8,9 @@ import pytest
 from netdesign.study.governing_case import record_independent
 from netdesign.study.row_to_check import CaseSolver
 from tests.grid import build_cases
-from tests.study.test_row_study import RANGES, ROW, RUN
+from tests.small_site import RANGES, ROWS, RUN
+
+ROW = ROWS[1]
 
 
 @pytest.fixture(scope="module")

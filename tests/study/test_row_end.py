@@ -8,24 +8,14 @@ import pytest
 from scipy.optimize import brentq
 
 from netdesign.calculation.quantity import leaf
-from netdesign.checks import load_standard
 from netdesign.checks.forces import place_end_support, pull_at_end
-from netdesign.envelope.row_pulls import find_rope_factors
 from netdesign.outcome import Outcome, Verdict
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study import load_along_row
-from netdesign.study.guideline_load import find_effects
-from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.each import each
-from tests.grid import solve_site
-from tests.guideline.one_floor import find_row_floor
 from tests.small_site import (
-    RANGES,
-    RUN,
-    build_row,
-    build_site,
     resist,
 )
 from tests.study.test_panel_study import (
@@ -46,51 +36,6 @@ def compute_end_factor(width, spacing):
         leaf("Δl", width.end_length, "m", ""),
     )
     return pull_at_end(leaf("T_r", 1.0, "kN", ""), support).value
-
-
-@pytest.fixture(scope="module")
-def judged():
-    return judge(with_panel(a_panel(), end=an_end(angle=37.0)))
-
-
-def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
-    _, study = judged
-    row, checks = study.rows[0], checks_of(study)
-    forces = {one.quantity: one for one in row.forces}
-    width = find_effects(with_panel(a_panel()), PROFILE, RANGES).find_support("edge")
-    factor = compute_end_factor(width, 3.5)
-    assert factor > 1.2
-    lower, upper = (
-        factor * forces[f"panel_{rope}_along"].value_kN for rope in ("lower", "upper")
-    )
-    upper *= row.floor.ridge_rope  # the guideline's load pulls more on it, (P12)
-    lower *= row.floor.lower_rope
-    assert row.floor.ridge_rope > 1.0
-    expected = {
-        "lateral_anchor.tendon.end": lower,
-        "lateral_anchor.pull_out.end": lower,
-        "end_guy.rope.end": upper / math.cos(math.radians(37.0)),
-        "end_guy_anchor.tendon.end": upper / math.cos(math.radians(37.0)),
-        "end_guy_anchor.pull_out.end": upper / math.cos(math.radians(37.0)),
-    }
-    for name, force in expected.items():
-        check = checks[name]
-        assert check.read("E_k") == pytest.approx(force, rel=1e-12)
-        assert check.verdict is Verdict.PASS
-        assert check.position == "edge"
-    post = checks["post.compression.end"]
-    # Abreast of the head: 30 deg of the net, 15 of the post, both anchors 3 m away.
-    fall = math.atan2(2.5, 2.5 * math.tan(math.radians(30.0)) + 3.0)
-    part = math.cos(fall) / math.cos(fall + math.radians(15.0))
-    pushed = part * upper * math.tan(math.radians(37.0))
-    assert post.read("Z") == pytest.approx(pushed, rel=1e-12)
-    assert post.read(post.name_force("p")) > pushed
-    assert checks["post.compression"].read("Z") is None
-    width = post.read("b_e") / post.read("b")
-    for model, inside in (("coupled", "E_s"), ("panel", "E_p0")):  # the head holds both
-        of_net = (post.read(inside) + (post.read("A") or 0.0)) * width
-        held = post.read(post.name_force(model[0]))
-        assert held == pytest.approx(of_net + pushed, rel=1e-12)
 
 
 RANK = [Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS]
@@ -143,31 +88,6 @@ def test_what_the_end_guy_presses_holds_the_base_too():
     assert end.utilisation == pytest.approx(inside.utilisation, rel=1e-9)
 
 
-def test_nothing_that_holds_the_row_leaves_it_unproven():
-    _, study = judge(with_panel(a_panel(), end=an_end(value=None)))
-    checks = checks_of(study)
-    assert study.verdict is not Verdict.PASS
-    for name in ("lateral_anchor.tendon.end", "end_guy.rope.end"):
-        assert checks[name].verdict is Verdict.NOT_PROVEN
-        assert checks[name].demand_kN > 0.0
-
-
-def test_a_row_that_goes_on_has_no_end():
-    row = build_row("R1", panels=a_panel(), gap=0.0)
-    _, study = judge(row)
-    assert not [one for one in study.rows[0].checks if one.id.endswith(".end")]
-
-
-def test_under_the_guideline_s_profile_the_ends_are_checked_too():
-    standard = load_standard("swiss-guideline-2007")
-    _, study = judge(with_panel(a_panel()), standard=standard)
-    checks = checks_of(study)
-    lateral = checks["lateral_anchor.tendon.end"]
-    assert lateral.read("E_g") is None
-    assert lateral.read("E_k") > 0.0
-    assert checks["post.compression.end"].read("Z") > 0.0
-
-
 def pull_rope(load, points, spacing, sag, stiffness):
     """Force along the row of a rope under a load [N/m] at equal places, (P2)."""
     dz = points[1] - points[0]
@@ -204,44 +124,6 @@ def test_the_end_effect_raises_a_rope_s_pull_by_less_than_its_factor(seed):
         load * np.where(points < reach, 1.0 + end_factor, 1.0), points, *rope
     )
     assert plain < raised <= compute_end_factor(width, spacing) * plain
-
-
-def use_nearly(check, share):
-    """Characteristic resistance of which a check uses this share [N]."""
-    return check.read_band("E_d")[1] * check.read("γ_R") * 1e3 / share
-
-
-def test_change_that_mends_an_end_member(judged):
-    name = "end_guy_anchor.tendon.end"
-    value = use_nearly(checks_of(judged[1])[name], 1.31)
-    row = with_panel(a_panel(), end=an_end(37.0, value))
-    _, study = judge(row, solver=CaseSolver(RUN.settings, RUN.creep_law))
-    check = checks_of(study)[name]
-    assert check.verdict is Verdict.FAIL
-    changes = {one.quantity.key: one for one in check.changes}
-    needed = changes["change.characteristic_resistance"].bound
-    assert needed == pytest.approx(1.31e-3 * value, abs=0.1)
-
-
-def test_the_guideline_s_load_reaches_the_ropes():
-    """(P12): its largest pulls at foot and head over those of the solved panels."""
-    row = with_panel(a_panel(), end=an_end(angle=37.0))
-    (envelope,) = solve_site(build_site(row), RUN)
-    floor = find_row_floor(row, RANGES, load_standard("swiss-guideline-2007"))
-    panels = [one.panel.solution for one in envelope.results]
-    feet = [np.hypot(*np.add(one.foot, one.mid_foot)) for one in panels]
-    heads = [np.hypot(*one.head) for one in panels]
-    foot = floor.find("foot_anchor").force / max(feet)
-    head = floor.head.pull / max(heads)
-    found = find_rope_factors(envelope.results, floor)
-    expected = (max(1.0, foot), max(1.0, head), max(1.0, head))
-    assert found == pytest.approx(expected, rel=1e-12)
-    assert max(found) > 1.0
-    half = replace(floor, head=replace(floor.head, pull=0.3 * floor.head.pull))
-    assert find_rope_factors(envelope.results, half).ridge == 1.0
-    double = replace(floor, head=replace(floor.head, pull=2.0 * floor.head.pull))
-    doubled = find_rope_factors(envelope.results, double).ridge
-    assert doubled == pytest.approx(2.0 * head)
 
 
 # Of other types at the end, whose checks say nothing of those inside.
@@ -301,35 +183,3 @@ def test_a_truss_that_does_not_stand_proves_no_member_of_the_end(monkeypatch):
     monkeypatch.setattr(load_along_row, "share_with_end_guy", lambda *_, **__: None)
     _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
     assert checks_of(study)["uphill_guy.rope.end"].verdict is Verdict.NOT_PROVEN
-
-
-def test_what_is_assumed_of_the_end_is_told():
-    row = with_panel(a_panel(), end=an_end(angle=37.0))
-    keys = {one.key for one in judge(row)[1].rows[0].notes}
-    assert {"row.end_guy_holds_all", "row.end_guy_at_head"} <= keys
-    assert "row.posts_unknown" not in keys
-    loose = replace(row, post_count=None)
-    keys = {one.key for one in judge(loose)[1].rows[0].notes}
-    assert "row.posts_unknown" in keys
-
-
-def test_the_foot_beside_the_end_is_pulled_farther_along_the_row():
-    """tan of the turn: 0.1 of the load, and D over the foot's force, (P11)."""
-    row = with_panel(a_panel(), end=an_end(angle=37.0), gap=1.0)
-    site, study = judge(row)
-    of_foot = {
-        one.position: one for one in study.rows[0].pulls if one.anchor == "foot_anchor"
-    }
-    assert set(of_foot) == {"intermediate", "second"}
-    width = find_effects(row, PROFILE, RANGES).find_support("second")
-    grown = width.end_factor * width.end_length / 3.5
-    (envelope,) = solve_site(site, RUN)
-    along = max(
-        one.panel.solution.lower.along / np.hypot(*one.panel.solution.foot)
-        for one in envelope.results
-    )
-    plain, beside = (of_foot[one] for one in ("intermediate", "second"))
-    flat = math.cos(plain.angle) * math.hypot(1.0, 0.1)
-    turned = math.acos(flat / math.hypot(1.0, 0.1 + along * grown))
-    assert beside.angle == pytest.approx(turned, rel=1e-6)
-    assert beside.angle > plain.angle + 0.01

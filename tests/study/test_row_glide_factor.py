@@ -1,6 +1,5 @@
 """Glide factor by which the guideline, a row and its ends are loaded."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +16,6 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
     load_glide_tables,
 )
-from netdesign.solving.solve import solve_scene
 from netdesign.study.guideline_load import (
     find_glide_factors,
     find_row_glide_factor,
@@ -25,7 +23,7 @@ from netdesign.study.guideline_load import (
     load_glide_limits,
 )
 from netdesign.study.judge import judge_site
-from netdesign.study.row_to_check import CaseSolver, build_scene
+from netdesign.study.row_to_check import build_scene
 from tests.grid import solve_site
 from tests.small_site import RUN, build_row, build_site
 
@@ -131,43 +129,8 @@ def test_other_creep_laws_have_the_slip_of_their_own_table():
         assert find_solved_ground(row, law) == expected
 
 
-def test_rough_ground_has_the_forces_of_the_least_factor_and_more_than_without_slip():
-    """R1 of the example gains 8.5 to 9.8 % at its foot; here two grounds are one."""
-    solver = CaseSolver(RUN.settings, RUN.creep_law)
-    d = a_row().snow_thickness
-    rows = [
-        a_row(GroundLaw(kind="no-slip")),
-        a_row(build_ground_from_glide_factor(1.2, d)),
-        a_row(build_ground_from_glide_factor(1.5, d)),
-    ]
-    rough, least, more = (
-        one.member_forces["foot_anchor"].value
-        for one in solver.solve_all([(row, CASE, RUN.creep_law) for row in rows])
-    )
-    assert rough == pytest.approx(least, rel=1e-12)
-    assert more > 1.1 * least
-    scene = build_scene(rows[0], CASE, RUN.creep_law)
-    bare = solve_scene(replace(scene, ground=GroundLaw(kind="no-slip")), RUN.settings)
-    slipping = solve_scene(scene, RUN.settings)
-    sizes = [math.hypot(one.foot.x, one.foot.y) for one in (bare, slipping)]
-    assert 1.07 < sizes[1] / sizes[0] < 1.14
-
-
 def study(glide_factor):
     """A row on ground whose slip length belongs to another factor, at one case."""
     site = build_site(a_row(glide_factor=glide_factor), ranges=ONE_CASE)
     standard = load_standard("swiss-guideline-2007")
     return judge_site(site, solve_site(site, RUN), standard, RUN, None).rows[0]
-
-
-def test_the_end_of_a_row_and_the_guideline_take_the_typed_factor():
-    rows = [study(glide) for glide in (2.413, 3.2)]
-    assert {one.glide_factor for one in rows[0].guideline.cases} == {2.413}
-    assert {one.glide_factor for one in rows[1].guideline.cases} == {3.2}
-    ends = [
-        {one.id: one for one in row.checks}["foot_anchor.tendon.end"] for row in rows
-    ]
-    widths = [one.read("b_e") for one in ends]
-    # f_R = (0.92 + 0.65 N) A / 2 over l_R = 0.6 A / 2; structure/THEORY.md, (S9)
-    wider = 0.65 * (3.2 - 2.413) * (1.7 / 2.0) * (0.6 * 1.7 / 2.0)
-    assert widths[1] - widths[0] == pytest.approx(wider, rel=1e-9)

@@ -73,18 +73,6 @@ def test_a_doubted_cell_bears_on_what_its_number_decides(block, column, typed, a
     assert find_scopes(check) == asked
 
 
-@given(VERDICTS, VERDICTS, st.sampled_from(SCOPES))
-def test_a_scope_depends_on_its_own_checks_alone(some, others, scope):
-    """Whatever the checks of other scopes are, or whether there are any."""
-    mine = set(map(id, list_of_scope(CHECKS, scope)))
-    pairs = list(zip(CHECKS, some, others, strict=True))
-    first = [turn(one, a) for one, a, _ in pairs]
-    second = [turn(one, a if id(one) in mine else b) for one, a, b in pairs]
-    alone = [turn(one, a) for one, a, _ in pairs if id(one) in mine]
-    found = [sum_up_row(checks)[scope] for checks in (first, second, alone)]
-    assert found[0] == found[1] == found[2]
-
-
 @given(VERDICTS)
 def test_the_row_has_the_worst_verdict_of_its_scopes(verdicts):
     checks = [turn(*pair) for pair in zip(CHECKS, verdicts, strict=True)]

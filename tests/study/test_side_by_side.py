@@ -15,7 +15,6 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.study import side_by_side
-from netdesign.study.cases import list_alike
 from netdesign.study.check_site import check_site
 from netdesign.study.side_by_side import judge_away
 from tests.small_site import RUN, WEAK, build_row, build_site, resist
@@ -76,16 +75,6 @@ def pool(monkeypatch):
     pool = ProcessPool(2)
     yield pool
     pool.close()
-
-
-def test_rows_that_are_solved_alike_go_together():
-    groups = list_alike(SITE, RUN)
-    assert [[row.id for row in rows] for rows in groups] == [
-        ["R1", "R5"],
-        ["R2"],
-        ["R3"],
-        ["R4"],
-    ]
 
 
 @pytest.mark.long

@@ -1,6 +1,5 @@
 """Corners of what is assumed of a row: the worst counts, and inside is no more."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.site.assumed import assume, assume_ends
+from netdesign.site.assumed import assume
 from netdesign.structure.splay import Guys
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
@@ -71,15 +70,6 @@ def test_a_row_has_its_corners_once():
     assert list_layouts(ROW) == (ROW.layout,)
 
 
-def test_what_is_given_has_no_corners():
-    row = assume_all(ROW, ("post_tilt", "guy_splay"))
-    found = {(one.layout.post_tilt, one.guys.splay) for one in list_variants(row)}
-    assert len(found) == 4
-    for one in list_variants(row):
-        assert one.layout.uphill_anchor_distance == ROW.layout.uphill_anchor_distance
-        assert one.guys.count == ROW.guys.count
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_no_check_is_better_than_with_any_value_inside(judged, seed):
     values = draw_values(np.random.default_rng(700 + seed))
@@ -95,22 +85,6 @@ def test_no_check_is_better_than_with_any_value_inside(judged, seed):
         if check.utilisation_band[1] is not None:
             high = worst.utilisation_band[1]
             assert check.utilisation_band[1] <= 1.003 * high, (check.id, values)
-
-
-def test_a_range_of_one_value_is_that_value():
-    keys = ("post_tilt", "uphill_anchor_distance")
-    typed = replace(ROW, layout=replace(ROW.layout, post_tilt=math.radians(13.0)))
-    distance = typed.layout.uphill_anchor_distance
-    ends = zip(keys, (math.radians(13.0), distance), strict=True)
-    row = replace(typed, assumed=tuple(assume_ends(k, x, x) for k, x in ends))
-    assert len(list_variants(row)) == 1
-    found = {one.id: one.utilisation for one in judge(row).checks}
-    alone = {one.id: one.utilisation for one in judge(typed).checks}
-    of_post = [one for one in found if one.startswith("post")]  # no tension spares it
-    for one in set(found) - set(of_post):
-        assert found[one] == alone[one], one
-    for one in of_post:
-        assert (found[one] or 0.0) >= (alone[one] or 0.0)
 
 
 def test_a_single_guy_that_is_assumed_leaves_the_load_along_the_row_open(judged):

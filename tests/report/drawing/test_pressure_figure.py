@@ -2,7 +2,6 @@
 
 import random
 from dataclasses import replace
-from xml.etree import ElementTree
 
 import pytest
 
@@ -36,13 +35,3 @@ def test_the_larger_load_case_is_shown_and_never_the_models_snow():
 
 def test_without_a_solved_pressure_nothing_is_drawn():
     assert draw_pressure(replace(RECORD, along_net=[]), 3.0) == ""
-
-
-def test_both_lines_are_drawn_and_named():
-    record = replace(RECORD, along_net=[(0.0, 9.1), (1.4, 8.3), (2.7, 2.2)])
-    svg = draw_pressure(record, 2.9)
-    root = ElementTree.fromstring(svg)
-    count = 1 + (find_larger_case(record) is not None)
-    lines = root.findall(".//{*}polyline")
-    samples = [x for x in lines if len(x.get("points").split()) == 2]
-    assert (len(samples), len(lines)) == (count, 2 * count)

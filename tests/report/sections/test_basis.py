@@ -43,17 +43,6 @@ def name_of(missing, language, rows=23):
     return name_rows(named, study, Words(language)), named
 
 
-@pytest.mark.parametrize(
-    ("language", "told"),
-    [("en", "all 23 net rows"), ("fr", "les 23 lignes"), ("de", "alle 23 Werkreihen")],
-)
-def test_all_rows_of_a_large_site_are_named_in_a_phrase(language, told):
-    assert name_of((), language)[0] == told
-    found, _ = name_of((3, 17), language)
-    assert found.startswith(told)
-    assert found.endswith(" W3, W17")
-
-
 def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
     """Of few rows, and where many are left out: no name is lost."""
     few, named = name_of((3,), "en", rows=8)

@@ -5,21 +5,16 @@ from dataclasses import replace
 from netdesign.outcome import Verdict
 from netdesign.report.sections.checks import (
     describe_briefly,
-    describe_cause,
-    describe_resistance,
     list_changes,
 )
 from netdesign.report.words import Words
 from netdesign.study.remedies import CLOSE
 from netdesign.study.scopes import find_governing, find_highest
 from netdesign.words.catalogue import LANGUAGES
-from netdesign.words.message import say
-from tests.digits import write_force
 from tests.each import each
 from tests.report.build_study import build_row, build_study
 from tests.turn import turn
 
-ENGLISH = Words("en")
 STUDY = build_study()
 
 
@@ -37,29 +32,6 @@ def test_a_row_that_does_not_pass_says_why_in_few_words(row, language):
     told = describe_briefly(row, Words(language))
     assert bool(told) is (row.verdict is not Verdict.PASS)
     assert len(told.split()) <= 14
-
-
-def test_a_cause_is_the_gap_alone_or_both_design_values():
-    check = STUDY.rows[0].checks[0]
-    type_ = say("check.type", type="A25")
-    what = say("check.of_cell", what=type_, cell="Anchors!C6")
-    gap = say("check.no_resistance", what=what)
-    lacking = turn(check, Verdict.NOT_PROVEN, reason=gap)
-    assert lacking.reason.key == "load.reason"
-    assert describe_cause(lacking, ENGLISH) == ENGLISH.show(gap)
-    row = replace(STUDY.rows[2], checks=[lacking])
-    assert "Anchors!C6" not in describe_briefly(row, ENGLISH)
-    failing = turn(check, Verdict.FAIL)
-    known = (failing.demand_kN, failing.resistance_kN)
-    shown = [f"{write_force(one)} kN" for one in known]
-    assert all(one in describe_cause(failing, ENGLISH) for one in shown)
-
-
-def test_a_resistance_names_type_basis_and_cell():
-    check = next(one for one in STUDY.rows[0].checks if one.resistance_cell)
-    told = describe_resistance(check, ENGLISH)
-    assert check.resistance_cell in told
-    assert check.resistance_type in told
 
 
 ROW = build_study().rows[0]

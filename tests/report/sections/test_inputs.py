@@ -4,15 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import list_standards, load_standard
-from netdesign.report.sections.annexes import build_provenance
-from netdesign.report.sections.basis import build_inputs, name_profile
+from netdesign.report.sections.basis import build_inputs
 from netdesign.report.words import Words
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.model import InputEcho
-from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.study.record_provenance import name_law
-from netdesign.words.catalogue import LANGUAGES, set_marks
+from netdesign.words.catalogue import set_marks
 from netdesign.words.message import say
 from tests.each import each
 from tests.report.build_study import build_study
@@ -49,27 +45,6 @@ def show_input(echo, words):
     return line[-1]
 
 
-def test_inputs_of_the_end_of_a_row_do_not_hide_those_inside():
-    """Both have the same name; what two rows share stands once, before the rows."""
-    study, words = build_study(), Words("en")
-    of_place = {
-        place: InputEcho(
-            label=say(f"column.{place}.foot_anchor"),
-            unit="",
-            text=text,
-            value=text,
-            cell="A1",
-        )
-        for place, text in (("Nets", "A28"), ("Ends", "A40"))
-    }
-    rows = [replace(row, inputs=[*of_place.values()]) for row in study.rows]
-    lines = build_inputs(replace(study, rows=rows), words).rows
-    shown = [[cell.text for cell in line[2:]] for line in lines[-2:]]
-    none = [""] * len(study.rows)
-    assert shown == [["A28", *none], ["A40", *none]]
-    assert lines[-1][0].text != lines[-2][0].text
-
-
 @pytest.mark.parametrize("language", ["en", "fr", "de"])
 def test_a_derived_input_shows_its_formula_with_numbers(language):
     shown = show_input(SLIP, Words(language))
@@ -99,23 +74,3 @@ def test_a_word_of_a_column_is_shown_in_the_readers_language(field, word, langua
     shown = show_input(echo, words)
     named = field.name_word(word)
     assert shown.text == (named if isinstance(named, str) else words.show(named))
-
-
-@each("language", LANGUAGES)
-@each("profile", list_standards())
-def test_the_provenance_names_profile_and_law_as_the_pages_do(profile, language):
-    standard, words = load_standard(profile), Words(language)
-    study = build_study(rows=1)
-    record = replace(
-        study.profile, id=profile, title=standard.title, edition=standard.edition
-    )
-    settings = {"creep_law": name_law(BOUTILLIER_2004)}
-    provenance = replace(study.provenance, settings=settings)
-    study = replace(study, profile=record, provenance=provenance)
-    told = {line[0].text: line[1].text for line in build_provenance(study, words).rows}
-    title = name_profile(study, words)
-    assert told[words("heading.limit_profile")].endswith(title)
-    assert profile in told[words("heading.limit_profile")]
-    is_english = language == "en"
-    assert ("written for netdesign" in title) is is_english
-    assert any(name_law(BOUTILLIER_2004) == one for one in told.values()) is is_english

@@ -69,19 +69,6 @@ def test_every_check_of_a_force_is_in_one_line_of_its_row(row):
     assert sorted(found) == sorted(one.id for one in row.checks if one.is_of_force)
 
 
-def test_by_the_guideline_is_its_force_over_the_same_resistance():
-    for check in FORCES:
-        found = check.utilisation_by_guideline
-        if "φ_g" in check.step_of:
-            continue
-        if check.read("E_g") is None or not check.resistance_kN:
-            assert found is None
-        else:
-            force = check.read("γ_E") * check.read("E_g")
-            assert found == pytest.approx(force / check.resistance_kN)
-            assert found <= check.used * (1 + 1e-9)  # the larger of both counts
-
-
 def test_the_largest_force_of_a_member_is_no_less_than_any_of_its_checks():
     for row in STUDY.rows:
         for member in ANCHOR_MEMBERS:

@@ -118,20 +118,6 @@ def test_what_fails_is_not_ordered_and_the_rest_is_added_up(study):
         assert count == wanted
 
 
-def test_a_flat_bore_has_a_note_and_an_upright_one_none():
-    row = next(x for x in BUILT.rows if any(p.anchor == "foot_anchor" for p in x.pulls))
-    for dip, notes in ((-7.3, {"flat"}), (21.4, set()), (97.2, {"leans"})):
-        pulls = [replace(x, dip_deg=dip) for x in row.pulls]
-        study = replace(BUILT, rows=[replace(row, pulls=pulls)])
-        found = {
-            note
-            for line in list_anchors(study)
-            for note in line.notes
-            if line.dips_deg and note in ("flat", "leans")
-        }
-        assert found == notes
-
-
 def test_a_bore_is_told_from_the_horizontal():
     assert show_dips([], ENGLISH) == "-"
     assert show_dips([21.6], ENGLISH) == "22°"
@@ -145,3 +131,17 @@ def test_every_letter_is_explained(study):
     schedule, _ = read_tables(study)
     letters = {letter for line in schedule for letter in line[-1].split()}
     assert letters == {re.match("[a-z]", one)[0] for one in notes}
+
+
+def test_a_flat_bore_has_a_note_and_an_upright_one_none():
+    row = next(x for x in BUILT.rows if any(p.anchor == "foot_anchor" for p in x.pulls))
+    for dip, notes in ((-7.3, {"flat"}), (21.4, set()), (97.2, {"leans"})):
+        pulls = [replace(x, dip_deg=dip) for x in row.pulls]
+        study = replace(BUILT, rows=[replace(row, pulls=pulls)])
+        found = {
+            note
+            for line in list_anchors(study)
+            for note in line.notes
+            if line.dips_deg and note in ("flat", "leans")
+        }
+        assert found == notes

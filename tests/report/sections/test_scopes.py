@@ -10,14 +10,12 @@ from netdesign.outcome import Verdict
 from netdesign.report.blocks import write_plain
 from netdesign.report.page.html import render_html
 from netdesign.report.sections.decision import show_structure
-from netdesign.report.sections.rated import ANCHOR_MEMBERS, list_anchor, rate
 from netdesign.report.sections.scopes import (
     describe_study_scopes,
     list_exceeding,
 )
-from netdesign.report.words import ENGLISH, Words
+from netdesign.report.words import ENGLISH
 from netdesign.study.scopes import SCOPES
-from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader
@@ -45,15 +43,6 @@ def approve(row):
     line = turn(bare, Verdict.DECLARED, proof=proof)
     anchors = [one for one in row.checks if one.member.endswith("anchor")]
     return replace(row, checks=[*anchors, line], independent=[])
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_document_of_an_approval_is_named(language):
-    words, row = Words(language), approve(STUDY.rows[0])
-    told = describe_study_scopes(replace(STUDY, rows=[row]), words)
-    assert f"{words('of_scope.structure')} " in told
-    assert DOCUMENT in told
-    assert write_plain(show_structure(row, words)) == f"† {DOCUMENT}"
 
 
 @pytest.mark.parametrize(
@@ -115,24 +104,6 @@ def test_what_the_coupled_force_exceeds_is_named_with_its_factor():
     assert "1.37" in told
     assert told.startswith(row.id)
     assert " ".join(told.split()) in read_page(study)
-
-
-def test_every_anchor_stands_with_both_utilisations():
-    shown = 0
-    for row in STUDY.rows:
-        for member in ANCHOR_MEMBERS:
-            rated = rate(list_anchor(row, (member,)))
-            known = [
-                one.utilisation_by_guideline
-                for one in row.checks
-                if one.member == member
-                and one.mode != "connection"
-                and one.utilisation_by_guideline is not None
-            ]
-            if rated and known:
-                assert rated.by_guideline == max(known)
-                shown += 1
-    assert shown
 
 
 def test_a_load_that_decides_is_said_on_the_first_page():

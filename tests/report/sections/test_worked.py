@@ -10,9 +10,8 @@ from netdesign.report.page.html import render_html
 from netdesign.report.sections.annexes import list_annexes
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check
-from netdesign.study.scopes import find_governing
 from netdesign.words.message import say
-from tests.report.build_study import build_row, build_study
+from tests.report.build_study import build_study
 from tests.report.reading import PageReader
 
 STUDY = build_study()
@@ -30,22 +29,6 @@ def list_lines(check):
     }
 
 
-def find(lines, symbol):
-    return next(line for text, line in lines.items() if text.startswith(f"{symbol} ="))
-
-
-def test_worked_check_shows_symbols_numbers_and_result():
-    row = build_row("A", 2, scale=0.6)
-    lines = list_lines(find_governing(ROW.checks))
-    force = row.member_forces[0].value_kN
-    name, _, numbers, result, _ = find(lines, "E_d")
-    assert name == ENGLISH("symbol.E_d")
-    assert numbers == f"= 1.5 · {force:.4g}"
-    assert result == f"{1.5 * force:.4g} kN"
-    assert find(lines, "R_d")[3] == f"{480 / 1.35:.4g} kN"
-    assert find(lines, "μ")[3] == f"{1.5 * force / (480 / 1.35):.2f}"
-
-
 def test_only_the_load_that_governs_is_worked_out():
     check = ROW.checks[0]
     lines = list_lines(check)
@@ -57,28 +40,9 @@ def test_only_the_load_that_governs_is_worked_out():
     assert list_lines(replace(check, steps=[])) == {}
 
 
-def test_without_a_resistance_the_least_one_is_told():
-    check = next(x for row in STUDY.rows for x in row.checks if x.is_of_force)
-    steps = [x for x in check.steps if x.symbol not in ("R_k", "R_d", "μ")]
-    lines = list_lines(replace(check, steps=steps, open=[]))
-    assert not any(text.startswith(("R_d", "μ")) for text in lines)
-
-
 @pytest.fixture(scope="module")
 def page():
     return PageReader(render_html(STUDY, has_annexes=True))
-
-
-def test_the_annex_has_every_check_of_a_force(page):
-    tables = page.tables["annex-checks"]
-    assert len(tables) == len(STUDY.rows)
-    for table, row in zip(tables, STUDY.rows, strict=True):
-        forces = [one for one in row.checks if one.is_of_force]
-        assert len(table) - 1 == len(forces)
-        for line, check in zip(table[1:], forces, strict=True):
-            assert show_check(ENGLISH, check) in line[0]
-            assert check.resistance_cell in line[0]
-            assert ("μ =" in line[0]) is (check.utilisation is not None)
 
 
 def test_the_annex_has_each_requirement_without_a_force_once():

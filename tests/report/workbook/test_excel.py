@@ -9,10 +9,9 @@ from openpyxl.utils import get_column_letter
 
 from netdesign.checks import load_standard
 from netdesign.report.sections.rated import ANCHORS, list_anchor, rate
-from netdesign.report.words import ENGLISH, VERDICTS, Words, show_check
+from netdesign.report.words import ENGLISH, VERDICTS
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.site.reader import read_site
-from netdesign.study.document import compute_digest
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
 from tests.calculation.evaluate import evaluate
@@ -20,7 +19,7 @@ from tests.golden.drawn import RUN
 from tests.grid import solve_site
 from tests.make import write_rows, write_site
 from tests.report.build_study import FORMULA, SCRIPT, build_study
-from tests.report.reading import read_checks, read_rows, read_workbook, recalculate
+from tests.report.reading import read_checks, read_workbook, recalculate
 from tests.study.knowing_less.drawn_tables import draw_tables
 
 LIMIT = 1e-12  # relative: one rounding of a product, with room
@@ -130,25 +129,6 @@ def test_no_number_is_off_when_recalculated(books, fresh):
         assert count > 250
 
 
-def test_lines_of_checks_are_those_of_the_study(content):
-    sheet = read_workbook(content)["Checks"]
-    checks = [(row, check) for row in STUDY.rows for check in row.checks]
-    for shown, (row, check) in zip(read_checks(sheet), checks, strict=True):
-        assert (shown.row, shown.name) == (row.id, show_check(ENGLISH, check))
-        assert shown.verdict == ENGLISH(f"verdict.{check.verdict}")
-        assert ENGLISH.show(check.reason) in shown.told
-        used = (check.used_band[0], check.used, check.used_band[1])
-        assert shown.used == tuple("-" if one is None else one for one in used)
-        assert list(shown.steps) == [step.symbol for step in check.steps]
-        for step in check.steps:
-            line = shown.steps[step.symbol]
-            value = sheet[f"H{line}"].value
-            for end, number in zip(COLUMNS, step.ends, strict=True):
-                own = sheet[f"{COLUMNS[end]}{line}"].value
-                stored = "-" if number is None else pytest.approx(number, rel=LIMIT)
-                assert (value if own is None else own) == stored
-
-
 @pytest.mark.parametrize("name", ["built", "drawn", "example"])
 def test_numbers_of_a_block_follow_its_own_cells_and_no_verdict_does(
     name, studies, changes, fresh
@@ -189,21 +169,6 @@ def test_what_is_no_number_gives_no_utilisation(changes, fresh):
             assert shown.used[1] == "-", (check.id, changed[0])
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_every_verdict_is_text(language, books):
-    words = Words(language)
-    book = read_workbook(books["built", language], formulas=True)
-    summary, checks = book[words("heading.decision")], book[words("heading.checks")]
-    cells = [cell for line in summary.iter_rows() for cell in line]
-    cells += [cell for cell in checks["C"] if cell.value]
-    assert {cell.data_type for cell in cells} <= {"s", "n"}
-    lines = read_rows(summary, words("matrix.row"))
-    shown = [line[words("heading.verdict")] for line in lines]
-    assert shown == [words(f"verdict.{row.verdict}") for row in STUDY.rows]
-    assert summary["B3"].value == words(f"verdict.{STUDY.verdict}")
-    assert summary["C3"].value == words(f"meaning.{STUDY.verdict}")
-
-
 def test_first_sheet_has_the_largest_utilisation_of_each_anchor_as_a_number(content):
     sheet = read_workbook(content)["Decision"]
     for line, row in enumerate(STUDY.rows, 7):
@@ -215,28 +180,6 @@ def test_first_sheet_has_the_largest_utilisation_of_each_anchor_as_a_number(cont
                 continue
             assert cell.value == pytest.approx(rated.used, rel=LIMIT)
             assert VERDICTS[rated.verdict].symbol in cell.number_format
-
-
-def test_line_of_a_row_leads_to_its_first_check(content):
-    book = read_workbook(content)
-    for number, row in enumerate(STUDY.rows, 7):
-        place = book["Decision"][f"A{number}"].hyperlink.location.partition("!")[2]
-        cell = book["Checks"][place]
-        assert (cell.value, cell.font.b) == (row.id, True)
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_first_sheet_names_the_study_and_the_last_how_it_is_verified(
-    language, books
-):
-    sheets = list(read_workbook(books["built", language]))
-    first, last = (
-        [str(cell.value) for line in sheet.iter_rows() for cell in line]
-        for sheet in (sheets[0], sheets[-1])
-    )
-    assert any(compute_digest(STUDY) in text for text in first)
-    assert "netdesign verify --study study.json --site combe.xlsx" in last
-    assert Words(language)("heading.verify_report") in last
 
 
 WITH_FORMULAS = ("Checks",)

@@ -64,13 +64,6 @@ def test_decimal_commas_go_with_semicolons_and_in_quotes_with_commas(tmp_path):
     assert site.rows[0].layout.post_spacing == 3.5
 
 
-def test_decimal_commas_between_commas_are_refused(tmp_path):
-    path = write_all(tmp_path / "site", *(x.replace(";", ",") for x in (ROWS, NETS)))
-    write(path / "Project.csv", "item,value")
-    text_format = TextFormat(delimiter=",")
-    assert "has no heading above it" in refusal_of(path, text_format)
-
-
 def test_a_folder_of_files_is_a_workbook(tmp_path):
     folder = tmp_path / "site"
     folder.mkdir()
@@ -91,13 +84,6 @@ def test_names_survive_every_usual_encoding(tmp_path, encoding):
     folder = write_all(tmp_path / "site", rows)
     write(folder / "Net types.csv", nets, encoding)
     assert [row.net_height for row in read_site(folder).rows] == [3.5, 3.5]
-
-
-def test_a_declared_decimal_mark_settles_thousands(tmp_path):
-    path = write_all(tmp_path / "site", ROWS.replace("R1;38,5", "R1;38,500"))
-    assert "is ambiguous: 38.500 or 38500" in refusal_of(path)
-    site = read_site(path, TextFormat(decimal_mark=","))
-    assert site.rows[0].inputs[1].value == 38.5
 
 
 @pytest.mark.parametrize(

@@ -114,12 +114,6 @@ def test_a_unit_shown_is_the_heading_s_or_a_finding(book, name, column, field, s
     assert f"{unit}, the file holds" in str(finding.rule)
 
 
-@pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
-def test_the_heading_s_own_unit_may_be_shown(book, name, column, field):
-    edit = set_format(name, column, f'0.0" {field.unit}"')
-    assert book.read(edit).rows == book.read().rows
-
-
 @pytest.mark.parametrize("number_format", ["0%", '0.0"%"', "0.0,"])
 @pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
 def test_hundredths_and_thousands_are_findings(

@@ -83,22 +83,6 @@ def test_floats_as_programs_write_them_are_read_to_the_last_bit(number, mark):
     assert parse_number(repr(number).replace(".", mark), mark) == number
 
 
-@each(
-    "text, mark, number",
-    [
-        ("1,234", ",", 1.234),
-        ("1,234", ".", 1234.0),
-        ("1.234", ",", 1234.0),
-        ("1.234", ".", 1.234),
-        ("1 234,5", ",", 1234.5),
-        ("1.234.567", ",", 1234567.0),
-        ("12", ",", 12.0),
-    ],
-)
-def test_a_declared_decimal_mark_settles_what_is_ambiguous(text, mark, number):
-    assert parse_number(text, mark) == number
-
-
 @settings(max_examples=300)
 @given(st.text(alphabet="0123456789.,+- eEO m'", max_size=9))
 def test_text_without_groups_is_read_as_its_one_meaning_or_refused(text):

@@ -3,7 +3,7 @@ import re
 import pytest
 
 from netdesign.site.anchor_types import name_column
-from netdesign.site.columns.fields import find_item, split_heading
+from netdesign.site.columns.fields import find_item
 from netdesign.site.template.empty import describe_accepted
 from netdesign.structure.members import END_MODES, MEMBER_MODES
 from netdesign.words.catalogue import LANGUAGES
@@ -25,24 +25,6 @@ def test_every_member_and_mode_has_its_column():
         table = named[name_column(member)].refers_to
         units = [one.unit for one in FIELDS[table] if one.key == mode]
         assert units == ([] if mode == "compression" else ["kN"])  # by its section
-
-
-@each(
-    "heading, name, unit",
-    [
-        ("Slope angle [deg]", "slopeangle", "deg"),
-        ("  SLOPE-ANGLE (°) ", "slopeangle", "deg"),
-        ("Épaisseur de neige [m]", "epaisseurdeneige", "m"),
-        ("Fussanker", "fussanker", ""),
-        ("Fußanker", "fussanker", ""),
-        ("density [kg/m³]", "density", "kg/m3"),
-        ("net stiffness [KN / ml]", "netstiffness", "kN/m"),
-        ("snow height (vertical) [m]", "snowheightvertical", "m"),
-        ("x" * 101, "", ""),
-    ],
-)
-def test_headings_are_split_without_case_accents_or_spaces(heading, name, unit):
-    assert split_heading(heading) == (name, unit)
 
 
 @each("language", LANGUAGES)

@@ -6,7 +6,6 @@ from netdesign.site.columns.fields import (
     UNCLEAR_UNITS,
     convert_unit,
     normalise_unit,
-    to_si,
 )
 from tests.each import each
 from tests.site.columns.fields import FIELDS, QUANTITIES
@@ -54,23 +53,6 @@ def test_units_are_folded_to_one_spelling(typed, unit):
 )
 def test_conversions_by_hand(value, unit, first, result):
     assert convert_unit(value, unit, first) == pytest.approx(result, rel=1e-15)
-
-
-@each(
-    "value, unit, si",
-    [
-        *((-5.0, "degC", 268.15), (180.0, "deg", math.pi), (2.0, "m", 2.0)),
-        *((2.0, "kN", 2000.0), (2.0, "kN/m", 2000.0)),
-        (28.0, "mm", 0.028),
-        (34.0, "cm2", 0.0034),
-        (318.0, "cm4", 3.18e-6),
-        (235.0, "MPa", 235e6),
-        (250.0, "kPa", 250e3),
-        (1.5, "d", 129_600.0),
-    ],
-)
-def test_first_units_become_si(value, unit, si):
-    assert to_si(value, unit) == pytest.approx(si, rel=1e-14)
 
 
 def test_every_unit_of_every_column_can_be_converted_and_is_clear():

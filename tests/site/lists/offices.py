@@ -77,4 +77,4 @@ def _load(sheets, **of_list):
 
 _KEPT = Path(__file__).with_name("offices.toml").read_text(encoding="utf-8")
 OFFICES = tuple(_load(**one) for one in tomllib.loads(_KEPT).values())
-TYROL, VALAIS, _, CONSULTANT, GRISONS = OFFICES
+TYROL, VALAIS, _, CONSULTANT, _ = OFFICES

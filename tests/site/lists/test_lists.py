@@ -16,7 +16,7 @@ from netdesign.site.reader import read_site
 from netdesign.site.template.example import write_site_workbook
 from netdesign.site.titles import name_map
 from tests.site.lists.answer import answer_list
-from tests.site.lists.offices import CONSULTANT, GRISONS, OFFICES, TYROL, VALAIS
+from tests.site.lists.offices import CONSULTANT, OFFICES, TYROL, VALAIS
 
 
 def number(text):
@@ -94,39 +94,6 @@ def test_each_input_names_its_cell_in_the_list(sites):
         assert f"Werke!J{net}" in found
 
 
-def test_a_what_if_names_a_cell_of_the_list(tmp_path):
-    path = TYROL.write(tmp_path)
-    answer_list(TYROL, path)
-    site = read_site(path, instead={"Werke!E4": "40"})
-    assert math.degrees(site.rows[0].slope_angle) == pytest.approx(40.0)
-    assert site.what_if[0].cell == "Werke!E4"
-
-
-def list_values(row):
-    """What a row says, without the cells it stands in."""
-    types = [(one.member, one.mode, one.type_id) for one in row.resistances]
-    values = (row.id, row.slope_angle, row.snow_thickness, row.upslope_length)
-    return (*values, row.net_height, row.glide_factor, row.altitude, row.layout, types)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_the_order_of_columns_does_not_count(seed, sites, tmp_path):
-    draw = random.Random(seed)
-    sheet = GRISONS.sheets[0]
-    order = list(range(len(sheet.headings)))
-    draw.shuffle(order)
-    names = list(sheet.headings.items())
-    moved = replace(
-        sheet,
-        headings=dict(names[one] for one in order),
-        lines=tuple(tuple(line[one] for one in order) for line in sheet.lines),
-    )
-    other = replace(GRISONS, sheets=(moved, *GRISONS.sheets[1:]))
-    again = read_answered(other, tmp_path)
-    for one, two in zip(sites[GRISONS.file].rows, again.rows, strict=True):
-        assert list_values(one) == list_values(two)
-
-
 @pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
 def test_answers_are_kept_when_it_is_mapped_again(office, tmp_path):
     path = office.write(tmp_path)
@@ -154,28 +121,12 @@ def test_answers_that_are_missing_are_named_in_a_line_a_sheet(office, tmp_path):
     assert sum(f'"{name}"' in told for name in names[:12]) == len(names[:12])
 
 
-BOOKS = [one for one in OFFICES if one.file.endswith(".xlsx")]
-
-
 def find_cell(office, path, meaning, line):
     """Address of a cell in a line of the first sheet, from 0."""
     (sheet, *_), tables = office.sheets, read_list_map(path).tables
     column = 1 + list(sheet.headings.values()).index(meaning)
     row = tables[sheet.name].headings_in_line + bool(sheet.units) + 1 + line
     return f"{name_column(column)}{row}"
-
-
-@pytest.mark.parametrize("office", BOOKS, ids=lambda one: one.file)
-@pytest.mark.parametrize("meaning", ["rows.altitude", "rows.glide_factor"])
-def test_cells_merged_over_lines_are_refused_by_their_range(office, meaning, tmp_path):
-    path = office.write(tmp_path)
-    answer_list(office, path)
-    first, last = (find_cell(office, path, meaning, line) for line in (1, 2))
-    book = openpyxl.load_workbook(path)
-    book.worksheets[0].merge_cells(f"{first}:{last}")
-    book.save(path)
-    with pytest.raises(SiteDataError, match=f"{first}:{last}"):
-        read_site(path)
 
 
 @pytest.mark.parametrize("meaning", ["rows.slope_angle", "net_types.net_height"])

@@ -42,17 +42,3 @@ def test_every_row_is_compared_with_the_limits_of_its_net_type(tmp_path_factory,
             (leaf,) = list_maker_leaves(row, STANDARD, f"{side}_anchor")
             assert leaf.value == pytest.approx(net[f"maker_{side}"], rel=1e-12)
             assert leaf.source.startswith("Net types!")
-
-
-def test_a_limit_left_empty_proves_nothing(tmp_path):
-    tables = draw_tables(6211)
-    for net in tables["net_types"]:
-        net["altitude_most"] = None
-        net["glide_most"], net["spacing_most"] = 3.2, 9.0
-    write_site(tmp_path / "site.xlsx", tables)
-    site = read_site(tmp_path / "site.xlsx")
-    for row in site.rows:
-        basis = Basis(
-            site=site, row=row, standard=STANDARD, law=next(iter(CREEP_LAWS.values()))
-        )
-        assert [one.verdict for one in check_limits(basis)] == [Verdict.NOT_PROVEN]

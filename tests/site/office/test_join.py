@@ -1,16 +1,13 @@
 """Rows and net types, joined: what is typed is what a net row has."""
 
 import math
-from dataclasses import replace
 
 import pytest
 
 from netdesign.cable.sag import find_slack
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.office import load_columns, load_plan
-from netdesign.site.office.rows import join_rows
 from netdesign.site.reader import read_site
-from netdesign.site.readings import read_nothing
 from netdesign.structure.members import NetPart
 from tests.each import each
 from tests.make import find_cell, lay_out, read_tables, write_sheets, write_site
@@ -167,15 +164,6 @@ def test_a_unit_cell_has_to_say_what_is_measured(tmp_path):
     assert {one.cell[:1] for one in refused.value.findings} == {"ABCDEF"[column]}
 
 
-@each("language, word", [("en", "free"), ("fr", "libre"), ("de", "frei")])
-def test_snow_may_glide_freely(tmp_path, language, word):
-    tables = draw_tables(4)
-    tables["rows"][1]["glide_factor"] = word
-    site = read_site(write_site(tmp_path / "site.xlsx", tables, language))
-    kinds = [row.ground.kind for row in site.rows]
-    assert kinds == ["sliding", "free", "sliding", "sliding"]
-
-
 def test_other_types_may_stand_at_the_ends():
     tables = draw_tables(6)
     inside, other = (one["id"] for one in tables["anchor_types"][:2])
@@ -213,28 +201,6 @@ def find_tests(row):
     )
 
 
-WAYS = [("report", "computed"), ("calculated", "computed"), (None, "computed")]
-
-
-@each("proven, basis", WAYS)
-def test_a_pull_out_force_is_known_in_one_way(proven, basis):
-    tables = draw_tables(8)
-    anchor = tables["anchor_types"][0]
-    for key in ("test_count", "test_mean", "proven"):
-        del anchor[key]
-    if proven:
-        anchor["proven"] = proven
-    for line in tables["rows"]:
-        line["foot_anchor"] = anchor["id"]
-    site = read_tables(tables)
-    known = next(
-        one
-        for one in site.rows[0].resistances
-        if (one.member, one.mode) == ("foot_anchor", "pull_out")
-    )
-    assert (known.basis, known.value) == (basis, 1e3 * anchor["pull_out"])
-
-
 def test_a_word_declares_several_checks_of_several_rows():
     tables = draw_tables(11)
     document = {"document": "EX-G7", "author": "B. Example"}
@@ -243,25 +209,3 @@ def test_a_word_declares_several_checks_of_several_rows():
     assert {one.row_id for one in site.declared} == {"A1", "A3"}
     assert {one.mode for one in site.declared} == {"bearing", "sliding"}
     assert {one.proof.document for one in site.declared} == {"EX-G7"}
-
-
-def test_the_ground_of_the_wedge_is_that_of_the_type():
-    tables = draw_tables(12)
-    tables["soils"] = [
-        {"ground": "till", "soil_cohesion": 5, "soil_friction": 32, "soil_weight": 20},
-        {"ground": "scree", "soil_cohesion": 0, "soil_friction": 38, "soil_weight": 19},
-    ]
-    site = read_tables(tables)
-    soil = dict(site.rows[0].anchors)["foot_anchor"].soil
-    assert (soil.cohesion, soil.weight) == (5e3, 20e3)
-
-
-def test_a_row_shows_every_column_of_its_line_and_of_its_net_type():
-    """Also a column of `office.toml` that nothing calculates with."""
-    line, net, project = (
-        {one.field.key: read_nothing(one.field, None) for one in load_columns(table)}
-        for table in ("rows", "net_types", "project")
-    )
-    line["aspect"] = read_nothing(replace(line["id"].field, key="aspect"), None)
-    (row,) = join_rows([line], {"": net}, project, "", [])
-    assert {*line, *net} <= row.keys()

@@ -6,7 +6,6 @@ import pytest
 
 from netdesign.cable.sag import find_slack
 from netdesign.outcome import SiteDataError
-from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.reader import read_site
 from tests.each import each
 from tests.make import find_cell, write_site
@@ -79,15 +78,6 @@ def test_a_range_that_nothing_searches_is_refused(tmp_path, key, ends):
     path, tables = write_ranged(tmp_path, 7, **{key: ends})
     number = [net[key] for net in tables["net_types"]].index(ends)
     assert list_places(path) == {find_cell("net_types", key, number)}
-
-
-def test_all_that_may_range_is_searched_at_once(tmp_path):
-    cells = {"glide_factor": (1.6, 2.2), "upslope_length": (14, 21)}
-    cells |= {"snow": (2.0, 2.3), "slack": (3, 6), "net_stiffness": (3000, 9000)}
-    path, _ = write_ranged(tmp_path, 8, **cells)
-    site = read_site(path)
-    every = site.ranges.replaced_by(site.rows[0].ranges)
-    assert len(every.axes) == 8 <= MOST_PARAMETERS
 
 
 def test_ends_are_in_order(tmp_path):

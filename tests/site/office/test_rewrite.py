@@ -145,17 +145,6 @@ def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
     assert len(site.rows) == len(lines["Nets"])
 
 
-def test_types_with_the_same_values_are_one_net_type(tmp_path):
-    lines = copy.deepcopy(load_example())
-    first = lines["Nets"][0]
-    lines["Nets"] = [first, {**first, "id": "R8"}, {**first, "id": "R9", "slack": 0.09}]
-    lines["Ends"] = []
-    lines["Declared"] = []
-    _, new = write_again(tmp_path, lines)
-    nets = {row.id: (row.net_height, row.slack) for row in new.rows}
-    assert nets["R8"] == nets[first["id"]] != nets["R9"]
-
-
 def test_a_list_of_an_office_is_mapped(tmp_path):
     net = {"id": "L1", "slope_angle": 35, "snow_thickness": 3, "glide_factor": 1.8}
     net |= {"net_height": 3, "post_spacing": 3.5, "foot_anchor": "N32"}
@@ -204,12 +193,3 @@ def test_a_workbook_of_today_is_no_old_one(tmp_path):
     path.write_bytes(render_input(made.tables, "en", (), made.measures))
     assert read_old(path, UNDECLARED) is None
     assert [row.layout for row in read_site(path).rows] == [x.layout for x in site.rows]
-
-
-@each("language", LANGUAGES)
-def test_a_range_line_without_numbers_is_no_loss(tmp_path, language):
-    lines = draw_lines(3)
-    lines["Ranges"] = [{"quantity": one["quantity"]} for one in lines["Ranges"]]
-    made, site = write_again(tmp_path, lines, language)
-    assert not any("Ranges!" in render(one, language) for one in made.done)
-    assert site.rows

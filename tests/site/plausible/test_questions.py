@@ -3,14 +3,11 @@
 import math
 import random
 
-import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
-from netdesign.site.template.annotate import annotate_workbook
-from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from tests.each import each
 from tests.make import find_cell, load_tables, read_tables, write_site
@@ -123,20 +120,6 @@ def test_a_confirmation_that_does_not_hold_is_refused(tmp_path, line, key, told)
     found = [one for one in caught.value.findings if one.severity == "error"]
     places = {f"{one.sheet}!{one.cell}": str(one.rule) for one in found}
     assert told in places[find_cell("declared", key)]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_questions_are_marked_in_the_copy(language, tmp_path):
-    path = write_site(tmp_path / "site.xlsx", alter(two_rows(), SLIP, 200))
-    site = read_site(path)
-    (tmp_path / "copy.xlsx").write_bytes(
-        annotate_workbook(path, site.findings, language=language)
-    )
-    copy = openpyxl.load_workbook(tmp_path / "copy.xlsx")
-    sheet, _, cell = CELL.partition("!")
-    assert "100" in copy[sheet][cell].comment.text
-    assert f"{CELL} = 200" in render(site.questions[0], language)
 
 
 def test_bounds_are_wider_than_what_is_usual():

@@ -12,7 +12,6 @@ from netdesign.site.reader import read_site
 from netdesign.site.template.example import load_input_example
 from netdesign.site.template.office_workbook import WITH, render_input
 from tests.each import each
-from tests.site.office.drawn import draw_tables
 
 LANGUAGES = ("en", "fr", "de")
 ALL = tuple(WITH)
@@ -67,22 +66,6 @@ def test_an_empty_form_asks_for_rows_alone(tmp_path, language):
         read_site(path)
     errors = [one for one in refused.value.findings if one.severity == "error"]
     assert {one.rule.key for one in errors} == {"nets.no_row"}
-
-
-@each("seed, language", [(n, LANGUAGES[n % 3]) for n in range(6)])
-def test_what_is_written_is_read_again(tmp_path, seed, language):
-    tables = draw_tables(seed)
-    for key in ("density", "friction_angle", "inclination"):  # ranges as tuples
-        del tables["project"][0][key]
-    measures = {("net_types", "slack"): "slack"}
-    content = render_input(tables, language, measures=measures)
-    site = read_site(write(tmp_path / "site.xlsx", content))
-    for line, row in zip(tables["rows"], site.rows, strict=True):
-        (net,) = (one for one in tables["net_types"] if one["id"] == line["net_type"])
-        assert row.id == line["id"]
-        assert row.slack == pytest.approx(net["slack"] / 100)
-        assert row.altitude == line["altitude"]
-        assert row.guys.are_shared is (net["guy_anchors"] == "shared")
 
 
 @each("language", LANGUAGES)
