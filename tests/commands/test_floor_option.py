@@ -1,7 +1,6 @@
 """``check --floor``: against the profile, said wherever a verdict is read."""
 
 import json
-import re
 
 import pytest
 
@@ -9,7 +8,6 @@ from netdesign.words.catalogue import load_texts
 from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet")
-OWN = re.compile(r'^load\.floor = "guideline"', re.M)
 
 
 @pytest.fixture
@@ -57,18 +55,3 @@ def test_a_study_cannot_say_that_its_floor_was_chosen(site, call):
         refused = call("report", "a/study.json", "--site", "site.xlsx", "--out", "b")
         assert refused.code != 0
         assert not (site / "b").exists()
-
-
-def test_the_guideline_may_be_asked_of_a_profile_without_it(site, call):
-    assert call("standards", "copy", "eurocode", "mine").code == 0
-    place = site / "mine" / "document.toml"
-    text = place.read_text(encoding="utf-8")
-    own = OWN.sub('load.floor = "none"', text)
-    assert own != text
-    place.write_text(own, encoding="utf-8")
-    own = call("check", "site.xlsx", *QUICK, "--standard", "mine", "--out", "a",
-               "--floor", "guideline", "--no-excel")  # fmt: skip
-    assert own.code in (0, 1, 4), own.err
-    profile = read_profile(site / "a")
-    assert (profile["floor"], profile["is_floor_overruled"]) == ("guideline", True)
-    assert "swiss-guideline-2007" in own.out

@@ -155,11 +155,16 @@ def open_page(page: str, folder, *arguments: str) -> str:
     """What the browser prints of a page."""
     path = folder / "page.html"
     path.write_text(page, encoding="utf-8")
+    return run_browser(path, *arguments).stdout
+
+
+def run_browser(path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """The browser's run on a page, with a profile beside it."""
     return subprocess.run(
         [
             require_program(*NAMES),
             *_QUIET,
-            f"--user-data-dir={folder}/profile",
+            f"--user-data-dir={path.parent}/profile",
             *arguments,
             path.as_uri(),
         ],
@@ -167,4 +172,4 @@ def open_page(page: str, folder, *arguments: str) -> str:
         text=True,
         timeout=120,
         check=True,
-    ).stdout
+    )

@@ -246,3 +246,38 @@ def test_reordered_rows_are_told():
     (change,) = compare_studies(old, replace(old, rows=old.rows[::-1]))
     assert change.area == "other"
     assert str(change) == "2 values differ in all"
+
+
+def turn_one(study, *, row, check, verdict, **given):
+    """The same study with another verdict of one check."""
+    rows = list(study.rows)
+    checks = list(rows[row].checks)
+    checks[check] = turn(checks[check], verdict, **given)
+    rows[row] = replace(rows[row], checks=checks)
+    return replace(study, rows=rows)
+
+
+def test_lost_passes_stand_before_all_other_turns():
+    old = build_study()
+    fails = next(i for i, c in enumerate(old.rows[1].checks) if c.verdict == "fail")
+    new = turn_one(old, row=1, check=fails, verdict=Verdict.NOT_PROVEN, utilisation=1)
+    new = turn_one(new, row=2, check=0, verdict=Verdict.NOT_PROVEN)
+    new = turn_one(new, row=2, check=3, verdict=Verdict.FAIL)
+    turns = [(c.old, c.new) for c in compare_studies(old, new) if c.is_turned]
+    lost, *worse, gained = turns
+    assert (lost, gained) == (("pass", "not_proven"), ("fail", "not_proven"))
+    assert worse == [("not_proven", "fail")] * 2  # check and row
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_got_worse_stands_before_what_is_gone(way):
+    """The verdict of the study is the first of all."""
+    changes = compare_studies(*change_much()[::way])
+    verdicts = [one for one in changes if one.area == "verdict"]
+    assert changes[: len(verdicts)] == verdicts
+    assert (verdicts[0].row, verdicts[0].name(ENGLISH)) == ("", "verdict")
+    ways = [(one.old, one.new) for one in verdicts[1:]]
+    gone = next(place for place, (_, new) in enumerate(ways) if new is None)
+    worse = [k for k, (_, new) in enumerate(ways) if new in ("fail", "not_proven")]
+    assert worse
+    assert all(place < gone for place in worse)

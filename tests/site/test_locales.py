@@ -47,13 +47,6 @@ def is_taken_or_refused(typed_number):
 
 
 @pytest.mark.long
-@settings(max_examples=10_000)
-@given(typed_numbers())
-def test_ten_thousand_numbers_are_the_ones_typed_or_refused(typed_number):
-    assert is_taken_or_refused(typed_number)
-
-
-@pytest.mark.long
 @settings(max_examples=1000)
 @given(typed_numbers())
 def test_with_the_decimal_mark_declared_every_number_is_taken(typed_number):

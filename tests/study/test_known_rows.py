@@ -1,13 +1,10 @@
 """Judged rows from the store: exactly what a new run would make, or made anew."""
 
-import copy
 import math
 import random
 import sqlite3
-from collections.abc import Mapping
 from contextlib import closing
-from dataclasses import dataclass, fields, is_dataclass, replace
-from datetime import date, timedelta
+from dataclasses import dataclass, replace
 
 import pytest
 
@@ -23,9 +20,9 @@ from netdesign.study.check_site import check_site
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
-from netdesign.study.side_by_side import cut_site, name_rows
+from netdesign.study.side_by_side import name_rows
 from tests.make import find_cell, load_rows, write_rows
-from tests.small_site import ROWS, RUN, WEAK, build_row, build_site, resist
+from tests.small_site import RANGES, ROWS, RUN, WEAK, build_row, build_site, resist
 
 STANDARDS = [load_standard(name) for name in ("nf-p-95-304-style", "eurocode")]
 DRAWS = 24
@@ -163,53 +160,6 @@ def test_a_row_is_judged_on_its_part_of_the_site_alone():
     assert check_site(site, STANDARDS[:1], RUN) == [whole]
 
 
-def list_leaves(value, way=()):
-    """Ways to every plain value in a value, through fields, members and keys."""
-    if is_dataclass(value):
-        parts = [(one.name, getattr(value, one.name)) for one in fields(value)]
-    elif isinstance(value, Mapping):
-        parts = list(value.items())
-    elif isinstance(value, tuple | list) and value:
-        parts = list(enumerate(value))
-    else:
-        return [way]
-    return [leaf for key, part in parts for leaf in list_leaves(part, (*way, key))]
-
-
-def alter(value, way):
-    """Copy of a value in which the one at the end of a way is another one."""
-    if not way:
-        return alter_plain(value)
-    key, *rest = way
-    if is_dataclass(value):
-        other = copy.copy(value)
-        object.__setattr__(other, key, alter(getattr(value, key), rest))
-        return other
-    if isinstance(value, Mapping):
-        return {**value, key: alter(value[key], rest)}
-    return type(value)([*value[:key], alter(value[key], rest), *value[key + 1 :]])
-
-
-def alter_plain(value):
-    if isinstance(value, bool):
-        return not value
-    if isinstance(value, str | bytes | tuple | list | Mapping):
-        return "x" if not value else value[:-1] if len(value) > 1 else value * 2
-    if isinstance(value, date):
-        return value + timedelta(days=1)
-    return "x" if value is None else math.nextafter(value, 0.0) or 5e-324
-
-
-def test_a_confirmed_number_is_in_the_part_and_in_the_name_of_a_row(tmp_path):
-    """Where nobody confirms it, a check that rests on it is not proven."""
-    write_rows(tmp_path / "site.xlsx", ["R5"])
-    plain = replace(read_site(tmp_path / "site.xlsx"), confirmed=())
-    said = replace(plain, confirmed=("Parts!H24",))
-    assert cut_site(said, said.rows[0]).confirmed == said.confirmed
-    names = [name_rows(one, STANDARDS, RUN)["R5"] for one in (plain, said)]
-    assert names[0] != names[1]
-
-
 @dataclass(frozen=True, kw_only=True)
 class Scatter:
     """What an add-on reads of its sheet."""
@@ -220,38 +170,41 @@ class Scatter:
     period: float | None = None
 
 
-def test_every_value_of_its_part_is_in_the_name_of_a_row(tmp_path, quick_names):
-    """60 drawn from all plain values of a row's part, two profiles and the settings."""
+def test_whatever_decides_a_row_is_in_its_name(tmp_path, quick_names):
+    """Its own values, those of the site that bear on it, profiles and settings."""
     write_rows(tmp_path / "site.xlsx", ["R5"])
-    site = read_site(tmp_path / "site.xlsx")
+    site = replace(read_site(tmp_path / "site.xlsx"), confirmed=())
+    (row,), (profile, other) = site.rows, STANDARDS
     scatter = Scatter(row_id="R5", name="model", variation=0.11)
-    typed = replace(site, of_addons={"Uncertainty": (scatter,)})
-    part = cut_site(typed, site.rows[0])
-    decides = [part, STANDARDS, RUN.settings, RUN.creep_law]
-    ways = [way for way in list_leaves(decides) if way[:2] != (0, "project")]
-    beside = {(0, one) for one in ("file_name", "sha256", "text_format")}
-    ways = [way for way in ways if way[:2] not in beside]
-    ways = [way for way in ways if way[-1:] != ("id",) or way[0] != 0]
-    ways = [way for way in ways if way[:2] not in UNSEEN]
-    assert len(ways) > 1000
-    drawn = random.Random(1117).sample(ways, 60)
-
-    def name(values):
-        site, standards, settings, law = values
-        run = replace(RUN, settings=settings, creep_law=law)
-        return name_rows(site, standards, run)["R5"]
-
-    names = {name(decides)} | {name(alter(decides, way)) for way in drawn}
-    assert len(names) == 1 + len(set(drawn))
-
-
-# What a site has beside its rows, and a row's part leaves out.
-UNSEEN = {
-    (0, name)
-    for name in ("notes", "findings", "range_inputs", "project_cells", "map_file",
-                 "map_sha256", "library_file", "library_sha256", "what_if",
-                 "declared", "text_format")
-}  # fmt: skip
+    again = replace(scatter, variation=math.nextafter(0.11, 1.0))
+    weaker = replace(profile.values[0], value=0.99 * profile.values[0].value)
+    altered = replace(profile, values=(weaker,))
+    sites = [
+        site,
+        *(replace(site, rows=(replace(row, **one),)) for one in (
+            {"slack": math.nextafter(row.slack, 1.0)}, {"gap": 0.37},
+            {"resistances": row.resistances[1:]}, {"row_end": None}, {"panels": ()},
+        )),
+        replace(site, catalogue=site.catalogue[1:]),
+        replace(site, links={}),
+        replace(site, confirmed=("Parts!H24",)),
+        replace(site, ranges=site.ranges.replaced_by(RANGES)),
+        *(replace(site, of_addons={"Uncertainty": (x,)}) for x in (scatter, again)),
+    ]  # fmt: skip
+    profiles = (
+        [profile],
+        [other, profile],
+        [altered, other],
+    )
+    runs = (
+        {"settings": replace(RUN.settings, accuracy=0.02)},
+        {"creep_law": replace(RUN.creep_law, source="x")},
+        {"has_reliability": True},
+    )
+    cases = [(one, STANDARDS, RUN) for one in sites]
+    cases += [(site, one, RUN) for one in profiles]
+    cases += [(site, STANDARDS, replace(RUN, **one)) for one in runs]
+    assert len({name_rows(*one)["R5"] for one in cases}) == len(cases)
 
 
 def test_time_and_processes_are_no_part_of_a_name(quick_names):
