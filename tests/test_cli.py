@@ -8,10 +8,7 @@ import sys
 
 import pytest
 
-from netdesign.checks import load_standard
 from netdesign.edge.input_files import find_resource
-from netdesign.site.reader import read_site
-from netdesign.site.template.example import load_input_example
 from netdesign.words.message import say
 from tests.make import find_cell, write_rows, write_tiny
 from tests.program import QUICK, call_program, spoilt_program, start_program
@@ -207,24 +204,6 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
 # --- bugs, interrupts, closed pipes ------------------------------------------------
 
 
-def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path, monkeypatch):
-    def search(*_):
-        raise ZeroDivisionError("spoilt")
-
-    for module in ("check_site", "side_by_side"):
-        monkeypatch.setattr(f"netdesign.study.{module}.search_site", search)
-    command = ("check", home / "site.xlsx", "--no-cache", *QUICK)
-    result = call_program(*command, cwd=tmp_path)
-    assert result.code == 5
-    assert "internal error, please report it: ZeroDivisionError: spoilt" in result.err
-    assert "Traceback" not in result.err
-    assert result.out == ""
-    assert listing(tmp_path) == set()
-    asked = call_program(*command, cwd=tmp_path, NETDESIGN_TRACEBACK="1")
-    assert asked.code == 5
-    assert "Traceback" in asked.err
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
@@ -250,19 +229,6 @@ def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
 
 
 # --- init --------------------------------------------------------------------------
-
-
-def test_init_example_reads_back_as_the_example(tmp_path):
-    result = call_program("init", "site.xlsx", "--example", cwd=tmp_path)
-    assert result.code == 0, result.err
-    assert "wrote site.xlsx" in result.err
-    site = read_site(tmp_path / "site.xlsx")
-    assert [row.id for row in site.rows] == [
-        line["id"] for line in load_input_example()["rows"]
-    ]
-    counted = call_program("check", "site.xlsx", "--dry-run", cwd=tmp_path)
-    assert counted.code == 0
-    assert "site.xlsx: 8 net rows, about " in counted.out
 
 
 # --- report ------------------------------------------------------------------------
@@ -291,24 +257,6 @@ def test_report_renders_the_same_page_without_a_solver_and_says_so(
     }
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (None, "cannot be read"),
-        (b"\xff\xfe", "cannot be read"),
-        (b"{}", "schema: "),
-        (b"no json", "is not JSON, or ends too early (line 1, column 2)"),
-    ],
-)
-def test_report_refuses_what_is_no_study(tmp_path, content, message):
-    if content is not None:
-        (tmp_path / "study.json").write_bytes(content)
-    result = call_program("report", "study.json", cwd=tmp_path)
-    assert result.code == 3
-    assert message in result.err
-    assert listing(tmp_path) <= {"study.json"}
-
-
 # --- standards ---------------------------------------------------------------------
 
 
@@ -321,22 +269,6 @@ def test_standards_shows_every_value_with_its_status(tmp_path, study):
     for value in own:
         line = f"{value['id']} = {round(value['value'], 5):g} {value['unit']}"
         assert f"{line}  [{value['status']}]" in result.out
-
-
-def test_standards_validates_a_folder(tmp_path):
-    own = tmp_path / "mine"
-    shutil.copytree(find_resource("standards") / PROFILE, own)
-    result = call_program("standards", "validate", "mine", cwd=tmp_path)
-    assert result.code == 0
-    count = len(load_standard(PROFILE).values)
-    assert result.out.startswith(f"{PROFILE}: version 3, {count} values, 2 tables")
-    factors = own / "factors.toml"
-    text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
-    factors.write_text(text + "colour = 1\n", encoding="utf-8")
-    refused = call_program("standards", "validate", "mine", cwd=tmp_path)
-    assert refused.code == 3
-    assert "-1.35" in refused.err
-    assert "colour" in refused.err
 
 
 def test_standards_copy_starts_a_profile_of_ones_own(tmp_path):

@@ -1,6 +1,5 @@
 """A check that is run again: rows from the store, the same files to the last byte."""
 
-import random
 from types import SimpleNamespace
 from unittest import mock
 
@@ -78,29 +77,6 @@ def test_its_own_files_are_replaced_and_no_others(place, call, judged):
     assert "study.json" not in refused.err
     assert page.read_text(encoding="utf-8") == "signed"
     assert judged == ["R1.1"]
-
-
-@pytest.mark.robustness
-def test_drawn_changes_never_bring_bytes_that_are_not_theirs(place, call, monkeypatch):
-    """Drawn sites, options and variables through one store, each beside a bare run.
-
-    Two minutes: ``python -m pytest -m robustness tests/commands/test_check_again.py``.
-    """
-    drawn = random.Random(24)
-    nets = (place / "site" / "Rows.csv").read_text(encoding="utf-8")
-    for k in range(60):
-        thickness = drawn.choice(["2.5", "2.41"])
-        changed = nets.replace(",2.5,", f",{thickness},", 1)
-        (place / "site" / "Rows.csv").write_text(changed, encoding="utf-8")
-        monkeypatch.setenv("OMP_NUM_THREADS", drawn.choice("12"))
-        asked = [*SITE, "--language", drawn.choice(["en", "de"])]
-        asked += drawn.choice([["--annexes"], []])
-        asked += [one for one in ("--csv", "--no-html") if drawn.random() < 0.5]
-        ended = call(*asked, "--out", f"kept{k}")
-        bare = call(*asked, "--out", f"bare{k}", "--no-cache")
-        assert (ended.out, ended.code) == (bare.out, bare.code)
-        kept = read_outputs(place / f"kept{k}")
-        assert kept == read_outputs(place / f"bare{k}"), asked
 
 
 # --- fault 19: a name of a file with signs that steer a terminal ----------------------

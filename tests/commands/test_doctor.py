@@ -37,13 +37,3 @@ def test_a_fault_is_told_and_ends_with_5(call, monkeypatch, broken):
     assert ended.code == 5
     (fault,) = [line for line in ended.out.splitlines() if line.startswith("FAULT")]
     assert "RuntimeError: out of order" in fault
-
-
-def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
-    def miss(name):
-        raise doctor.metadata.PackageNotFoundError(name)
-
-    monkeypatch.setattr(doctor.metadata, "version", miss)
-    ended = call("doctor")
-    assert ended.code == 5
-    assert "is missing" in ended.out

@@ -1,7 +1,6 @@
 """Help in groups, its short lists of options, and folders that stand for a study."""
 
 import shlex
-import shutil
 from itertools import groupby
 
 import click
@@ -79,13 +78,3 @@ def test_a_folder_stands_for_the_study_in_it(tmp_path, there, found):
     assert STUDY.convert(str(tmp_path), None, None) == tmp_path / found
     file = tmp_path / "any.json"
     assert STUDY.convert(str(file), None, None) == file
-
-
-def test_folders_are_shown_compared_and_verified(call, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    words = ("--row", "A4", "--accuracy", "0.1", "--jobs", "1", "--quiet", "--no-cache")
-    checked = call("check", "--example", *words, "--out", "a").code
-    shutil.copytree("a", "b")
-    assert call("diff", "a", "b").code == 0
-    assert call("report", "a", "--out", "c", "--no-excel").code == checked
-    assert call("verify", "b", "--jobs", "1").code == 4  # rows are left out

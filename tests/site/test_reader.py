@@ -4,9 +4,6 @@ import math
 import pytest
 
 from netdesign.site import net_rows
-from netdesign.snow.ground import (
-    LARGEST_GLIDE_FACTOR,
-)
 
 HEADINGS = 0
 FIRST, SECOND = 1, 2
@@ -50,14 +47,6 @@ def test_a_slip_length_can_be_redone_from_what_stands_beside_it(book, glide):
     formula, where = str(derivation).split(", between ")
     assert redo(formula) == pytest.approx(row.ground.slip_length, rel=1e-5)
     assert where.endswith("for boutillier-2004")
-
-
-def test_the_largest_glide_factor_is_that_of_the_table(book):
-    book.put("glide", LARGEST_GLIDE_FACTOR)
-    assert book.read().rows[0].glide_factor == LARGEST_GLIDE_FACTOR
-    book.put("glide", 3.35)
-    (finding,) = book.refuse()
-    assert "3.346" in str(finding.accepted)
 
 
 def test_a_resistance_left_empty_or_a_member_without_type_has_none(book):

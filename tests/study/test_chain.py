@@ -9,8 +9,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.outcome import Verdict
-from netdesign.resistance.ground import AnchorType, Soil, compute_wedge_resistance
-from netdesign.resistance.steel import find_loss, leave_area
+from netdesign.resistance.ground import AnchorType, Soil
 from netdesign.site.model import Resistance
 from netdesign.site.reader import read_site
 from netdesign.structure.members import Member
@@ -59,18 +58,6 @@ def change(resistances, member, **special):
     return tuple(
         replace(one, **special) if one.member == member else one for one in resistances
     )
-
-
-@pytest.mark.parametrize("years", [17, 50, 80, 100])
-def test_bar_loses_the_share_that_its_ground_takes_over_the_years(solved, years):
-    _, checks = judge(solved, design_life=years)
-    check = checks["foot_anchor.tendon"]
-    loss = find_loss("natural", years).value / 1e3
-    whole = 1100.0  # [kN], as typed
-    expected = whole * leave_area(0.050, 0.0, loss)
-    assert check.read("R_k") == pytest.approx(expected)
-    bent = checks["foot_anchor.bending"].read("R_k")
-    assert bent < judge(solved, design_life=1)[1]["foot_anchor.bending"].read("R_k")
 
 
 @each(
@@ -201,26 +188,6 @@ def stand_in(solved, cohesion):
     resistances = (*others, *held)
     study, checks = judge(solved, anchors=anchors, resistances=resistances)
     return study, checks, soil
-
-
-def test_ground_with_a_strength_is_checked_by_a_wedge_instead_of_a_cover(solved):
-    study, checks, soil = stand_in(solved, 61e3)
-    assert "cover" not in {one.key for one in study.conditions if one.value is None}
-    row = solved[0].rows[0]
-    pulls = {one.anchor: one for one in study.rows[0].pulls}
-    for anchor in (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR):
-        pull = pulls[anchor]
-        wedge = compute_wedge_resistance(
-            soil.reduce(1.25, 1.25),
-            depth=dict(row.anchors)[anchor].find_cover(math.radians(pull.axis_deg)),
-            width=row.layout.post_spacing,
-            slope=row.slope_angle * (-1 if "downhill" in anchor else 1),
-            least_pull=math.radians(pull.least_deg),
-            largest_pull=math.radians(pull.largest_deg),
-        )
-        check = checks[f"{anchor}.wedge"]
-        assert check.verdict is Verdict.PASS
-        assert check.resistance_kN == pytest.approx(wedge.value / 1e3, rel=1e-9)
 
 
 def test_ground_that_slides_by_itself_fails(solved):

@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope import run as running
@@ -90,24 +89,6 @@ def checks_of(study):
     return {check.id: check for check in study.rows[0].checks}
 
 
-@pytest.fixture(scope="module")
-def pair():
-    """The same row without and with a panel."""
-    return [judge(with_panel(one))[1] for one in ((), a_panel())]
-
-
-def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
-    plain, panel = map(checks_of, pair)
-    before, after = plain["uphill_guy.rope"], panel["uphill_guy.rope"]
-    assert after.governs == "panel"
-    assert after.demand_kN > 1.1 * before.demand_kN
-    assert "the panel between posts governs the design force" in str(after.reason)
-    assert after.read("E_s") == before.read("E_s")
-    foot = panel["foot_anchor.tendon"]
-    assert foot.governs in ("coupled", "guideline")
-    assert foot.demand_kN == plain["foot_anchor.tendon"].demand_kN
-
-
 def draw_row(rng, number):
     spacing = rng.uniform(2.6, 4.4)
     row = build_row(
@@ -190,17 +171,3 @@ def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
     weak = with_panel(a_panel(), resistances=resist(1e3))
     _, study = judge(weak, solve=solve_anew)
     assert study.verdict is Verdict.FAIL
-
-
-def test_the_panel_alone_leaves_a_guy_unproven():
-    """Between the demand by the section and that by the panel."""
-    plain = checks_of(judge(build_row("R1"))[1])["uphill_guy.rope"]
-    middle = 1.08 * plain.read_band("E_d")[1] * plain.read("γ_R") * 1e3
-    resistances = resist(uphill_guy__rope=middle)
-    verdicts = [
-        checks_of(judge(with_panel(one, resistances=resistances))[1])
-        for one in ((), a_panel())
-    ]
-    assert verdicts[0]["uphill_guy.rope"].verdict is Verdict.PASS
-    assert verdicts[1]["uphill_guy.rope"].verdict is Verdict.NOT_PROVEN
-    assert verdicts[1]["uphill_guy.rope"].utilisation > 1.0

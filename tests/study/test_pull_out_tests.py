@@ -65,18 +65,6 @@ def test_acceptance_follows_load_result_and_design_force():
     assert [line[-1].text for line in singles.rows] == ["no", "no", "open"]
 
 
-def test_no_proof_load_pulls_the_tendon_beyond_its_limit():
-    """500 kN with a loop of 0.8: at most 320 kN, whatever the anchor needs."""
-    row = ROW | {"foot": (60.0, 54.0)}
-    study = study_row("eurocode", tests=TESTS, **row)
-    (singles,) = show_tests(study, Words("en"))
-    cell = singles.rows[0][6]
-    assert (cell.number, cell.text) == (320.0, "320")
-    (line,) = [x for x in list_anchors(study) if x.member == "foot_anchor"]
-    assert line.proof_limit_kN == 320.0
-    assert "tendon" in line.notes
-
-
 def test_a_tendon_that_bears_less_than_the_ground_holds_is_told():
     """500 kN, loop 0.8, factor 1.5: 266.7 kN; five tests of 320 over 1.15: 278.3 kN."""
     strong = [(320.0, "held", None)] * 5

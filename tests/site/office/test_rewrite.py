@@ -6,7 +6,6 @@ import random
 import re
 import shlex
 
-import openpyxl
 import pytest
 
 from netdesign.outcome import SiteDataError
@@ -143,36 +142,6 @@ def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
     made, site = write_again(tmp_path, lines)
     assert all(-30 <= one.get("dip", 0) <= 90 for one in made.tables["anchor_types"])
     assert len(site.rows) == len(lines["Nets"])
-
-
-def test_a_list_of_an_office_is_mapped(tmp_path):
-    net = {"id": "L1", "slope_angle": 35, "snow_thickness": 3, "glide_factor": 1.8}
-    net |= {"net_height": 3, "post_spacing": 3.5, "foot_anchor": "N32"}
-    lines = {
-        "Nets": [net | {"altitude": 2050}],
-        "Anchors": [{"id": "N32", "tendon": 400, "pull_out": 320, "basis": "tested"}],
-        "Ranges": [{"quantity": "density", "unit": "kg/m3"}],
-    }
-    path = tmp_path / "old.xlsx"
-    write_old(path, lines)
-    made = rewrite(read_old(path, UNDECLARED), "en")
-    (row,), (net,) = made.tables["rows"], made.tables["net_types"]
-    assert row["net_type"] == net["id"]
-    assert made.measures["rows", "snow"] == "normal"
-    (anchor,) = made.tables["anchor_types"]
-    assert (anchor["pull_out"], anchor["proven"]) == (320.0, "tests")
-    assert re.fullmatch(r"D_K 3", net["id"])
-
-
-def test_a_column_that_nobody_knows_is_named(tmp_path):
-    path = write_old(tmp_path / "old.xlsx", load_example())
-    book = openpyxl.load_workbook(path)
-    sheet = book["Nets"]
-    column = sheet.max_column + 1
-    sheet.cell(1, column).value, sheet.cell(2, column).value = "exposition", "N"
-    book.save(path)
-    told = [render(x, "en") for x in rewrite(read_old(path, UNDECLARED), "en").done]
-    assert any('"exposition"' in one for one in told)
 
 
 @each("language", LANGUAGES)
