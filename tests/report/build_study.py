@@ -5,6 +5,8 @@ import random
 from dataclasses import MISSING, fields, replace
 from itertools import product
 
+import numpy as np
+
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.calculation.steps import list_steps
 from netdesign.checks import StandardValue
@@ -43,16 +45,12 @@ from netdesign.study.records import (
     VariantRecord,
 )
 from netdesign.words.message import Message, say
+from netdesign.words.names import as_given
 
 FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 ACTION_FACTOR, RESISTANCE_FACTOR = 1.5, 1.35
 ERROR = 0.004  # of every force
-
-
-def as_given(text):
-    """Somebody's own words as a message."""
-    return say("text.as_given", text=text)
 
 
 def build_study(*, samples: int = 3, rows: int = 3) -> Study:
@@ -129,16 +127,21 @@ def build_row(
     missing_resistance: bool = False,
 ) -> RowStudy:
     """One net row; ``scale`` moves its forces against fixed resistances."""
+    densities, frictions, inclinations = (
+        np.linspace(low, high, samples).tolist()
+        for low, high in ((250, 450), (15, 45), (25, 35))
+    )
     points = [
         CasePoint(density_kg_m3=d, friction_deg=f, inclination_deg=i)
-        for d, f, i in product(
-            spread(250, 450, samples), spread(15, 45, samples), spread(25, 35, samples)
-        )
+        for d, f, i in product(densities, frictions, inclinations)
     ]
-    cases = [build_case(point, scale) for point in points]
-    if failed_case:
-        cases[len(cases) // 2] = build_failed_case(points[len(points) // 2])
+    failing = len(points) // 2 if failed_case else None
+    cases = [
+        build_case(point, scale, fails=place == failing)
+        for place, point in enumerate(points)
+    ]
     extremes = [build_extreme(member, cases) for member in MEMBERS]
+    slack = replace(extremes[2], value_kN=0.0, low_kN=0.0, high_kN=0.0)
     checks = [
         build_check("foot_anchor", "tendon", extremes[0], 520.0),
         build_check("foot_anchor", "pull_out", extremes[0], 480.0),
@@ -150,9 +153,29 @@ def build_row(
             None if missing_resistance else 150.0,
         ),
         build_check("post", "compression", extremes[3], 420.0),
-        build_geometry_check(),
-        build_slack_check(extremes[2]),
+        Check(
+            id="geometry.inclination",
+            clause="4.4",
+            member="net",
+            mode="inclination",
+            met=Verdict.PASS,
+            finding=as_given("25° to 35° lies within 25° to 35°."),
+        ),
+        Check(
+            id="downhill_guy.rope",
+            clause="6.1",
+            member="downhill_guy",
+            mode="rope",
+            case=slack.case,
+            steps=list_steps(rate_force(slack, 180.0)),
+        ),
     ]
+    floor = fill(
+        FloorForceRecord,
+        member=MEMBERS[0],
+        force_kN=0.4 * extremes[0].value_kN / 1.1,
+        load_case="load_case_1",
+    )
     return RowStudy(
         id=name,
         checks=checks,
@@ -168,7 +191,7 @@ def build_row(
         drawing=build_drawing(extremes[0]),
         guideline=build_guideline(extremes[0]),
         model_form=build_model_form(extremes[0]),
-        floor=build_floor(extremes[0]),
+        floor=FloorRecord(profile="swiss-guideline-2007", forces=[floor]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
         pulls=[
             fill(PullRecord, anchor="foot_anchor", position="intermediate", kind="bar")
@@ -187,20 +210,6 @@ def fill(kind, /, **given):
         if one.name not in given and one.default in (MISSING, None, 0):
             given |= {one.name: drawn[type_]} if type_ in drawn else {}
     return kind(**given)
-
-
-def build_floor(extreme: LargestForce) -> FloorRecord:
-    """One member of a floor."""
-    force = fill(
-        FloorForceRecord,
-        member=extreme.quantity,
-        force_kN=0.4 * extreme.value_kN / 1.1,
-        load_case="load_case_1",
-    )
-    return FloorRecord(
-        profile="swiss-guideline-2007",
-        forces=[force],
-    )
 
 
 def build_independent() -> list[IndependentRecord]:
@@ -266,11 +275,6 @@ def build_reliability(check: str) -> ReliabilityRecord:
     )
 
 
-def spread(low: float, high: float, count: int) -> list[float]:
-    """``count`` evenly spaced values."""
-    return [low + (high - low) * step / (count - 1) for step in range(count)]
-
-
 def force(member: str, point: CasePoint, scale: float) -> float:
     """Made-up force law [kN], rising with density, dented by friction."""
     share = {"foot_anchor": 1.0, "uphill_guy": 0.55, "downhill_guy": 0.12, "post": 0.7}
@@ -280,26 +284,19 @@ def force(member: str, point: CasePoint, scale: float) -> float:
     return 300 * scale * share[member] * weight * dent * (1 + 0.3 * math.sin(lean))
 
 
-def build_case(point: CasePoint, scale: float) -> CaseRecord:
-    """Case with a result."""
+def build_case(point: CasePoint, scale: float, *, fails: bool) -> CaseRecord:
+    """Case with a result, or without one."""
+    forces = {f"{member}_kN": force(member, point, scale) for member in MEMBERS}
+    errors = {
+        "error_percent": 100 * ERROR * point.density_kg_m3 / 450,
+        "balance_residual": 3.1e-10 * point.friction_deg,
+    }
+    known = forces | errors
     return CaseRecord(
         case=point,
-        outcome=Outcome.CONVERGED,
-        reason=None,
-        **{f"{member}_kN": force(member, point, scale) for member in MEMBERS},
-        error_percent=100 * ERROR * point.density_kg_m3 / 450,
-        balance_residual=3.1e-10 * point.friction_deg,
-    )
-
-
-def build_failed_case(point: CasePoint) -> CaseRecord:
-    """Case without a result."""
-    unknown = (*(f"{one}_kN" for one in MEMBERS), "error_percent", "balance_residual")
-    return CaseRecord(
-        case=point,
-        outcome=Outcome.MAX_ITERATIONS,
-        reason=as_given("60 iterations, residual 2e-3."),
-        **dict.fromkeys(unknown),
+        outcome=Outcome.MAX_ITERATIONS if fails else Outcome.CONVERGED,
+        reason=as_given("60 iterations, residual 2e-3.") if fails else None,
+        **(dict.fromkeys(known) if fails else known),
     )
 
 
@@ -390,31 +387,6 @@ def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     )
 
 
-def build_geometry_check() -> Check:
-    """Check without forces."""
-    return Check(
-        id="geometry.inclination",
-        clause="4.4",
-        member="net",
-        mode="inclination",
-        met=Verdict.PASS,
-        finding=as_given("25° to 35° lies within 25° to 35°."),
-    )
-
-
-def build_slack_check(extreme: LargestForce) -> Check:
-    """Check of a member that never carries."""
-    slack = replace(extreme, value_kN=0.0, low_kN=0.0, high_kN=0.0)
-    return Check(
-        id="downhill_guy.rope",
-        clause="6.1",
-        member="downhill_guy",
-        mode="rope",
-        case=extreme.case,
-        steps=list_steps(rate_force(slack, 180.0)),
-    )
-
-
 def build_drawing(
     extreme: LargestForce, *, slope: float = 40.0, tilt: float = 15.0
 ) -> Drawing:
@@ -427,7 +399,7 @@ def build_drawing(
             head[0] * s + 4 * sag * s * (1 - s) * math.cos(lean),
             head[1] * s - 4 * sag * s * (1 - s) * math.sin(lean),
         )
-        for s in spread(0, 1, 25)
+        for s in np.linspace(0.0, 1.0, 25).tolist()
     ]
     base = head[0] - thickness * math.tan(math.radians(tilt))
     uphill, downhill = -thickness, base + thickness
