@@ -57,17 +57,6 @@ def test_a_site_is_checked_by_its_path_as_by_what_was_read(study, tmp_path):
     assert [row.id for row in study.rows] == ["R1", "R6"]
 
 
-def test_reliability_is_worked_out_where_it_is_asked_for(study, tmp_path):
-    write_rows(tmp_path / "site.xlsx", ["R1", "R6"])
-    path = str(tmp_path / "site.xlsx")
-    again = nd.check(path, accuracy=0.05, reliability=True)
-    first, second = (row.reliability for row in again.rows)
-    assert first.beta is not None or first.reason is not None
-    assert second.reason is not None  # a resistance is missing
-    assert all(row.reliability is None for row in study.rows)
-    assert [replace(row, reliability=None) for row in again.rows] == study.rows
-
-
 def test_the_frame_has_every_check_once(study):
     frame = study.to_frame()
     checks = [(row.id, one) for row in study.rows for one in row.checks]
@@ -267,17 +256,6 @@ def test_a_picture_without_matplotlib_says_what_to_install(solution, monkeypatch
 def test_slips_of_a_unit_are_caught_where_they_are_typed(snow, told):
     with pytest.raises(nd.NetDesignError, match=told):
         build_scene(**snow)
-
-
-def test_kilonewtons_for_newtons_are_caught():
-    with pytest.raises(nd.NetDesignError, match="net stiffness = 20000"):
-        nd.Net(
-            height_normal=3.0,
-            inclination=0.5,
-            stiffness_per_m=20000.0,
-            slack=0.0,
-            friction_angle=0.5,
-        )
 
 
 def run_notebook(name, folder, monkeypatch):

@@ -288,37 +288,6 @@ def test_standards_copy_starts_a_profile_of_ones_own(tmp_path):
 
 # --- solve -------------------------------------------------------------------------
 
-SOLUTION_KEYS = {
-    "flags",
-    "largest_velocity_mm_per_day",
-    "schema",
-    "outcome",
-    "method",
-    "anchor_forces",
-    "wall",
-    "tension_kN_per_m",
-    "sag_m",
-    "balance",
-    "nodes",
-    "history",
-    "cost",
-    "provenance",
-}
-
-
-def test_solve_prints_the_solution_of_the_interface(tmp_path):
-    (tmp_path / "scene.toml").write_text(ROUGH_SCENE)
-    result = call_program("solve", "scene.toml", "--json", cwd=tmp_path)
-    assert result.code == 0, result.err
-    document = json.loads(result.out)
-    assert set(document) == SOLUTION_KEYS
-    assert document["schema"] == "netdesign.solution/1"
-    assert document["outcome"] == "converged"
-    node = {"x_m", "y_m", "force_x_kN_per_m", "force_y_kN_per_m", "sliding"}
-    assert all(set(one) == node for one in document["nodes"])
-    assert document["balance"]["relative_residual"] < 1e-8
-    assert listing(tmp_path) == {"scene.toml"}
-
 
 def test_solve_without_a_solution_ends_with_4(tmp_path):
     """A net with half its length to spare lets the snow bulge too far."""

@@ -73,25 +73,6 @@ def test_the_document_is_that_of_the_interface(scene, store):
     assert len(found["log"]) == found["cases"]["asked"]
 
 
-def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
-    found = document(
-        scene, "--density", "250:450:3", "--friction", "15:45:2", store=store
-    )
-    assert found["outcome"] == "sampled"
-    assert found["cases"]["asked"] == 6
-    assert all(one["upper_bound"] is None for one in found["extremes"])
-
-
-def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path):
-    arguments = ("envelope", scene, *RANGES, "--out", tmp_path / "o", "--quiet")
-    assert run(*arguments, store=store).code == 0
-    written = {path.name for path in (tmp_path / "o").iterdir()}
-    assert written == {"envelope.json"}
-    again = run(*arguments, store=store)
-    assert again.code == 2
-    assert "exists already" in again.err
-
-
 @pytest.mark.parametrize(
     ("arguments", "code", "told"),
     [

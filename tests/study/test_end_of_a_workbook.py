@@ -53,17 +53,6 @@ def at_end(row):
     return {one.id: one for one in row.checks if one.member in MEMBERS}
 
 
-def test_an_end_whose_panel_nobody_gives_is_pulled_no_less():
-    """Its border ropes bear nothing that is known, so that the row is not proven."""
-    row, typed = (judge(one) for one in ({}, PANEL | {"mid_anchors": "no"}))
-    assert row.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
-    checks, known = at_end(row), at_end(typed)
-    assert {one.member for one in checks.values()} == MEMBERS
-    assert checks.keys() == known.keys()
-    for name, check in checks.items():
-        assert check.demand_kN >= known[name].demand_kN, name
-
-
 @pytest.mark.parametrize("mid", ["no", "yes"])
 def test_with_its_panel_each_of_them_has_a_demand(mid):
     """Net and uphill guy end at one anchor here."""

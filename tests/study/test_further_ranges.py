@@ -13,7 +13,7 @@ from netdesign.report.page.html import render_html
 from netdesign.site.model import InputEcho
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
-from netdesign.study.cases import have_same_forces, search_site
+from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.record_envelope import read_point, record_point
@@ -99,10 +99,3 @@ def test_outputs_have_a_column_for_what_ranges(study):
     page = render_html(study)
     assert "Glide factor" in page
     assert "d 2.5 m, s 0.021, N 1.77" in page.replace("\N{NO-BREAK SPACE}", " ")
-
-
-def test_a_question_changes_no_force_of_layered_snow():
-    """Fault 17: a trial whose type is asked about kept its row out of the trial."""
-    row = sliding("layered", layers=LAYERS)
-    asked = replace(row, questions=(say("panel.steady_only"),))
-    assert have_same_forces(row, RANGES, asked, RANGES, RUN)

@@ -1,18 +1,18 @@
 """The larger of coupled bound and floor, on the two supports of a row."""
 
 import math
-import random
 from dataclasses import replace
 
 import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges
-from netdesign.guideline.load_cases import find_glide_factor
 from netdesign.outcome import Verdict
-from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, NetPart
+from netdesign.study.guideline_load import list_assumed
 from netdesign.study.judge import judge_site
+from tests.each import each
 from tests.grid import solve_site
 from tests.guideline.one_floor import find_row_floor
 from tests.small_site import RUN, build_row, build_site, resist
@@ -115,46 +115,16 @@ def study_floor(study):
     return {one.member: one.force_kN for one in study.rows[0].floor.forces}
 
 
-def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
-    further = {
-        "snow_height": Interval(low=2.1 * math.sqrt(2.0), high=4.0 * math.sqrt(2.0)),
-        "slack": Interval(low=0.03, high=0.08),
-        "net_stiffness": Interval(low=9e6, high=2e7),
-        "slip_length": Interval(low=0.3, high=5.1),
-        "upslope_length": Interval(low=4.0, high=9.0),
-    }
-    draw, inside = random.Random(6), 0
-    row = replace(ROW, glide_factor=None)
-    wide = find_row_floor(row, widen_ranges(further), SWISS)
-    for _ in range(40):
-        point = {name: draw.uniform(one.low, one.high) for name, one in further.items()}
-        single = {k: Interval(low=v, high=v) for k, v in point.items()}
-        lean = draw.uniform(RANGES["inclination"].low, RANGES["inclination"].high)
-        single["inclination"] = Interval(low=lean, high=lean)
-        one = find_row_floor(row, widen_ranges(single), SWISS)
-        for force in one.forces:
-            net = force.net
-            assert net.inclination == lean
-            assert (net.slack, net.stiffness) == (
-                point["slack"],
-                point["net_stiffness"],
-            )
-            thickness = point["snow_height"] * math.cos(ROW.slope_angle)
-            assert thickness * (1.0 - 1e-12) <= net.snow_thickness <= ROW.net_height
-            slip = GroundLaw(kind="sliding", slip_length=point["slip_length"])
-            glide = find_glide_factor(slip, net.snow_thickness, (1.2, 3.2))
-            assert force.load.glide_factor == pytest.approx(glide, rel=1e-12)
-            assert force.force <= wide.find(force.member).force * (1.0 + 1e-6)
-            inside += force.force > 0.0
-    assert inside > 150
-    typed = find_row_floor(
-        ROW,
-        widen_ranges({"glide_factor": Interval(low=1.1, high=2.9)}),
-        SWISS,
-    )
-    assert max(one.load.glide_factor for one in typed.forces) == 2.9
-    assert min(one.load.glide_factor for one in typed.forces) >= 1.2
-
-
-def widen_ranges(further):
-    return Ranges(intervals=tuple((dict(RANGES.intervals) | further).items()))
+@each(
+    "changes, told",
+    [
+        ({"glide_factor": 2.4}, {}),
+        ({"altitude": None}, {"row.altitude_assumed": {"factor": 1.3}}),
+        ({"glide_factor": 1.1}, {"row.glide_assumed": {"glide": 1.1, "least": 1.2}}),
+    ],
+)
+def test_what_the_floor_takes_for_granted_is_told(changes, told):
+    found = {one.key: one.arguments for one in list_assumed(replace(ROW, **changes))}
+    assert found.keys() == told.keys()
+    for key, numbers in told.items():
+        assert found[key] == pytest.approx(numbers)

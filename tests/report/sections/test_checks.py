@@ -9,21 +9,12 @@ from netdesign.report.sections.checks import (
 )
 from netdesign.report.words import Words
 from netdesign.study.remedies import CLOSE
-from netdesign.study.scopes import find_governing, find_highest
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
-from tests.report.build_study import build_row, build_study
+from tests.report.build_study import build_study
 from tests.turn import turn
 
 STUDY = build_study()
-
-
-def test_governing_check_is_the_worst_verdict_then_the_largest_ratio():
-    row = build_row("A", 2, scale=0.62, missing_resistance=True)
-    assert find_governing(row.checks).id == "downhill_anchor.pull_out"
-    assert find_highest(row.checks).id == "foot_anchor.pull_out"
-    failing = build_row("B", 2, scale=0.72)
-    assert find_governing(failing.checks).id == "foot_anchor.pull_out"
 
 
 @each("language", LANGUAGES)

@@ -91,31 +91,6 @@ def test_a_formula_never_calculated_has_no_value(small):
     assert (cell.value, cell.formula, cell.is_blank) == (None, "=1+1", False)
 
 
-def test_error_values_and_percent_formats_are_marked(tmp_path):
-    path = tmp_path / "marks.xlsx"
-    workbook = openpyxl.Workbook()
-    sheet = workbook.active
-    sheet["A1"] = "#REF!"
-    sheet["A2"], sheet["A3"], sheet["A4"] = 0.7, 0.7, 0.7
-    sheet["A2"].number_format = "0.0%"
-    sheet["A3"].number_format = '0.0" %"'
-    workbook.save(path)
-    cells = [read_all(path).sheets[0].cell(row, 1) for row in range(1, 5)]
-    assert [cell.is_error for cell in cells] == [True, False, False, False]
-    assert [cell.is_percent for cell in cells] == [False, True, False, False]
-
-
-def test_merged_ranges_and_hidden_rows_are_seen(small):
-    workbook = openpyxl.load_workbook(small)
-    workbook["One"].merge_cells("C4:D6")
-    workbook["One"].row_dimensions[2].hidden = True
-    workbook.save(small)
-    (sheet,) = read_all(small).sheets
-    (merged,) = sheet.merged
-    assert merged.coord == "C4:D6"
-    assert sheet.hidden_rows == {2}
-
-
 def test_a_declared_size_of_the_sheet_is_not_trusted(small):
     replace_part(small, lambda xml: xml.replace(b'ref="B2:C4"', b'ref="A1:A1"'))
     (sheet,) = read_all(small).sheets
