@@ -89,3 +89,21 @@ def test_history_table_has_a_column_for_each_node():
     (row,) = csv.DictReader(io.StringIO(write_moments([moment]).decode()))
     assert row["time_d"] == "1.0"
     assert row["node_2_y_kN_per_m"] == "6"
+
+
+def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, call):
+    from netdesign.addons.evidence.paper import study as module
+    from netdesign.addons.evidence.paper.study import find_history
+    from tests.build_paper import build_study
+
+    made = build_study()
+    monkeypatch.setattr(module, "run_study", lambda *_, **__: made)
+    out = tmp_path / "paper"
+    told = call("paper", "--out", out)
+    assert told.code == 0
+    assert names(out) == {"index.html"}
+    assert "index.html" in told.err
+    assert call("paper", "--out", out).code == 2
+    failing = build_study(failing=[find_history(0.0)])
+    monkeypatch.setattr(module, "run_study", lambda *_, **__: failing)
+    assert call("paper", "--out", out, "--force", "--quiet").code == 4
