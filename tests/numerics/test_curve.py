@@ -1,4 +1,4 @@
-"""Curve through points: exact on parabolas, third order, local."""
+"""Curve through points: exact on parabolas, of third order."""
 
 import math
 from itertools import pairwise

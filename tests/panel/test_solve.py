@@ -1,4 +1,4 @@
-"""Panels at rest: mirror and scale, what is refused and by which name."""
+"""Panels at rest: in balance, what is refused and by which name."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Measured forces: on the dates of a winter, beside its curve, in a figure."""
+"""Measured forces: on the dates of a winter, beside its curve."""
 
 from dataclasses import replace
 from datetime import date, datetime

@@ -1,4 +1,4 @@
-"""Real runs of the paper on the coarsest meshes, and meshes drawn."""
+"""Real runs of the paper on the coarsest meshes."""
 
 from dataclasses import replace
 
