@@ -80,6 +80,14 @@ def test_days_that_may_be_two_are_asked_about(tmp_path):
     assert read_height_file(path)[0].series.first_day == date(2021, 1, 31)
 
 
+def test_a_refused_file_is_told_the_options(tmp_path):
+    path = write(tmp_path / "a.csv", ["2021-01-01"], ["none"])
+    with pytest.raises(SiteDataError, match="--date COLUMN --height COLUMN"):
+        read_height_file(path)
+    with pytest.raises(SiteDataError, match='no columns "x" and "y"'):
+        read_height_file(path, columns=HeightColumns(date="x", height="y"))
+
+
 @each("seed", range(12))
 def test_a_season_that_ends_in_late_snow_refuses_no_other(tmp_path_factory, seed):
     """Drawn winters with no reading from one to the next; some end in snow."""
