@@ -22,7 +22,7 @@ from netdesign.site.columns.fields import (
     name_word,
     normalise,
 )
-from netdesign.words.catalogue import LANGUAGES, Language, render
+from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 
 Data = Mapping[str, Any]
@@ -144,17 +144,8 @@ def load_old_plans() -> Mapping[str, SheetPlan]:
     return _PLANS
 
 
-# The sheet that an annotated copy lists its findings on, by language.
-FINDINGS_SHEETS: Mapping[Language, str] = {
-    language: render(say("annotated.findings_sheet"), language)
-    for language in LANGUAGES
-}
 # Sheets of the program's own that hold nothing to read.
-QUIET_SHEETS: tuple[str, ...] = (
-    *("Notes", "Notice", "Hinweise"),
-    *FINDINGS_SHEETS.values(),
-)
-
+QUIET_SHEETS = ("Notes", "Notice", "Hinweise")
 
 # Answers to a heading: it is not to be read; it is not yet answered.
 IGNORE, UNANSWERED = "ignore", "?"

@@ -1,4 +1,4 @@
-"""Gives a site workbook back with its findings: cells coloured, commented, listed.
+"""Gives a site workbook back with its findings: cells coloured and commented.
 
 Text boxes, macros and whatever else stands beside the cells are not in the copy.
 Formulas are calculated again when it is opened.
@@ -15,9 +15,7 @@ from netdesign.edge.input_files import make_printable
 from netdesign.site.cells.cells import DAMAGE, UNDECLARED, Sheet, TextFormat
 from netdesign.site.cells.findings import Finding, refuse_file
 from netdesign.site.cells.xlsx import open_for_editing
-from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_cells
-from netdesign.site.template.form import count_lines
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import say
 
@@ -26,14 +24,7 @@ if TYPE_CHECKING:  # slow to import and only needed to write a workbook
 
 _AUTHOR = "netdesign"
 _COLOURS = {"error": "FFF4B8A8", "question": "FFFCD5A0", "note": "FFFFF2CC"}
-_HEADINGS = (
-    *(say("annotated.severity"), say("annotated.sheet"), say("annotated.cell")),
-    *(say("annotated.quantity"), say("annotated.text"), say("annotated.rule")),
-    say("annotated.accepted"),
-)
-_WIDTHS = (10, 16, 8, 28, 24, 60, 60)
 _WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
-_FONT, _LINE = "Arial", 13.5  # height of a line [pt]
 _COMMENT_SIZE = (320, 130)  # [px]
 
 
@@ -43,7 +34,7 @@ def annotate_workbook(
     text_format: TextFormat = UNDECLARED,
     language: Language = "en",
 ) -> bytes:
-    """Xlsx bytes of the same workbook, with every finding at its cell and in a list.
+    """Xlsx bytes of the same workbook, with every finding at its cell.
 
     Parameters
     ----------
@@ -54,7 +45,7 @@ def annotate_workbook(
     text_format : TextFormat
         As for reading.
     language : str
-        Of the comments and of the list.
+        Of the comments.
 
     Raises
     ------
@@ -69,14 +60,14 @@ def annotate_workbook(
         _remove_old_marks(workbook)
     else:
         workbook = openpyxl.Workbook()
-        workbook.remove(workbook.worksheets[0])
         for sheet in cells.sheets:
             _copy_sheet(workbook, sheet)
+        if cells.sheets:
+            workbook.remove(workbook.worksheets[0])
     for finding in findings:
         if finding.cell and finding.sheet in workbook.sheetnames:
             cell = _find_shown(workbook[finding.sheet], finding.cell)
             _mark_cell(cell, finding, language)
-    _list_findings(workbook, findings, language)
     content = BytesIO()
     workbook.save(content)
     return content.getvalue()
@@ -112,23 +103,10 @@ def _write(cell: Any, value: object) -> None:
         cell.data_type = "s"  # text that begins with "=" is no formula of ours
 
 
-def _list_texts(finding: Finding, language: Language) -> tuple[str, ...]:
-    """Line of the list, in the order of its headings."""
-    severity = render(say(f"finding.{finding.severity}"), language)
-    field, rule, accepted = (
-        render(text, language)
-        for text in (finding.field, finding.rule, finding.accepted)
-    )
-    return severity, finding.sheet, finding.cell, field, finding.text, rule, accepted
-
-
 def _remove_old_marks(workbook: OpenWorkbook) -> None:
     """Remove the marks of an earlier copy, so that no corrected cell stays marked."""
     from openpyxl.styles import PatternFill
 
-    for name in FINDINGS_SHEETS.values():
-        if name in workbook.sheetnames:
-            workbook.remove(workbook[name])
     for sheet in workbook.worksheets:
         for row in sheet.iter_rows():
             for cell in row:
@@ -151,41 +129,3 @@ def _mark_cell(cell: Any, finding: Finding, language: Language) -> None:
     width, height = _COMMENT_SIZE
     cell.comment = Comment(text, _AUTHOR, width=width, height=height)
     cell.fill = PatternFill("solid", start_color=_COLOURS[finding.severity])
-
-
-def _list_findings(
-    workbook: OpenWorkbook, findings: Sequence[Finding], language: Language
-) -> None:
-    from openpyxl.styles import Alignment, Font, PatternFill
-    from openpyxl.utils import get_column_letter
-
-    sheet = workbook.create_sheet(FINDINGS_SHEETS[language], 0)
-    workbook.active = 0
-    for column, (heading, width) in enumerate(
-        zip(_HEADINGS, _WIDTHS, strict=True), start=1
-    ):
-        sheet.cell(1, column, render(heading, language)).font = Font(
-            name=_FONT, size=10, bold=True
-        )
-        sheet.column_dimensions[get_column_letter(column)].width = width
-    for row, finding in enumerate(findings, start=2):
-        texts = _list_texts(finding, language)
-        for column, text in enumerate(texts, start=1):
-            cell = sheet.cell(row, column)
-            _write(cell, text)
-            cell.alignment = Alignment(wrap_text=True, vertical="top")
-            cell.font = Font(name=_FONT, size=10)
-        lines = max(map(count_lines, texts, _WIDTHS))
-        sheet.row_dimensions[row].height = _LINE * lines
-        sheet.cell(row, 1).fill = PatternFill(
-            "solid", start_color=_COLOURS[finding.severity]
-        )
-        if finding.cell and finding.sheet in workbook.sheetnames:
-            target = finding.sheet.replace("'", "''")
-            sheet.cell(row, 3).hyperlink = f"#'{target}'!{finding.cell}"
-            sheet.cell(row, 3).font = Font(name=_FONT, size=10, underline="single")
-    sheet.freeze_panes = "A2"
-    sheet.print_title_rows = "1:1"
-    sheet.page_setup.orientation = "landscape"
-    sheet.page_setup.fitToHeight = 0
-    sheet.sheet_properties.pageSetUpPr.fitToPage = True

@@ -3,11 +3,8 @@ import pytest
 from openpyxl.comments import Comment
 
 from netdesign.outcome import SiteDataError
-from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
-
-FINDINGS_SHEET = FINDINGS_SHEETS["en"]
 
 
 def annotate(path, copy):
@@ -43,23 +40,3 @@ def test_a_comment_of_the_engineer_stays(book, tmp_path):
     text = copy["Rows"]["B2"].comment.text
     assert text.startswith("from the survey")
     assert "is not a number" in text
-
-
-def test_findings_without_a_cell_are_in_the_list(book, tmp_path):
-    book["Rows"][1][1] = "4O"
-    del book["Anchors"]
-    copy = annotate(book.save(), tmp_path / "copy.xlsx")
-    listed = [[cell.value for cell in row] for row in copy[FINDINGS_SHEET].iter_rows()]
-    assert [line[:3] for line in listed[1:]] == [
-        ["error", "Rows", "B2"],
-        ["error", None, None],
-    ]
-    link = copy[FINDINGS_SHEET]["C2"].hyperlink
-    assert "Rows" in (link.location or link.target)
-
-
-def test_text_in_the_list_is_never_a_formula(book, tmp_path):
-    book["Rows"][1][1] = "=HYPERLINK(1)"
-    copy = annotate(book.save(), tmp_path / "copy.xlsx")
-    cell = copy[FINDINGS_SHEET]["E2"]
-    assert (cell.value, cell.data_type) == ("=HYPERLINK(1)", "s")
