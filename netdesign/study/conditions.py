@@ -15,8 +15,7 @@ from typing import ClassVar, Literal
 from netdesign.checks.schema import ANCHOR_DISTANCE, MAX_GAP
 from netdesign.edge.json_text import Items
 from netdesign.resistance.steel import Wear
-from netdesign.site.bearing import Resistance
-from netdesign.site.model import NetRow
+from netdesign.site.model import NetRow, Resistance
 from netdesign.study.anchor_ground import list_bonds
 from netdesign.study.anchor_pulls import USUAL_DIP
 from netdesign.study.member_force import RowForces

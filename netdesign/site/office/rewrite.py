@@ -22,8 +22,15 @@ from netdesign.site.columns.fields import (
 )
 from netdesign.site.columns.office import is_heading, load_columns, load_text
 from netdesign.site.declared_sheet import split_replacement
-from netdesign.site.office.rewrite_lines import Lines, rewrite_rows, rewrite_types
-from netdesign.site.office.rewrite_log import Line, RewriteLog, is_typed, show
+from netdesign.site.office.rewrite_lines import (
+    Line,
+    Lines,
+    RewriteLog,
+    is_typed,
+    rewrite_rows,
+    rewrite_types,
+    show,
+)
 from netdesign.site.office.sheets import is_old
 from netdesign.site.readings import Reading, Row, read_cell
 from netdesign.site.tables import find_table, read_rows

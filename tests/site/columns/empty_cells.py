@@ -8,7 +8,7 @@ from pathlib import Path
 import netdesign
 from netdesign.site.columns.all_tables import load_file
 from netdesign.site.columns.office import PARTS, TABLES, load_columns
-from netdesign.site.template.empty import say_empty
+from netdesign.site.template.form import say_empty
 from netdesign.words.catalogue import render
 from netdesign.words.message import say
 

@@ -4,7 +4,7 @@ import pytest
 
 from netdesign.site.columns.office import TABLES, load_columns
 from netdesign.site.reader import read_site
-from netdesign.site.template.empty import say_empty
+from netdesign.site.template.form import say_empty
 from tests.each import each
 from tests.make import write_site
 from tests.site.columns.empty_cells import USAGE, build_table, find_table
