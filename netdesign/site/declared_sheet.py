@@ -14,6 +14,7 @@ from itertools import product
 
 from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
+from netdesign.site.anchor_types import ANCHORS
 from netdesign.site.cells.cells import (
     Cell,
     Sheet,
@@ -159,11 +160,11 @@ _OF_GEOMETRY = tuple(
 )
 _OF_STRUCTURE = ("structure", "resistances")  # all of it, where nothing is given
 OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"), _OF_STRUCTURE)  # of no support
-_ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+_IN_GROUND = (*ANCHORS, *END_ANCHORS)
 _OF_DIRECTIONS = (
     *(
         (anchor, mode)
-        for anchor in (*_ANCHORS, *END_ANCHORS)
+        for anchor in _IN_GROUND
         for mode in ("bending", "wedge", "direction")
     ),
     (Member.POST, "lateral"),
@@ -184,7 +185,6 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
 _Subject = tuple[str, str, str]  # member, mode, position of its support or ""
 
 
-_IN_GROUND = (*_ANCHORS, *END_ANCHORS)
 GROUPS = ("structure", "anchors", "post base", "ground at the anchors")
 
 

@@ -46,12 +46,10 @@ class Lines:
         too, whose ids cannot be read.
     ranges : SiteRanges
         That its rows share.
-    links, tests, declared : sequence of Row
-        Of those sheets.
     further : mapping of str to Table or None
         Sheets of add-ons, by name.
     typed : mapping of str to sequence of Row
-        Lines as they are typed, by table, of all on which net rows rest.
+        Lines as they are typed, by table.
     library : tuple of str
         File of further net types, and its hash; empty without one.
     """
@@ -67,9 +65,6 @@ class Lines:
     absent: Sequence[str]
     unreadable: Sequence[str]
     ranges: SiteRanges
-    links: Sequence[Row]
-    tests: Sequence[Row]
-    declared: Sequence[Row]
     further: Mapping[str, Table | None]
     typed: Mapping[str, Sequence[Row]]
     library: tuple[str, str] = ("", "")

@@ -74,6 +74,9 @@ _NAMED = {
 }
 
 
+_NOT_OF_ROWS = ("project", "declared")  # whose cells are judged where they are read
+
+
 def _find_resting(lines: Lines) -> Mapping[str, set[str]]:
     """Net rows that rest on each cell; all of them rest on a cell of sheet Project."""
     resting: dict[str, set[str]] = defaultdict(lambda: set(lines.places))
@@ -109,17 +112,19 @@ def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
 
 def _list_all_doubts(lines: Lines) -> Iterator[Doubt]:
     """Doubts about all numbers, each line by itself and beside others of its table."""
-    for typed in lines.typed.values():
-        yield from chain.from_iterable(map(_list_doubted_cells, typed))
-    limits = [link for link in lines.links if link["force"].field.key != "force"]
-    strengths = [link for link in lines.links if link not in limits]
+    for table, typed in lines.typed.items():
+        if table not in _NOT_OF_ROWS:
+            yield from chain.from_iterable(map(_list_doubted_cells, typed))
+    links, tests = lines.typed["links"], lines.typed["tests"]
+    limits = [link for link in links if link["force"].field.key != "force"]
+    strengths = [link for link in links if link not in limits]
     # the name is empty where columns are not compared from line to line
     groups: list[tuple[str, Sequence[Row]]] = [
         ("rows", lines.rows),
         ("", list(chain.from_iterable(lines.snow.values()))),
         ("", lines.ranges.lines),
         *((table, list(lines.types[table].values())) for table in TYPES),
-        *(("links", strengths), ("links", limits), ("tests", lines.tests)),
+        *(("links", strengths), ("links", limits), ("tests", tests)),
     ]
     row_lines = (*lines.rows, *lines.ends.values())
     used_ids = {reading.word for line in row_lines for reading in line.values()}

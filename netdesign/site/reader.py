@@ -135,9 +135,9 @@ def _build_site(
     if ranges.ranges:
         check_layers(net_rows, lines.snow, ranges.ranges, findings)
     of_addons = _read_further(lines, findings)
-    links = read_links(lines.links, lines.types, findings)
+    links = read_links(lines.typed["links"], lines.types, findings)
     declared, confirmed = read_declared(
-        lines.declared, workbook, lines.places, findings
+        lines.typed["declared"], workbook, lines.places, findings
     )
     findings.extend(_note_unread(workbook, findings))
     if ranges.ranges is None or any(

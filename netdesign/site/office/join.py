@@ -24,9 +24,9 @@ from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.office.types import (
     complete_anchors,
     join_anchors,
-    join_links,
     join_posts,
     list_end_types,
+    measure_links,
 )
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row
@@ -36,8 +36,6 @@ from netdesign.site.tables import find_table
 from netdesign.site.type_lines import name_by_ground, place_in_ground
 from netdesign.site.type_resistances import check_ends
 from netdesign.words.message import say
-
-_NOT_OF_ROWS = ("project", "declared")
 
 
 def read_office(
@@ -72,12 +70,15 @@ def read_office(
 
 
 def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
-    """Lines by table; a sag of a net type becomes its slack."""
+    """Lines by table, each number as what its unit cell says that it measures."""
     lines = {key: list(rows) for key, rows in tables.lines.items()}
     measure = tables.measures.get(("net_types", "slack"), "")
     lines["net_types"] = [
         measure_slack(net, measure, findings) for net in lines["net_types"]
     ]
+    measure = tables.measures.get(("layers", "thickness"), "")
+    lines["layers"] = measure_layers(lines.get("layers", ()), measure, findings)
+    lines["links"] = measure_links(lines["links"])
     return lines
 
 
@@ -105,13 +106,10 @@ def _join(
     findings: list[Finding],
 ) -> Lines:
     """Lines of net rows and their types, of the lines of all sheets."""
-    by_key, tests = tables.tables, typed["tests"]
+    by_key = tables.tables
     rows = _join_net_types(tables, typed, project, findings)
-    measure = tables.measures.get(("layers", "thickness"), "")
-    layers = order_layers(measure_layers(typed["layers"], measure, findings), findings)
-    anchors = join_anchors(
-        typed["anchor_types"], tests, typed["soils"], project, findings
-    )
+    layers = order_layers(typed["layers"], findings)
+    anchors = join_anchors(typed, project, findings)
     placed = place_in_ground(rows, anchors, findings)
     ends = place_in_ground(_find_end_types(rows, typed), anchors, findings)
     for rope in typed["ropes"]:
@@ -133,11 +131,8 @@ def _join(
         absent=[key for key in TYPES if not by_key[key] and key not in tables.unread],
         unreadable=[key for key in TYPES if not _has_ids(by_key[key])],
         ranges=build_ranges(project),
-        links=join_links(typed["links"]),
-        tests=tests,
-        declared=typed["declared"],
         further={plan.name: find_table(workbook, plan, findings) for plan in FURTHER},
-        typed={key: typed[key] for key in typed if key not in _NOT_OF_ROWS},
+        typed=typed,
     )
     named_rows = (of_row[0]["row"] for of_row in layers.values())
     refuse_unknown_ids(named_rows, lines.places, findings)

@@ -36,18 +36,14 @@ _STEEPEST = 20.0  # largest tilt of a post whose cell is empty [deg]
 
 
 def join_anchors(
-    lines: Sequence[Row],
-    tests: Sequence[Row],
-    soils: Sequence[Row],
-    project: Row,
-    findings: list[Finding],
+    typed: Mapping[str, Sequence[Row]], project: Row, findings: list[Finding]
 ) -> list[Row]:
     """Anchor types with the results of their tests and the strengths of their ground.
 
     Parameters
     ----------
-    lines, tests, soils : sequence of Row
-        Of sheets Anchors, Tests and Parts.
+    typed : mapping of str to sequence of Row
+        Lines of all sheets by table.
     project : Row
         Lines of sheet Project by key.
     findings : list of Finding
@@ -56,13 +52,15 @@ def join_anchors(
     unknown = {
         field.key: read_nothing(field, None) for field in load_plan("soils").fields
     }
-    by_ground = {soil["ground"].word: soil for soil in soils if soil["ground"].word}
+    by_ground = {
+        soil["ground"].word: soil for soil in typed["soils"] if soil["ground"].word
+    }
     anchors: list[Row] = []
-    for line in lines:
+    for line in typed["anchor_types"]:
         soil = by_ground.get(line["ground"].word, unknown)
         row = {**soil, **line, "soil": project["soil"]}
         anchors.append(row)
-    return count_in_tests(anchors, tests, findings) if tests else anchors
+    return count_in_tests(anchors, typed["tests"], findings)
 
 
 def complete_anchors(lines: Sequence[Row], findings: list[Finding]) -> list[Row]:
@@ -144,7 +142,7 @@ def _find_length(post: str, nets: Sequence[Row]) -> float | None:
     return max(lengths, default=None)
 
 
-def join_links(lines: Iterable[Row]) -> list[Row]:
+def measure_links(lines: Iterable[Row]) -> list[Row]:
     """Links; bounds and usual values of a force are those of its kind."""
     limit = find_quantity("Links", "working_limit")
     return [
