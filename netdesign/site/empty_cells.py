@@ -19,6 +19,7 @@ from netdesign.site.anchor_types import ANCHORS, read_axes
 from netdesign.site.assumed import Assumed, assume, assume_ends, load_assumed
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.lines import Lines, Types
+from netdesign.site.office.project import SHARED
 from netdesign.site.readings import Reading, Row
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
@@ -32,7 +33,7 @@ _SEVERE = {
     "glide_factor": 1.0,
 }  # share of the range that pulls hardest
 _DISTANCES = ("uphill_anchor_distance", "downhill_anchor_distance")
-_OF_SITE = ("density", "friction_angle", "inclination")
+
 # No column holds these: a panel takes the worst that is built.
 _ALWAYS = ("panel_system", "net_cut")
 
@@ -82,7 +83,7 @@ def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
     of_types = set(_list_of_types([*row.values(), *end.values()], lines.types))
     return {
         **dict.fromkeys(_ALWAYS, True),
-        **{key: key in site for key in _OF_SITE},
+        **{key: key in site for key in SHARED},
         **{key: key in of_types for key in _OF_TYPES},
         "altitude": not row["altitude"].given_si,
         "snow_layers": row["id"].word not in lines.snow,

@@ -9,7 +9,7 @@ from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
 from netdesign.site.headings import Table
 from netdesign.site.model import Project
-from netdesign.site.ranges import SiteRanges
+from netdesign.site.office.project import SiteRanges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.words.message import Message, say
 

@@ -18,7 +18,7 @@ from netdesign.site.lines import (
     settle_ids,
 )
 from netdesign.site.office.library import Library, add_lines
-from netdesign.site.office.project import build_project, read_lines
+from netdesign.site.office.project import build_project, build_ranges, read_lines
 from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
 from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.office.types import (
@@ -28,7 +28,6 @@ from netdesign.site.office.types import (
     list_end_types,
     measure_links,
 )
-from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row
 from netdesign.site.snow_sheets import order_layers
 from netdesign.site.support_types import TYPE_COLUMNS

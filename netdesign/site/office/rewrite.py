@@ -22,6 +22,7 @@ from netdesign.site.columns.fields import (
 )
 from netdesign.site.columns.office import is_heading, load_columns, load_text
 from netdesign.site.declared_sheet import split_replacement
+from netdesign.site.office.project import SHARED
 from netdesign.site.office.rewrite_lines import (
     Line,
     Lines,
@@ -37,7 +38,6 @@ from netdesign.site.tables import find_table, read_rows
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
 
-_OF_PROJECT = ("density", "friction_angle", "inclination")
 _DOCUMENTS = {
     **dict.fromkeys(("density", "thickness", "snow_height"), "snow_document"),
     "glide_factor": "glide_document",
@@ -163,7 +163,7 @@ def _rewrite_project(lines: Lines, ranged: _Ranged, log: RewriteLog) -> Line:
     project["number"] = ", ".join(filter(None, map(str, numbers)))
     project |= _find_common(lines, log)
     for key, (text, reason) in ranged.items():
-        if key in _OF_PROJECT:
+        if key in SHARED:
             project[key] = text
         document = _DOCUMENTS.get(key, "")
         if document and document not in project and is_typed(reason):
