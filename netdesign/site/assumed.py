@@ -40,9 +40,6 @@ class Assumed:
         a word.
     unit : str
         Of the column; "" of a number that has none, and of a word. D_K of a multiple.
-    times : str
-        What the numbers of the file are multiplied with: ``net_height`` or
-        ``altitude_factor``.
     word : str
         Name of the text of what is assumed, where it is no number.
     source : str
@@ -57,7 +54,6 @@ class Assumed:
     low: float = 0.0
     high: float = 0.0
     unit: str = ""
-    times: str = ""
     word: str = ""
     source: str
     is_typed: bool = False
@@ -106,7 +102,7 @@ class Assumed:
 
 
 _SAGS = ("ridge_sag", "lower_sag")  # makers state them in percent
-_MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
+MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
 _SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
 
 
@@ -129,7 +125,7 @@ def assume(key: str, factor: float = 1.0) -> Assumed:
         What a multiple is multiplied with: D_K [m].
     """
     table = load_assumed()[key]
-    if table.unit != _MULTIPLE:
+    if table.unit != MULTIPLE:
         return table
     return replace(table, low=factor * table.low, high=factor * table.high, unit="m")
 

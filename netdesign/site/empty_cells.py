@@ -191,7 +191,6 @@ def _list_typed(row: Row) -> tuple[Assumed, ...]:
             low=to_si(reading.span[0], reading.field.unit),
             high=to_si(reading.span[1], reading.field.unit),
             unit=reading.field.unit,
-            times="",
             source="typed",
             is_typed=True,
         )

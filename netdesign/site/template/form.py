@@ -11,7 +11,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from netdesign.cable.sag import find_sag
-from netdesign.site.assumed import Assumed, load_assumed
+from netdesign.site.assumed import MULTIPLE, Assumed, load_assumed
 from netdesign.site.columns.all_tables import FURTHER, load_file
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.office import (
@@ -211,10 +211,6 @@ def write_about(
     return [texts[key] for key in keys]
 
 
-# What a range is a multiple of, and which of its ends are.
-_TIMES = {"net_height": ("D_K", 2), "altitude_factor": ("f_c", 1)}
-
-
 def say_empty(column: Column, language: Language) -> str:
     """Range or value that is assumed for an empty cell, or a phrase about it."""
     values = column.assumed or _list_ends(column)
@@ -264,11 +260,9 @@ def _list_ends(column: Column) -> Sequence[float | str]:
     assumed = _find(column)
     if assumed is None or assumed.word:
         return ()
-    ends = (assumed.low, assumed.high) if assumed.times else assumed.shown
-    if assumed.times:
-        sign, count = _TIMES[assumed.times]
-        return (f"{ends[0]:g} {sign}", f"{ends[1]:g} {sign}" if count > 1 else ends[1])
-    return _show_in_unit(column, ends)
+    if assumed.unit == MULTIPLE:
+        return tuple(f"{end:g} {MULTIPLE}" for end in assumed.shown)
+    return _show_in_unit(column, assumed.shown)
 
 
 def _show_in_unit(column: Column, ends: Sequence[float]) -> tuple[float, ...]:
