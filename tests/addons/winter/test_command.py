@@ -62,6 +62,18 @@ def test_document_is_that_of_the_interface(call, site, heights):
     assert document["station"]["height_factor_given"] is False
 
 
+def test_governing_day_solved_as_uniform_snow_says_so(call, site, tmp_path):
+    """Snow too thin for layers governs although less high: not ripened, uniform."""
+    thin = [0, 30, 70, 95, 104, 103, 99, 90, 60, 0]
+    path = write_heights(tmp_path / "low.csv", thin)
+    ended = call("winter", site, "--heights", path, "--json", *QUICK)
+    (winter,) = json.loads(ended.out)["rows"][0]["winters"]
+    day = {one["date"]: one for one in winter["curve"]}[winter["governing_date"]]
+    assert (day["layers"], winter["basis"]) == ([], "uniform")
+    assert "This day is calculated with uniform snow" in winter["why"]
+    assert "ripened" not in winter["why"]
+
+
 def test_heights_of_a_file_keep_the_factor_of_the_sheet(call, tmp_path):
     """Station, altitude and height factor belong to the rows, not to the series."""
     site, folder = tmp_path / "site.xlsx", tmp_path / "out"

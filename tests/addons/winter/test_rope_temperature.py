@@ -70,6 +70,12 @@ def test_slow_snow_keeps_all_of_it_and_fast_snow_nothing():
     assert find_swing(soft, 7.0) < 1e-3 * AT_ONCE
 
 
+def test_free_ground_lets_the_pull_go_first():
+    times = [find_half_time(loaded(300.0, 2.0, g)) for g in (NO_SLIP, SLIDES)]
+    free = find_half_time(loaded(300.0, 2.0, GroundLaw()))
+    assert times[0] > times[1] > free > 0.0
+
+
 def test_amplitude_is_half_the_range_from_the_day_before_to_the_day_after():
     read = [(3.5, 260.0), (4.5, 268.0), (5.5, 262.0), (6.5, 285.0)]
     assert find_amplitude(read, 4.5) == 4.0
