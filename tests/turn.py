@@ -7,6 +7,7 @@ from netdesign.checks import Proof
 from netdesign.checks.rating import Open, OpenKind, rate_utilisation
 from netdesign.outcome import Verdict
 from netdesign.words.message import Message, say
+from netdesign.words.names import as_given
 
 AS_IT_IS = -1.0
 PROOF = Proof(document="Report G-17", author="B. R.", date="", cell="Declared!B2")
@@ -44,10 +45,6 @@ def turn_row(row, verdict, **given):
     return replace(row, checks=[turn(one, verdict, **given) for one in row.checks])
 
 
-def as_given(text):
-    return say("text.as_given", text=text)
-
-
 def use(check, utilisation):
     """Check with another utilisation; its forces change with it."""
     if utilisation is None or utilisation == math.inf:
@@ -75,15 +72,8 @@ def _turn_bare(check, verdict, utilisation, told):
     if utilisation != AS_IT_IS:
         return use(check, utilisation)
     found = rate_utilisation(*check.utilisation_band)
-    if (
-        found is verdict
-        or verdict not in _USED
-        or (found, verdict)
-        == (
-            Verdict.PASS,
-            Verdict.DECLARED,
-        )
-    ):
+    is_proven = (found, verdict) == (Verdict.PASS, Verdict.DECLARED)
+    if found is verdict or verdict not in _USED or is_proven:
         return check
     return use(check, _USED[verdict])
 

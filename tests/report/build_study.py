@@ -188,7 +188,7 @@ def build_row(
             _echo(as_given("Remark"), "", f"{SCRIPT} {FORMULA}", FORMULA, "Nets!H5"),
             _echo(say("column.Nets.slack"), "%", "", 2.0, "default"),
         ],
-        drawing=build_drawing(extremes[0]),
+        drawing=replace(build_section(random.Random(3)), case=extremes[0].case),
         guideline=build_guideline(extremes[0]),
         model_form=build_model_form(extremes[0]),
         floor=FloorRecord(profile="swiss-guideline-2007", forces=[floor]),
@@ -387,31 +387,35 @@ def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
     )
 
 
-def build_drawing(
-    extreme: LargestForce, *, slope: float = 40.0, tilt: float = 15.0
-) -> Drawing:
-    """Section with a parabolic net under load."""
-    lean = math.radians(extreme.case.inclination_deg)
-    thickness, sag = 4.0, 0.35
-    head = (thickness * math.tan(lean), thickness)
-    net = [
-        (
-            head[0] * s + 4 * sag * s * (1 - s) * math.cos(lean),
-            head[1] * s - 4 * sag * s * (1 - s) * math.sin(lean),
-        )
-        for s in np.linspace(0.0, 1.0, 25).tolist()
-    ]
-    base = head[0] - thickness * math.tan(math.radians(tilt))
-    uphill, downhill = -thickness, base + thickness
+def build_section(rng: random.Random) -> Drawing:
+    """Section of any proportions that a layout allows."""
+    height = rng.uniform(0.9, 6.2)
+    lean = math.radians(rng.uniform(0.0, 40.0))
+    head = (height * math.tan(lean), height)
+    base = head[0] - height * math.tan(math.radians(rng.uniform(-30.0, 45.0)))
+    uphill = rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
+    downhill = base + rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
+    shares = np.linspace(0.0, 1.0, 25)
+    sag = rng.uniform(0.0, 0.15) * height * 4 * shares * (1 - shares)
+    thickness = height * rng.uniform(0.5, 1.0)
+    net = [(head[0] * s + f, head[1] * s) for s, f in zip(shares, sag, strict=True)]
+    points = {
+        "foot_anchor": (0.0, 0.0),
+        "uphill_anchor": (-uphill, 0.0),
+        "downhill_anchor": (downhill, 0.0),
+        "post": (base, 0.0),
+    }
     return Drawing(
-        case=extreme.case,
-        slope_deg=slope,
+        case=CasePoint(
+            density_kg_m3=412.0, friction_deg=17.3, inclination_deg=math.degrees(lean)
+        ),
+        slope_deg=rng.uniform(22.0, 62.0),
         snow_thickness_m=thickness,
-        net_m=net,
+        net_m=[(float(x), float(y)) for x, y in net],
         head_m=head,
-        post_base_m=(base, 0.0),
-        uphill_anchor_m=(uphill, 0.0),
-        downhill_anchor_m=(downhill, 0.0),
+        post_base_m=points["post"],
+        uphill_anchor_m=points["uphill_anchor"],
+        downhill_anchor_m=points["downhill_anchor"],
     )
 
 

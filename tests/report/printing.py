@@ -77,24 +77,30 @@ document.body.innerHTML = "<pre>" + box.bottom + "</pre>";
 
 def measure_bottom(page: str, selector: str, folder) -> float:
     """Lower edge of an element on paper, from the top of the first page [px]."""
-    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
-    page = page.replace("@media print", "@media all")
-    page = page.replace("@media screen", "@media speech")
     script = _BOTTOM.replace("WIDTH", str(PAPER_PX)).replace("SELECTOR", selector)
-    tree = open_page(page.replace("</body>", script), folder, "--dump-dom")
-    return float(re.findall("<pre>(.*?)</pre>", tree)[0])
+    return float(_ask(_as_on_paper(page), script, folder))
 
 
 def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[str]:
     """``section tag`` of whatever reaches beyond ``width`` [px] on that medium."""
+    page = _as_on_paper(page) if media == "print" else page
+    script = _MEASURE.replace("WIDTH", str(width))
+    return _ask(page, script, folder, f"--window-size={width},2000").splitlines()
+
+
+def _as_on_paper(page: str) -> str:
+    """The page with what it has for print, shown on a screen."""
+    page = page.replace("@media print", "@media all")
+    return page.replace("@media screen", "@media speech")
+
+
+def _ask(page: str, script: str, folder, *arguments: str) -> str:
+    """What a script at the end of a page leaves of it, as text."""
     page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
-    if media == "print":
-        page = page.replace("@media print", "@media all")
-        page = page.replace("@media screen", "@media speech")
-    page = page.replace("</body>", _MEASURE.replace("WIDTH", str(width)))
-    tree = open_page(page, folder, f"--window-size={width},2000", "--dump-dom")
+    page = page.replace("</body>", script)
+    tree = open_page(page, folder, *arguments, "--dump-dom")
     (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
-    return told.split("\n") if told else []
+    return told
 
 
 # Texts of drawings that share more than half a pixel of width and a quarter of their
@@ -129,9 +135,7 @@ def list_meeting(drawings: list[str], folder) -> list[str]:
     style = "body { font-family: Arial, sans-serif; } svg { display: block; }"
     figures = "".join(f"<figure>{svg}</figure>" for svg in drawings)
     page = f"<html><style>{style}</style><body>{figures}</body></html>"
-    tree = open_page(page.replace("</body>", _MEETING), folder, "--dump-dom")
-    (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
-    return told.split("\n") if told else []
+    return _ask(page, _MEETING, folder).splitlines()
 
 
 _HIDDEN = """<script>
@@ -143,12 +147,8 @@ document.body.innerHTML = "<pre>" + gone.join("\\n") + "</pre>";
 
 def list_hidden(page: str, folder) -> set[str]:
     """Sections that paper does not show."""
-    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
-    page = page.replace("@media print", "@media all").replace("</body>", _HIDDEN)
-    (told,) = re.findall(
-        "<pre>(.*?)</pre>", open_page(page, folder, "--dump-dom"), re.DOTALL
-    )
-    return set(told.split())
+    page = page.replace("@media print", "@media all")
+    return set(_ask(page, _HIDDEN, folder).split())
 
 
 def open_page(page: str, folder, *arguments: str) -> str:

@@ -241,26 +241,14 @@ def test_a_list_of_tests_that_stands_twice_is_asked_about(tmp_path, seed):
 
 def test_links_of_a_type_make_its_chain_in_their_order():
     tables = tiny()
+    shackle = {"type": "g1", "link": "shackle", "force": 64.2, "meaning": "limit"}
+    plate = {"type": "A1", "link": "plate", "force": 501, "meaning": "strength"}
     tables["links"] = [
         {"type": "G1", "link": "thimble", "force": 213.5, "meaning": "strength"},
         {"type": "A1", "link": "eye", "force": 310},
-        {
-            "type": "g1",
-            "link": "shackle",
-            "force": 64.2,
-            "meaning": "limit",
-            "count": 2,
-        },
-        {
-            "type": "A1",
-            "link": "plate",
-            "force": 501,
-            "meaning": "strength",
-            "angle": 12,
-        },
+        shackle | {"count": 2},
+        plate | {"angle": 12, "chain": "complete"},
     ]
-    tables["links"][2]["count"] = 2
-    tables["links"][3] |= {"angle": 12, "chain": "complete"}
     site = read_tables(tables)
     assert [link.is_of_whole for link in site.links["A1"]] == [False, True]
     assert not any(link.is_of_whole for link in site.links["G1"])

@@ -13,7 +13,6 @@ from netdesign.solving.runner import Runner
 from netdesign.study.cases import list_phases, search_site
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
-from tests.grid import solve_site
 from tests.read_check import compare_support
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 
@@ -37,22 +36,6 @@ def envelopes():
 
 def judge(standard, envelopes, site=SITE):
     return judge_site(site, envelopes, standard, RUN)
-
-
-def test_ranges_of_one_value_each_are_one_case(standard):
-    """Nothing hides beside it: its force is its bound, and its demand is proven."""
-    spans = {
-        name: Interval(low=one.high, high=one.high) for name, one in RANGES.intervals
-    }
-    site, runner = build_site(*ROWS, ranges=Ranges.of(**spans)), Runner()
-    found, alone = search_site(site, RUN, runner), solve_site(site, RUN)
-    assert runner.counts.solved == list_phases(site)[0].cases == len(ROWS)
-    for one, other in zip(found, alone, strict=True):
-        assert one.gap is None
-        for member, extreme in other.extremes.items():
-            found_high = one.extremes[member].widened.high
-            assert found_high == pytest.approx(extreme.force.high, rel=1e-12)
-    assert judge(standard, found, site).verdict is Verdict.PASS
 
 
 def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):

@@ -248,3 +248,18 @@ def test_no_bond_in_a_flat_borehole_is_proven(solved, axis, basis):
     is_open = dip < 10.0
     assert (check.verdict is Verdict.NOT_PROVEN) is is_open, check.reason
     assert ("grout may run out" in str(check.reason)) is is_open
+
+
+def test_notes_say_what_snow_the_guys_bear(solved):
+    study, checks = judge(solved)
+    (row,) = study.rows
+    told = [str(note) for note in row.notes]
+    (guys,) = (one for one in told if one.startswith("width of snow that a guy"))
+    for name in ("Uphill guy", "Downhill guy"):
+        demand = checks[f"{name.replace(' ', '_').lower()}.rope"].demand_kN
+        assert (name in guys) is (demand > 0.0)
+    no_reserve = change(solved[0].rows[0].resistances, "uphill_guy", value=1e3)
+    weak = judge(solved, resistances=no_reserve)[0].rows[0].notes
+    assert not [
+        one for one in map(str, weak) if "Uphill guy" in one and "width of snow" in one
+    ]

@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.assumed import assume
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
@@ -81,25 +80,6 @@ def test_forces_are_the_floor_of_the_checks(solved, profile):
             assert force == pytest.approx(check.read("E_g"), rel=EXACT, abs=1e-12)
             compared += 1
     assert compared > 100
-
-
-def test_a_range_is_no_better_than_any_value_in_it():
-    draw = random.Random(417)
-    low, high = math.radians(22.3), math.radians(37.1)
-    inclinations = [low, high, *(draw.uniform(low, high) for _ in range(6))]
-
-    def find(low, high):
-        spans = dict(SITE.ranges.intervals)
-        spans["inclination"] = Interval(low=low, high=high)
-        site = replace(SITE, ranges=Ranges.of(**spans))
-        return list_guideline_forces(site, PROFILES[0])
-
-    wide = find(low, high)
-    for one in inclinations:
-        for row, narrow in zip(wide, find(one, one), strict=True):
-            for force, other in zip(row.anchors, narrow.anchors, strict=True):
-                if other.guideline_kN is not None:
-                    assert force.guideline_kN >= other.guideline_kN * (1.0 - 1e-6)
 
 
 STATICS = {

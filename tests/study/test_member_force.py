@@ -10,7 +10,9 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, NetPart
-from netdesign.study.guideline_load import list_assumed
+from netdesign.study.guideline_load import (
+    list_assumed,
+)
 from netdesign.study.judge import judge_site
 from tests.each import each
 from tests.grid import solve_site
@@ -128,3 +130,17 @@ def test_what_the_floor_takes_for_granted_is_told(changes, told):
     assert found.keys() == told.keys()
     for key, numbers in told.items():
         assert found[key] == pytest.approx(numbers)
+
+
+@pytest.mark.parametrize(("gap", "is_told"), [(1.99, True), (2.0, True), (1.7, False)])
+def test_gap_close_to_a_threshold_shows_both_values(solved, gap, is_told):
+    """1.99 and 2.00 m give one demand, and the other value beside it."""
+    _, study = judge(solved, gap=gap)
+    width = checks_of(study)["foot_anchor.tendon.end"].read("b_e")
+    told = [one for one in study.rows[0].notes if one.key == "row.gap_at_threshold"]
+    assert bool(told) is is_told
+    free = 0.5 * ROW.layout.post_spacing + 4.0 * 4.0 / 3.0
+    assert (width == pytest.approx(free, rel=1e-9)) is is_told
+    if is_told:
+        assert told[0].arguments["wider"] == pytest.approx(width, rel=1e-12)
+        assert told[0].arguments["other"] < 0.7 * width

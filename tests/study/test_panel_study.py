@@ -28,7 +28,6 @@ from tests.small_site import (
     list_net_parts,
     name_directions,
     name_force_checks,
-    resist,
     turn,
 )
 
@@ -163,11 +162,3 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
         assert one.read("E_p0") is None
         assert one.read("V_p0") is None
     assert study.verdict is Verdict.NOT_PROVEN
-
-
-def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
-    lost = FailedPanel(outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.not_found"))
-    monkeypatch.setattr(running, "resolve_panels", lambda *_: lost)
-    weak = with_panel(a_panel(), resistances=resist(1e3))
-    _, study = judge(weak, solve=solve_anew)
-    assert study.verdict is Verdict.FAIL

@@ -183,3 +183,13 @@ def test_a_truss_that_does_not_stand_proves_no_member_of_the_end(monkeypatch):
     monkeypatch.setattr(load_along_row, "share_with_end_guy", lambda *_, **__: None)
     _, study = judge(with_panel(a_panel(), end=an_end(angle=37.0)))
     assert checks_of(study)["uphill_guy.rope.end"].verdict is Verdict.NOT_PROVEN
+
+
+def test_what_is_assumed_of_the_end_is_told():
+    row = with_panel(a_panel(), end=an_end(angle=37.0))
+    keys = {one.key for one in judge(row)[1].rows[0].notes}
+    assert {"row.end_guy_holds_all", "row.end_guy_at_head"} <= keys
+    assert "row.posts_unknown" not in keys
+    loose = replace(row, post_count=None)
+    keys = {one.key for one in judge(loose)[1].rows[0].notes}
+    assert "row.posts_unknown" in keys

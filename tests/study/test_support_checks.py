@@ -12,8 +12,6 @@ from netdesign.checks.comparison import find_action_factor
 from netdesign.edge.input_files import find_resource
 from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.posts import find_post_resistance
 from netdesign.study.remedies import find_type_change
 from netdesign.study.row_to_check import Basis
 from tests.checks.given_pulls import (
@@ -21,7 +19,6 @@ from tests.checks.given_pulls import (
     find_second,
     judge_row,
     read_row,
-    set_efficiency,
     study_row,
 )
 from tests.each import each
@@ -245,22 +242,6 @@ def test_the_end_post_has_the_larger_of_end_effect_and_efficiency(gap, eta):
     for check, least in ((inside, 0.0), (end, 1.0 + factor)):
         used = check.resistance_derivation.arguments["efficiency"]
         assert used == pytest.approx(max(3.4 if eta is None else eta, least))
-
-
-@pytest.mark.parametrize(
-    ("position", "length", "used"),
-    [("second", 3.6, 3.5), ("second", 3.4, 1.0), ("edge", 0.3, 3.5)],
-)
-def test_an_end_effect_that_reaches_the_second_post_presses_it(position, length, used):
-    """Posts stand 3.5 m apart; f_R = 2.5."""
-    site = read_row(anchor=BAR)
-    (row,), law = site.rows, BOUTILLIER_2004
-    (given,) = (one for one in row.resistances if one.mode == "compression_bending")
-    width = LoadedWidth(position=position, width=3.5, end_factor=2.5, end_length=length)
-    standard = set_efficiency(load_standard(SWISS), 1.0)
-    basis = Basis(site=site, row=row, standard=standard, law=law)
-    found = find_post_resistance(given, given.dimensions, basis, width)
-    assert found.derivation.arguments["efficiency"] == pytest.approx(used)
 
 
 @pytest.mark.parametrize(

@@ -5,14 +5,11 @@ import random
 from dataclasses import replace
 from datetime import date, timedelta
 
-import numpy as np
-
 from netdesign.addons.winter.figure import draw_winter
-from netdesign.checks.check import CasePoint
 from netdesign.report.drawing.pressure_figure import draw_pressure
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.study.case_records import Drawing, GuidelineRecord, PullRecord
-from tests.report.build_study import build_study
+from netdesign.study.case_records import GuidelineRecord, PullRecord
+from tests.report.build_study import build_section, build_study
 
 
 def draw_all(rng: random.Random, words) -> list[str]:
@@ -69,38 +66,6 @@ def build_guideline(rng: random.Random) -> GuidelineRecord:
     ]
     load = 0.6 * most * high
     return replace(record, along_net=along, cases=cases, solved_load_kN_per_m=load)
-
-
-def build_section(rng: random.Random) -> Drawing:
-    """Section of any proportions that a layout allows."""
-    height = rng.uniform(0.9, 6.2)
-    lean = math.radians(rng.uniform(0.0, 40.0))
-    head = (height * math.tan(lean), height)
-    base = head[0] - height * math.tan(math.radians(rng.uniform(-30.0, 45.0)))
-    uphill = rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
-    downhill = base + rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
-    shares = np.linspace(0.0, 1.0, 25)
-    sag = rng.uniform(0.0, 0.15) * height * 4 * shares * (1 - shares)
-    thickness = height * rng.uniform(0.5, 1.0)
-    net = [(head[0] * s + f, head[1] * s) for s, f in zip(shares, sag, strict=True)]
-    points = {
-        "foot_anchor": (0.0, 0.0),
-        "uphill_anchor": (-uphill, 0.0),
-        "downhill_anchor": (downhill, 0.0),
-        "post": (base, 0.0),
-    }
-    return Drawing(
-        case=CasePoint(
-            density_kg_m3=412.0, friction_deg=17.3, inclination_deg=math.degrees(lean)
-        ),
-        slope_deg=rng.uniform(22.0, 62.0),
-        snow_thickness_m=thickness,
-        net_m=[(float(x), float(y)) for x, y in net],
-        head_m=head,
-        post_base_m=points["post"],
-        uphill_anchor_m=points["uphill_anchor"],
-        downhill_anchor_m=points["downhill_anchor"],
-    )
 
 
 def build_winter(rng: random.Random) -> dict:

@@ -11,8 +11,8 @@ import pytest
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.words import Words
 from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import build_section
 from tests.report.drawing.drawn import (
-    build_section,
     draw_all,
 )
 from tests.report.printing import list_meeting

@@ -1,9 +1,5 @@
 import datetime
 import math
-from decimal import Decimal
-
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from netdesign.site.cells.findings import Refusal
 from netdesign.site.cells.numbers import parse_number
@@ -75,18 +71,3 @@ def test_what_is_no_clear_number_is_refused(value, mark, rule):
     assert isinstance(refusal, Refusal)
     assert str(refusal.rule) == rule
     assert str(refusal.accepted) or rule != "holds two numbers"
-
-
-@given(st.floats(min_value=1e-3, max_value=1e5), st.sampled_from([".", ","]))
-@settings(max_examples=200)
-def test_floats_as_programs_write_them_are_read_to_the_last_bit(number, mark):
-    assert parse_number(repr(number).replace(".", mark), mark) == number
-
-
-@settings(max_examples=300)
-@given(st.text(alphabet="0123456789.,+- eEO m'", max_size=9))
-def test_text_without_groups_is_read_as_its_one_meaning_or_refused(text):
-    number = parse_number(text)
-    if not isinstance(number, Refusal) and text.count(".") + text.count(",") < 2:
-        plain = text.strip().replace(",", ".").replace(" ", "").replace("'", "")
-        assert number == float(Decimal(plain))

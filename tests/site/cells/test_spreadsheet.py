@@ -183,3 +183,25 @@ def test_strict_open_xml_is_refused_by_its_name(tmp_path_factory, seed):
 def test_a_workbook_of_which_no_sheet_is_read_is_refused(tmp_path, small):
     rewrite(small, lambda _, xml: re.sub(rb"<(/?)sheets>", rb"<\1s>", xml))
     assert "no sheet that can be read" in refusal_of(small)
+
+
+@pytest.mark.parametrize("part", ["xl/workbook.xml", SHEET])
+def test_xml_with_entities_is_refused(small, part):
+    bomb = b'<!DOCTYPE x [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]>'
+    replace_part(small, lambda xml: bomb + xml, part)
+    assert "declares entities" in refusal_of(small)
+
+
+def test_a_part_packed_beyond_reason_is_refused(small):
+    replace_part(small, lambda xml: xml + b" " * (3 * 2**20))
+    assert "expands beyond" in refusal_of(small)
+
+
+def test_a_part_that_hides_its_size_is_refused(small):
+    content = small.read_bytes()
+    with zipfile.ZipFile(small) as archive:
+        size = archive.getinfo(SHEET).file_size
+    spoilt = content.replace(size.to_bytes(4, "little"), (7).to_bytes(4, "little"))
+    assert spoilt != content
+    small.write_bytes(spoilt)
+    assert "cannot be read as a workbook" in refusal_of(small)
