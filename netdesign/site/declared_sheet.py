@@ -24,7 +24,7 @@ from netdesign.site.cells.cells import (
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.fields import normalise
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids, settle_ids
-from netdesign.site.model import InputEcho, NetRow, ReplacedCell
+from netdesign.site.model import ReplacedCell
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.structure.members import (
     CONNECTED,
@@ -132,24 +132,6 @@ def put_values(
         sheets[numbers[name]] = replace(sheets[numbers[name]], rows=rows)
         replaced.append(ReplacedCell(cell=cell.place, was=cell.text, now=now.text))
     return replace(workbook, sheets=tuple(sheets)), tuple(replaced)
-
-
-def mark_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
-    """Net row whose inputs say what the workbook has in the place of a what-if."""
-    was = {change.cell: change.was for change in replaced}
-    if not was:
-        return row
-
-    def mark(echo: InputEcho) -> InputEcho:
-        if echo.cell not in was or echo.derivation is not None:
-            return echo
-        text = was[echo.cell]
-        how = say("what_if.instead", was=text)
-        return replace(
-            echo, derivation=how if text else say("what_if.instead_of_nothing")
-        )
-
-    return replace(row, inputs=tuple(map(mark, row.inputs)))
 
 
 # Checks of geometry that may be proven elsewhere. An impossible slope and a net below

@@ -25,7 +25,7 @@ from netdesign.site.columns.all_tables import (
     load_old_plans,
 )
 from netdesign.site.columns.office import is_heading, load_plan
-from netdesign.site.declared_sheet import mark_replaced, read_declared, replace_cells
+from netdesign.site.declared_sheet import read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
 from netdesign.site.headings import count_headings
 from netdesign.site.lines import Lines
@@ -146,11 +146,10 @@ def _build_site(
         raise SiteDataError(findings, fold_findings(findings, workbook.file))
     notes = fold_findings(findings)
     questions = ask_about_numbers(lines, confirmed, findings)
-    rows = (replace(row, questions=questions[row.id]) for row in net_rows)
     return Site(
         project=lines.project,
         ranges=_widen_density(ranges.ranges, net_rows),
-        rows=tuple(mark_replaced(row, replaced) for row in rows),
+        rows=tuple(replace(row, questions=questions[row.id]) for row in net_rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=(*notes, *confirmed.values()),
