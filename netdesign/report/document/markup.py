@@ -191,13 +191,14 @@ def _measure_columns(
 
     Headings may be broken between their words.
     """
-    lines = [line for line in (grid.headings, *grid.lines) if len(line) > 1]
+    count = len(grid.numbers)
+    lines = [line for line in (grid.headings, *grid.lines) if len(line) == count]
     texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
     first = bool(grid.headings)
     least = [
         max(
             _BOLD_SIGN * _measure(_list_words(column[:first]), is_tight),
-            _measure(_list_words(column[first:]), is_tight),
+            _BOLD_SIGN * _measure(_list_words(column[first:]), is_tight),
         )
         for column in texts
     ]

@@ -22,7 +22,7 @@ VERDICT, TABLE = "netdesign verdict", "netdesign table"
 # Size [pt], bold, space above and below [pt], stays with what follows.
 _LOOKS: dict[str, tuple[float, bool, float, float, bool]] = {
     TITLE: (17.0, True, 0.0, 4.0, True),
-    HEADING: (14.0, True, 0.0, 2.0, True),
+    HEADING: (14.0, True, 6.0, 2.0, True),
     SUBHEADING: (9.5, True, 4.0, 1.0, True),
     CAPTION: (7.5, False, 4.0, 1.0, True),
     TEXT: (8.5, False, 0.0, 2.0, False),

@@ -21,6 +21,7 @@ from netdesign.report.blocks import (
     Table,
     key_columns,
     section,
+    strong,
     symbols,
     text_cell,
 )
@@ -118,9 +119,14 @@ def _work_step(step: Step, check: Check, words: Words) -> tuple[Cell, ...]:
         text_cell(words(f"symbol.{step.symbol}")),
         Cell(content=symbols(f"{step.symbol} = {formula}")),
         text_cell(f"= {numbers}"),
-        Cell(content=(Piece(result, "strong"),)),
+        _show_result(result),
         text_cell(step.source or MISSING),
     )
+
+
+def _show_result(shown: str) -> Cell:
+    """Result that stands out, never broken before its unit."""
+    return Cell(content=strong(shown.replace(" ", "\u00a0")))
 
 
 def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
@@ -132,11 +138,7 @@ def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
             text_cell(words("worked.needed")),
             Cell(content=symbols("R_k ≥ γ_R · E_d")),
             Cell(content=symbols(words("worked.upper_end", force=upper))),
-            Cell(
-                content=(
-                    Piece(append_unit(words.show_minimum(needed), "kN"), "strong"),
-                )
-            ),
+            _show_result(append_unit(words.show_minimum(needed), "kN")),
             text_cell(words("worked.least")),
         )
 

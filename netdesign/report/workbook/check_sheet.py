@@ -44,8 +44,8 @@ _WIDTHS = {
     "net_row": 5,
     "check": 35,
     "verdict": 17,
-    "symbol": 6,
-    "name": 22,
+    "symbol": 8,
+    "name": 20,
     "formula": 16,
     "low": 6,
     "value": 6,
@@ -159,7 +159,9 @@ def _write_forces(
         number, form = numbers.get(symbol), book.text(top=1)
         if number is not None:
             shown = QUANTITIES["demand_kN"].number_format.split(";")
-            parts = [f'{x[: x.find("0")]}"{symbol} "{x[x.find("0") :]}' for x in shown]
+            parts = [
+                f'{x[: x.find("0")]}"{symbol} "{x[x.find("0") :]}" kN"' for x in shown
+            ]
             form = book.text(top=1, num_format=";".join(parts))
         if last > first:
             sheet.merge_range(line, first, line, last, "", form)

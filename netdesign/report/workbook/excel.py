@@ -59,6 +59,7 @@ from netdesign.words.catalogue import Language
 
 SHEETS = ("decision", "schedule", "checks", "inputs", "profile", "notes")
 _HEAD_ROW = 5  # of the matrix, zero-based
+_GOVERNING = 40.0  # most that the governing checks are wide, or all is small in print
 _LINKS = ((1, 1), (2, 3), (4, 5), (6, 6), (8, 8))  # columns of those to other sheets
 
 
@@ -72,6 +73,7 @@ def add_decision_sheet(book: Book, study: Study, *, is_verified: bool) -> None:
     table = _add_verdicts(build_matrix(study, words), study, book)
     widths = find_widths([table])
     widths[0] = max(widths[0], measure_longest(words("heading.verdict")))
+    widths[-1] = min(widths[-1], _GOVERNING)
     for index, width in enumerate(widths):
         sheet.set_column(index, index, width)
     running = title_pages(study, words)
