@@ -193,14 +193,15 @@ def _measure_columns(
     """
     count = len(grid.numbers)
     lines = [line for line in (grid.headings, *grid.lines) if len(line) == count]
-    texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
+    columns = list(zip(*lines, strict=True))
+    texts = [[_join(cell) for cell in column] for column in columns]
     first = bool(grid.headings)
     least = [
         max(
             _BOLD_SIGN * _measure(_list_words(column[:first]), is_tight),
-            _BOLD_SIGN * _measure(_list_words(column[first:]), is_tight),
+            _find_weight(cells) * _measure(_list_words(column[first:]), is_tight),
         )
-        for column in texts
+        for column, cells in zip(texts, columns, strict=True)
     ]
     wanted = [
         _LINE * _measure(_list_lines(column[first:]), is_tight) for column in texts
@@ -226,6 +227,12 @@ def _loosen(grid: Grid) -> Grid:
 
     lines = tuple(tuple(loosen(cell) for cell in line) for line in grid.lines)
     return replace(grid, lines=lines)
+
+
+def _find_weight(cells: Iterable[Runs]) -> float:
+    """Width of the signs of a column over that of plain ones."""
+    is_bold = any(piece.look == STRONG for cell in cells for piece in cell)
+    return _BOLD_SIGN if is_bold else 1.0
 
 
 def _join(content: Runs) -> str:
