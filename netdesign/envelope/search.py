@@ -301,7 +301,7 @@ def search_rows(
 def run_grid(
     task: RowTask, counts: Mapping[str, int], runner: Runner
 ) -> tuple[list[CaseResult], int]:
-    """Cases of a grid with so many even samples of each axis; how many took no solve."""
+    """Cases of a grid with so many even samples an axis; how many took no solve."""
     task = replace(task, ranges=replace(task.ranges, is_even=True))
     sizes = [counts[name] for name in task.ranges.axes]
     points = list(product(*([k / (n - 1) for k in range(n)] for n in sizes)))
