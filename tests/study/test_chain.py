@@ -81,17 +81,6 @@ def test_steel_of_which_something_is_not_said_is_not_proven(solved, member, wear
     assert said in str(check.reason)
 
 
-def test_the_weakest_link_of_a_chain_bears_and_is_named(solved):
-    links = dict(solved[0].links)
-    (eye,) = links["B50-tested"]
-    weak = replace(eye, kind="plate", breaking=0.31 * eye.breaking, source="Links!C99")
-    _, checks = judge(solved, links=links | {"B50-tested": (eye, weak, eye)})
-    check = checks["foot_anchor.connection"]
-    assert check.read("R_k") == pytest.approx(0.31 * eye.breaking / 1e3)
-    assert check.resistance_cell == "Links!C99"
-    assert "plate" in str(check.resistance_derivation)
-
-
 def test_a_chain_of_which_no_link_is_given_is_not_proven(solved):
     links = {name: one for name, one in solved[0].links.items() if name != "G28"}
     _, checks = judge(solved, links=links)

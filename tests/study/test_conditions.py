@@ -1,6 +1,5 @@
 """Conditions: what nobody typed and no number can say, once for all rows."""
 
-import math
 import random
 from dataclasses import replace
 
@@ -31,20 +30,6 @@ def test_only_what_no_cell_says_is_left_as_a_condition(solved):
         "hangs_free",
     }
     assert study.conditions == study.rows[0].conditions
-
-
-def test_the_cover_is_told_as_it_is_calculated(solved):
-    row = solved[0].rows[0]
-    study, checks = judge(solved, end_anchors=None)
-    found = state(study)["cover"]
-    depths = [
-        (kind.drilled - 0.5 * (kind.bond or kind.drilled)) * math.sin(pull.axis)
-        for pull in study.rows[0].pulls
-        if (kind := row.find_anchor_type(pull.anchor, "intermediate"))
-    ]
-    assert found.value == pytest.approx(min(depths))
-    assert found.who == "ground"
-    assert "geometry.cover" not in checks
 
 
 @pytest.mark.parametrize(
