@@ -299,3 +299,15 @@ def test_glide_factor_is_that_of_the_creep_law(tables, name):
     tables["ground"]["glide_factor"], tables["snow"]["creep_exponent"] = 1.5, 1.0
     with pytest.raises(ModelError, match=r"ground\.glide_factor: .*exponent 3"):
         build(tables)
+
+
+def test_layer_outside_the_calibration_is_flagged(tables):
+    """The mean density alone would not tell."""
+    take_layers(
+        tables,
+        {"thickness_m": 3.0, "density_kg_m3": 450.0},
+        {"thickness_m": 1.0, "density_kg_m3": 200.0},
+    )
+    scene = build(tables)
+    assert scene.creep_law.is_calibrated(scene.snowpack.relative_density)
+    assert not scene.is_calibrated

@@ -3,6 +3,7 @@
 import math
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -23,6 +24,7 @@ from netdesign.solving.workers import (
     OwnProcess,
     ProcessPool,
     build_workers,
+    follow_futures,
 )
 from tests.solving.small_scene import COARSE, build_scene
 
@@ -289,3 +291,33 @@ def test_a_scheduler_that_is_killed_is_named_with_its_address(alone, capfd):
     assert f"--executor dask://{address}: the connection" in message
     assert "finished cases are kept" in message
     assert "Traceback" not in capfd.readouterr().err
+
+
+def test_a_worker_that_died_between_two_works_is_noticed_by_neither(alone):
+    with closing(ProcessPool(2, worth=1)) as pool:
+        assert collect(pool, JOBS) == alone
+        executor = pool._pool
+        os.kill(next(iter(executor._processes)), signal.SIGKILL)
+        for _ in range(500):  # until the executor knows of it
+            if executor._broken:
+                break
+            time.sleep(0.01)
+        assert executor._broken
+        assert pool.begin(math.hypot, 3.0, 4.0)() == 5.0
+        assert collect(pool, JOBS) == alone
+
+
+def test_a_cluster_that_lost_all_its_workers_is_named():
+    class Deserted:
+        def scheduler_info(self):
+            return {"workers": {}}
+
+    class Never:
+        def is_empty(self):
+            return False
+
+        def next_batch(self, block):  # noqa: ARG002
+            return []
+
+    with pytest.raises(ClusterError, match="no worker for"):
+        next(follow_futures(Deserted(), Never(), patience=0.0))

@@ -275,3 +275,24 @@ def test_a_line_goes_through_its_values_and_on_along_its_tangent():
     inner, outer = np.diff(found[:3])
     assert outer == pytest.approx(inner, rel=1e-4)
     assert found[4] - found[3] == pytest.approx(found[3] - found[1])
+
+
+def test_what_nobody_typed_is_told_as_assumed(judge, study):
+    assert all(
+        one.is_assumed for row in study.rows for one in row.reliability.variables
+    )
+    told = judge(tell("snow_height", 0.27, period=80.0), tell("model", 0.25))
+    for row in told.rows:
+        typed = {one.name for one in row.reliability.variables if not one.is_assumed}
+        assert typed == {"snow_height", "model"}
+        sources = {str(one.source.arguments) for one in row.reliability.variables}
+        assert "{'text': 'told here'}" in sources
+
+
+def test_without_a_distribution_it_is_not_available(searched, judge):
+    site, solved = searched
+    rows = tuple(replace(row, glide_factor=None) for row in site.rows)
+    solver = CaseSolver(WITH.settings, WITH.creep_law)
+    found = judge_site(replace(site, rows=rows), solved, STANDARD, WITH, solver)
+    gliding = found.rows[1].reliability
+    assert (gliding.beta, gliding.reason.key) == (None, "reliability.no_distribution")
