@@ -6,6 +6,7 @@ sentence; everything else works.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
@@ -39,8 +40,9 @@ SHEETS = {
 OF_ROWS = ("Uncertainty",)
 # Function that makes a record of a row, by the field that has it.
 ROW_RECORDS = {"reliability": "reliability.row_reliability:record_reliability"}
-# Addition to the reports of a study whose rows have that field.
-SHOWN = {"reliability": "reliability.section:SHOWN"}
+# Of a study whose rows have that field: its annex, and its lines on a terminal.
+ANNEXES = {"reliability": "reliability.section:show_reliability"}
+LINES = {"reliability": "reliability.section:list_reliability"}
 
 
 def is_there(place: str) -> bool:
@@ -72,3 +74,21 @@ def load(what: str, place: str) -> Any:
         addon = module.partition(".")[0]
         raise AddonError(say("program.no_addon", what=what, addon=addon))
     return getattr(import_module(f"{__package__}.addons.{module}"), name)
+
+
+def load_for_rows(
+    table: Mapping[str, str], rows: Iterable[object]
+) -> list[Callable[..., Any]]:
+    """Functions of a table here for the records that some net rows have.
+
+    Raises
+    ------
+    AddonError
+        If the installation lacks the add-on of a record.
+    """
+    known = tuple(rows)
+    return [
+        load(name, place)
+        for name, place in table.items()
+        if any(getattr(row, name) for row in known)
+    ]

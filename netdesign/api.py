@@ -110,8 +110,7 @@ def check(
         tell=_LOG.warning,
         expected=sum(phase.cases for phase in phases),
     ) as runner:
-        runner.on_ask = lambda asked: watch.ask(len(asked))
-        runner.on_done = watch.count_case
+        runner.on_ask, runner.on_done = watch.ask, watch.count_case
         (study,) = check_site(chosen, [profile], run, runner, watch)
     for fault in runner.faults:
         _LOG.warning(str(fault))
@@ -200,22 +199,18 @@ def write_reports(
     tests/test_api.py
     """
     from netdesign.edge.output import STUDY_FILE, require_free, write_files
-    from netdesign.report.files import ReportStyle, render_files
+    from netdesign.report.files import NAMES, ReportStyle, render_files
 
-    names = {"csv": "cases.csv"}
-    unknown = tuple(kind for kind in kinds if kind not in _KINDS)
+    unknown = tuple(kind for kind in kinds if kind not in NAMES)
     if unknown:
-        raise ModelError(say("api.no_kind", given=unknown, known=_KINDS))
-    files = [STUDY_FILE, *(names.get(kind, f"report.{kind}") for kind in kinds)]
+        raise ModelError(say("api.no_kind", given=unknown, known=tuple(NAMES)))
+    files = [STUDY_FILE, *(NAMES[kind] for kind in kinds)]
     paths = [Path(folder) / name for name in files]
     require_free(paths, overwrite=overwrite, may_force=False)
     plan = dict.fromkeys(paths, study)
     contents = render_files(plan, ReportStyle(language=language))
     write_files(contents, overwrite=overwrite, is_recorded=True)
     return paths
-
-
-_KINDS = ("html", "xlsx", "docx", "pdf", "csv")
 
 
 def find_envelope(

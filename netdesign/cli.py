@@ -20,11 +20,16 @@ from typing import Any, NoReturn
 import click
 
 from netdesign import addon_table
-from netdesign.commands.running import EXIT_CODES, own_command, print_faults
-from netdesign.commands.usage import UsageRefusal, tell
-from netdesign.edge.input_files import explain_system, make_printable
+from netdesign.commands.running import (
+    UsageRefusal,
+    own_command,
+    print_faults,
+    tell,
+)
+from netdesign.edge.input_files import explain, make_printable
 from netdesign.edge.output import flush_streams, guard_streams
 from netdesign.outcome import (
+    EXIT_CODES,
     NetDesignError,
     OutputError,
     SiteDataError,
@@ -195,7 +200,7 @@ def main() -> NoReturn:
         code = end.code
     flush_streams()
     if output and output.fault and code in (None, *EXIT_CODES.values()):
-        cause = explain_system(output.fault)
+        cause = explain(output.fault)
         tell(say("cli.output_lost", cause=cause), err=True)
         flush_streams()
         code = OutputError.exit_code

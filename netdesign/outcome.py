@@ -55,6 +55,12 @@ class Verdict(StrEnum):
     DECLARED = "declared"  # a document proves it elsewhere: never a pass
 
 
+EXIT_CODES = {
+    Verdict.PASS: 0,
+    Verdict.FAIL: 1,
+    Verdict.NOT_PROVEN: 4,
+    Verdict.DECLARED: 6,  # no pass: a script that knows nothing of it stops
+}
 # Worst first.
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 

@@ -1,4 +1,4 @@
-"""One row per reported quantity: the only place for its unit and decimals.
+"""Reported quantities, of `quantities.toml`: the only place for unit and decimals.
 
 A force has three significant digits, a utilisation two decimals (three where two would
 read 1.00), a direction whole degrees. All digits are in the JSON and in the workbook.
@@ -6,8 +6,10 @@ read 1.00), a direction whole degrees. All digits are in the JSON and in the wor
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.resources import files
 from types import MappingProxyType
 
 from netdesign.words.catalogue import FORCE_ENDS, count_force_decimals
@@ -41,9 +43,9 @@ class Form:
     """
 
     key: str
-    symbol: str
-    unit: str
-    decimals: int | None
+    symbol: str = ""
+    unit: str = ""
+    decimals: int | None = None
     most: int = 4
     is_force: bool = False
     near_one: bool = False
@@ -90,56 +92,10 @@ class Form:
 _NEAR_ONE = 0.005
 
 
-def _force(key: str, symbol: str, unit: str = "kN") -> Form:
-    return Form(key=key, symbol=symbol, unit=unit, decimals=0, is_force=True)
+def _load() -> dict[str, Form]:
+    file = files("netdesign") / "quantities.toml"
+    tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    return {key: Form(key=key, **table) for key, table in tables.items()}
 
 
-def _row(
-    key: str,
-    symbol: str,
-    unit: str,
-    decimals: int | None,
-    most: int = 4,
-) -> Form:
-    return Form(key=key, symbol=symbol, unit=unit, decimals=decimals, most=most)
-
-
-_ROWS = (
-    # what a case is solved with
-    _row("density_kg_m3", "ρ", "kg/m³", None, most=1),
-    _row("friction_deg", "φ", "°", None, most=1),
-    _row("inclination_deg", "θ", "°", None, most=1),
-    _row("slope_deg", "ψ", "°", 1),
-    _row("thickness_m", "d", "m", None, most=2),
-    _row("height_vertical_m", "H", "m", 2),
-    _row("upslope_length_m", "L", "m", None, most=2),
-    _row("slack", "s", "", None),
-    _row("stiffness_kN_per_m", "ES", "kN/m", None, most=0),
-    _row("slip_length_m", "D*", "m", None, most=2),
-    _row("glide_factor", "N", "", 3),
-    _row("snow_thickness_m", "d", "m", 2),
-    # net, per metre of width
-    _force("foot_size_kN_per_m", "T₁", "kN/m"),
-    _force("head_size_kN_per_m", "T₂", "kN/m"),
-    _force("tension_max_kN_per_m", "T", "kN/m"),
-    _force("load_kN_per_m", "R_x", "kN/m"),
-    _force("error_kN_per_m", "", "kN/m"),
-    # members, per anchor, characteristic
-    _force("foot_anchor_kN", "F"),
-    _force("uphill_guy_kN", "F"),
-    _force("downhill_guy_kN", "F"),
-    _force("post_kN", "F"),
-    _force("max_kN", "F"),
-    _force("solved_kN", "E_s"),
-    _force("coupled_kN", "E_c"),
-    _force("guideline_kN", "E_g"),
-    # checks
-    _force("demand_kN", "E_d"),
-    _force("resistance_kN", "R_d"),
-    Form(key="utilisation", symbol="μ", unit="", decimals=2, near_one=True),
-    # comparison of two numbers, quality of a solution
-    _row("change_percent", "", "%", 1),
-    _row("error_percent", "", "%", 2),
-    Form(key="balance_residual", symbol="", unit="", decimals=1, scientific=True),
-)
-QUANTITIES: Mapping[str, Form] = MappingProxyType({row.key: row for row in _ROWS})
+QUANTITIES: Mapping[str, Form] = MappingProxyType(_load())

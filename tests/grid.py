@@ -84,12 +84,10 @@ def wrap_results(site, row, results, run):
             upper_bound=tuple(upper.values()),
             governing=tuple(cases.index(one.governing.case) for _, one in found),
             is_closed=True,
-            log=(),
             surrogate=None,
         ),
         confirmations=(),
         skipped=0,
-        skips_tested=0,
         lifted={name: upper[name] for name in upper if name in POST_PULLS},
     )
 

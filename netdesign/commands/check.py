@@ -11,13 +11,12 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import DEFAULT_FOLDER, take_options
-from netdesign.commands.running import format_time
+from netdesign.commands.running import UsageRefusal, format_time, tell
 from netdesign.commands.site_input import (
     choose_rows,
     read_asked_site,
     require_source,
 )
-from netdesign.commands.usage import UsageRefusal, tell
 from netdesign.outcome import StandardError
 from netdesign.words.message import say
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +15,9 @@ from netdesign.commands.running import (
     print_faults,
     print_next_step,
     report_places,
+    speak,
+    tell,
 )
-from netdesign.commands.usage import speak, tell
 from netdesign.edge.output import (
     STUDY_FILE,
     WHAT_IF_MARK,
@@ -45,7 +45,7 @@ def carry_out(
     site: Site,
     profiles: Sequence[Standard],
     run: CheckRun,
-    outputs: Outputs,
+    outputs: Sequence[Sequence[Path]],
     read_instead: ReadInstead | None,
     asked: Mapping[str, Any],
     site_name: str,
@@ -60,8 +60,8 @@ def carry_out(
         Limit profiles, with the floor that was chosen.
     run : CheckRun
         Settings, command line and time.
-    outputs : Outputs
-        Places of the reports.
+    outputs : sequence of sequence of Path
+        Places of the reports, by profile.
     read_instead : callable or None
         Gives the site with some cells replaced; None without ``--size``.
     asked : mapping
@@ -105,7 +105,7 @@ def carry_out(
 
 def _print_rows(site: Site, progress: RunProgress) -> OnRow:
     """Print the head of the matrix; the returned function prints a finished row."""
-    from netdesign.report.console import open_console
+    from netdesign.edge.output import open_console
     from netdesign.report.terminal import Matrix
     from netdesign.report.what_if import title_pages
     from netdesign.report.words import Words
@@ -136,7 +136,7 @@ def _print_summaries(
     studies: Sequence[Study], asked: Mapping[str, Any], *, has_rows: bool = False
 ) -> None:
     """Print the summary of each study, of several below the name of its profile."""
-    from netdesign.report.console import open_console, print_lines
+    from netdesign.edge.output import open_console, print_lines
     from netdesign.report.terminal import print_summary
     from netdesign.report.words import Words
 
@@ -152,7 +152,7 @@ def _print_summaries(
 
 def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     """Print the types that ``--size`` found for each profile, and their verdict."""
-    from netdesign.report.console import open_console, print_lines
+    from netdesign.edge.output import open_console, print_lines
     from netdesign.report.what_if import describe_overall, describe_sized
     from netdesign.report.words import Words
 
@@ -169,25 +169,9 @@ def _print_sizes(sized: Sequence[Sized], studies: Sequence[Study]) -> None:
     print_lines(lines, open_console(), 2)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Outputs:
-    """Places of all files.
-
-    Attributes
-    ----------
-    of_studies : list of list of Path
-        Of each profile.
-    sized : list of list of Path
-        Of the what-if studies of ``--size``, as far as there will be any.
-    """
-
-    of_studies: list[list[Path]]
-    sized: list[list[Path]]
-
-
 def plan_outputs(
     folder: Path | None, profiles: Sequence[str], asked: Mapping[str, Any]
-) -> Outputs:
+) -> list[list[Path]]:
     """Places of the outputs by profile; each of several profiles has a folder.
 
     ``asked`` are the options of the command line. Without a folder there are no places.
@@ -195,30 +179,33 @@ def plan_outputs(
     Raises
     ------
     OutputError
-        Where a file is in the way.
+        Where a file is in the way, of what-if studies of ``--size``, too.
     """
     from netdesign.edge.output import require_free
 
-    kinds = list_wanted(asked)
     names = mark_names(
-        [STUDY_FILE, *kinds], is_what_if=asked["instead"], is_part=asked["rows"]
+        [STUDY_FILE, *list_wanted(asked)],
+        is_what_if=asked["instead"],
+        is_part=asked["rows"],
     )
-    outputs = Outputs(of_studies=[[] for _ in profiles], sized=[])
+    outputs: list[list[Path]] = [[] for _ in profiles]
     if folder is not None:
         several = len(profiles) > 1
         places = [folder / profile if several else folder for profile in profiles]
-        what_ifs = [f"{WHAT_IF_MARK}{name}" for name in names if asked["size"]]
-        outputs = Outputs(
-            of_studies=[[place / name for name in names] for place in places],
-            sized=[[place / name for name in what_ifs] for place in places],
-        )
-    groups = (*outputs.of_studies, *outputs.sized)
-    require_free([path for group in groups for path in group], overwrite=asked["force"])
+        outputs = [[place / name for name in names] for place in places]
+    paths = [path for group in outputs for path in group]
+    sized = _mark_sized(paths) if asked["size"] else []
+    require_free([*paths, *sized], overwrite=asked["force"])
     return outputs
 
 
+def _mark_sized(paths: Sequence[Path]) -> list[Path]:
+    """Places of the what-if study of ``--size`` beside the study's own."""
+    return [path.with_name(f"{WHAT_IF_MARK}{path.name}") for path in paths]
+
+
 def render_outputs(
-    outputs: Outputs,
+    outputs: Sequence[Sequence[Path]],
     studies: Sequence[Study],
     sized: Sequence[Sized],
     asked: Mapping[str, Any],
@@ -227,12 +214,10 @@ def render_outputs(
     """Contents of all files; processes of the run render some of them."""
     from netdesign.report.files import render_files
 
-    what_ifs = [what_if for _, what_if in sized]
-    pairs = [
-        *zip(studies, outputs.of_studies, strict=True),
-        *zip(what_ifs, outputs.sized, strict=False),  # none unasked
-    ]
-    plan = {path: study for study, paths in pairs if study for path in paths}
+    pairs = [*zip(studies, outputs, strict=True)]
+    for (_, what_if), paths in zip(sized, outputs, strict=False):  # none unasked
+        pairs += [(what_if, _mark_sized(paths))] if what_if else []
+    plan = {path: study for study, paths in pairs for path in paths}
     return render_files(plan, choose_style(asked), runner.workers.pool)
 
 
@@ -251,7 +236,7 @@ def _check_and_size(
     from netdesign.study.check_site import check_site, judge_solved, solve_rows
     from netdesign.study.sizing import size_site
 
-    solved = solve_rows(site, run, runner, watch)
+    solved = solve_rows(site, run, runner)
     studies = judge_solved(solved, profiles, run, runner, watch)
     sized: list[Sized] = []
     for study, profile in zip(studies, profiles, strict=True):

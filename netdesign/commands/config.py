@@ -19,7 +19,7 @@ from typing import Any
 import click
 
 from netdesign.commands.options import ShortHelpCommand
-from netdesign.commands.usage import UsageRefusal
+from netdesign.commands.running import UsageRefusal
 from netdesign.edge.input_files import explain, is_there, list_faults, read_toml
 from netdesign.outcome import ContentError
 from netdesign.words.message import Message, say

@@ -15,21 +15,22 @@ from netdesign.commands.options import (
     RANGE,
     ShortHelpCommand,
     TypedRange,
-    refuse_jobs,
     take_options,
 )
 from netdesign.commands.running import (
+    UsageRefusal,
     open_phases,
     print_document,
     print_faults,
     require_places,
+    speak,
+    tell,
     write_outputs,
 )
-from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
-    from netdesign.edge.progress import Phase, RunProgress
+    from netdesign.edge.progress import Phase
     from netdesign.envelope.ranges import Ranges
     from netdesign.envelope.rows import RowTask
     from netdesign.report.words import Words
@@ -58,7 +59,6 @@ def envelope(scene_file: Path, **asked: Any) -> None:
     from netdesign.files.scene import read_scene_file
 
     out = asked["out"]
-    refuse_jobs(asked["executor"])
     ranging = [option.name or "" for option in _list_options()]
     spans = {name: asked[name] for name in ranging if asked[name] is not None}
     counts = _read_counts(spans)
@@ -74,7 +74,7 @@ def envelope(scene_file: Path, **asked: Any) -> None:
             *(to_solve.scene, ranges, asked["accuracy"]),
             is_confirmed=asked["confirm"] == "mesh",
         )
-        document = _solve(task, counts, runner, progress, start)
+        document = _solve(task, counts, runner, start)
         progress.enter("outputs")
     failed = print_faults(runner.faults)
     if out:
@@ -139,7 +139,6 @@ def _solve(
     task: RowTask,
     counts: dict[str, int],
     runner: Runner,
-    progress: RunProgress,
     start: float,
 ) -> dict[str, Any]:
     """Document of a grid with ``counts`` samples; without counts, of a search."""
@@ -150,7 +149,7 @@ def _solve(
         results, skipped = run_grid(task, counts, runner)
         elapsed = time.perf_counter() - start
         return write_grid_document(results, skipped, runner.counts, elapsed, speak())
-    (extremes,) = search_rows([task], runner, progress.report_wave)
+    (extremes,) = search_rows([task], runner)
     elapsed = time.perf_counter() - start
     return write_envelope_document(extremes, runner.counts, elapsed, speak())
 

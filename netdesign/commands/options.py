@@ -1,8 +1,4 @@
-"""Options of the commands, from ``options.toml``; those without effect are refused.
-
-What a file of defaults holds may stay without effect until what it belongs to is asked
-for; what is typed may not.
-"""
+"""Options of the commands, from ``options.toml``."""
 
 from __future__ import annotations
 
@@ -19,7 +15,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from netdesign.commands.usage import UsageRefusal, ValueRefusal
+from netdesign.commands.running import UsageRefusal, ValueRefusal
 from netdesign.words.message import say
 
 DEFAULT_FOLDER = "netdesign-out"
@@ -271,6 +267,8 @@ def _remember_language(
 def refuse_without(names: Sequence[str], *needed: str) -> None:
     """Refuse options of the running command that have no effect without another.
 
+    Defaults of a file are not refused: they may be there for other runs.
+
     Parameters
     ----------
     names : sequence of str
@@ -283,39 +281,6 @@ def refuse_without(names: Sequence[str], *needed: str) -> None:
     UsageRefusal
         If such an option was typed.
     """
-    _refuse(names, "usage.idle_without", needed=needed)
-
-
-def refuse_delimiter(*paths: Path | None) -> None:
-    """Refuse ``--delimiter`` where no csv file is read; None stands for the example.
-
-    Raises
-    ------
-    UsageRefusal
-        If the option was typed.
-    """
-    from netdesign.site.cells.spreadsheet import is_text
-
-    if any(path is not None and is_text(path) for path in paths):
-        return
-    file = "--example" if paths[-1] is None else paths[-1].name
-    _refuse(["delimiter"], "usage.idle_in_workbook", file=file)
-
-
-def refuse_jobs(executor: str) -> None:
-    """Refuse ``--jobs`` beside a cluster, which has its own processes.
-
-    Raises
-    ------
-    UsageRefusal
-        If the option was typed.
-    """
-    if executor:
-        _refuse(["jobs"], "usage.idle_beside", other="--executor")
-
-
-def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
-    """Refuse typed options; defaults of a file may be there for other runs."""
     context = click.get_current_context()
     typed = tuple(
         max(option.opts, key=len)
@@ -324,4 +289,4 @@ def _refuse(names: Sequence[str], key: str, **why: Any) -> None:
         and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE
     )
     if typed:
-        raise UsageRefusal(say(key, options=typed, **why))
+        raise UsageRefusal(say("usage.idle_without", options=typed, needed=needed))

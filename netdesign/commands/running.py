@@ -1,4 +1,4 @@
-"""Runs a command: progress of solves, faults, files, next steps and exit codes."""
+"""Runs a command: sentences, progress of solves, faults, files, exit codes."""
 
 from __future__ import annotations
 
@@ -19,26 +19,61 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from netdesign.commands.usage import UsageRefusal, speak, tell
+import click
+
 from netdesign.edge.input_files import make_printable
 from netdesign.edge.output import print_json
-from netdesign.outcome import EXIT_CODE, Fault, Verdict, merge_verdicts
-from netdesign.words.catalogue import render
+from netdesign.outcome import (
+    EXIT_CODE,
+    EXIT_CODES,
+    Fault,
+    Verdict,
+    merge_verdicts,
+)
+from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
-    from netdesign.solving.workers import Job
     from netdesign.study.records import Study
 
-EXIT_CODES = {
-    Verdict.PASS: 0,
-    Verdict.FAIL: 1,
-    Verdict.NOT_PROVEN: 4,
-    Verdict.DECLARED: 6,  # no pass: a script that knows nothing of it stops
-}
+
+def speak() -> Language:
+    """Language of the running command; English outside of commands."""
+    context = click.get_current_context(silent=True)
+    language: Language = context.params.get("language", "en") if context else "en"
+    return language
+
+
+def tell(
+    message: Message | str, language: Language | None = None, *, err: bool = False
+) -> None:
+    """Print a message in the language of the command, or in ``language``.
+
+    Control characters in the message are made visible.
+    """
+    click.echo(make_printable(render(message, language or speak())), err=err)
+
+
+class UsageRefusal(click.UsageError):
+    """A command line that is refused, with a message."""
+
+    def __init__(self, message: Message | str) -> None:
+        super().__init__(str(message), click.get_current_context(silent=True))
+
+
+class ValueRefusal(click.BadParameter):
+    """A value of an option that is refused, with a message."""
+
+    def __init__(
+        self,
+        message: Message,
+        ctx: click.Context | None = None,
+        param: click.Parameter | None = None,
+    ) -> None:
+        super().__init__(str(message), ctx, param)
 
 
 def find_exit_code(studies: Sequence[Study], scopes: Sequence[str] = ()) -> int:
@@ -165,17 +200,8 @@ def open_phases(
         ) as runner,
         show_phases(phases, quiet=asked["quiet"], language=language) as progress,
     ):
-        follow_runner(progress, runner)
+        runner.on_ask, runner.on_done = progress.ask, progress.count_case
         yield runner, progress
-
-
-def follow_runner(progress: RunProgress, runner: Runner) -> None:
-    """Count every case of a runner."""
-
-    def ask(jobs: Sequence[Job]) -> None:
-        progress.ask(len(jobs))
-
-    runner.on_ask, runner.on_done = ask, progress.count_case
 
 
 _SHOWN = 20  # cases of a fault
@@ -237,7 +263,7 @@ def print_next_step(verdicts: Set[Verdict], site: str) -> None:
     ``verdicts`` are those of all rows, ``site`` is what was checked, as on the command
     line.
     """
-    from netdesign.report.console import open_console, print_lines
+    from netdesign.edge.output import open_console, print_lines
 
     if Verdict.FAIL in verdicts:
         command = shlex.join(["netdesign", "check", site, "--size"])

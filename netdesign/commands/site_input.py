@@ -13,12 +13,9 @@ import click
 
 from netdesign.addon_table import OF_ROWS
 from netdesign.commands.options import (
-    refuse_delimiter,
-    refuse_jobs,
     take_options,
 )
-from netdesign.commands.running import write_outputs
-from netdesign.commands.usage import UsageRefusal, speak, tell
+from netdesign.commands.running import UsageRefusal, speak, tell, write_outputs
 from netdesign.edge.input_files import explain_with_file
 from netdesign.outcome import OutputError, SiteDataError
 from netdesign.words.message import say
@@ -63,20 +60,16 @@ def open_site(path: Path, asked: Mapping[str, Any]) -> Site:
     return site
 
 
-def require_source(
-    site_file: Path | None, asked: Mapping[str, Any], *others: Path
-) -> None:
-    """Refuse a command without a single source, and options without an effect on it.
+def require_source(site_file: Path | None, asked: Mapping[str, Any]) -> None:
+    """Refuse a command without a site, or with one beside the example.
 
     Raises
     ------
     UsageRefusal
-        Of a site and the example, or of options that change nothing.
+        Says what to give.
     """
     if asked["example"] == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
-    refuse_delimiter(*others, site_file)
-    refuse_jobs(asked["executor"])
 
 
 def read_asked_site(site_file: Path | None, asked: Mapping[str, Any]) -> Site:
@@ -247,7 +240,6 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     from netdesign.site.reader import read_cells
     from netdesign.site.titles import name_map
 
-    refuse_delimiter(site_file)
     if asked["out"] is not None:
         _rewrite(site_file, asked["out"], asked)
         return

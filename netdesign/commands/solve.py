@@ -13,14 +13,14 @@ from netdesign.commands.options import (
     take_options,
 )
 from netdesign.commands.running import (
-    EXIT_CODES,
     print_document,
     print_faults,
     require_places,
+    speak,
+    tell,
     write_outputs,
 )
-from netdesign.commands.usage import speak, tell
-from netdesign.outcome import SENTENCE, Fault, Outcome, Verdict, catch_fault
+from netdesign.outcome import EXIT_CODES, SENTENCE, Fault, Outcome, Verdict, catch_fault
 from netdesign.structure.members import SOLVED_MEMBERS, Member
 from netdesign.words.catalogue import render
 from netdesign.words.message import Message, say
@@ -73,7 +73,8 @@ def solve(scene_file: Path, **asked: Any) -> None:
     elif document["outcome"] == "converged":
         _show_solution(document)
     else:
-        _show_refusal(solution, document)
+        ended = solution.outcome.word
+        tell(say("solve.ended", ended=ended, reason=document["reason"]))
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
@@ -111,11 +112,6 @@ def _render(document: dict[str, Any], solution: Solved) -> dict[str, bytes]:
     if history := getattr(solution, "history", None):
         files[_HISTORY] = history.write_table()
     return files
-
-
-def _show_refusal(solution: Solved, document: dict[str, Any]) -> None:
-    message = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
-    tell(message)
 
 
 def _show_solution(document: dict[str, Any]) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from netdesign.commands.options import take_options
-from netdesign.commands.usage import tell
+from netdesign.commands.running import tell
 from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say

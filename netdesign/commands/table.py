@@ -11,12 +11,14 @@ from netdesign.commands.check import find_profiles
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
     DEFAULT_FOLDER,
-    refuse_delimiter,
     take_options,
 )
-from netdesign.commands.running import print_document
-from netdesign.commands.site_input import choose_rows, read_asked_site
-from netdesign.commands.usage import UsageRefusal, speak, tell
+from netdesign.commands.running import print_document, speak, tell
+from netdesign.commands.site_input import (
+    choose_rows,
+    read_asked_site,
+    require_source,
+)
 from netdesign.edge.output import STUDY_FILE
 from netdesign.outcome import StudyError
 from netdesign.words.message import say
@@ -44,9 +46,7 @@ def table(site_file: Path | None, **asked: Any) -> None:
     from netdesign.report.words import Words
     from netdesign.study.guideline_anchors import add_coupled, list_guideline_forces
 
-    if asked["example"] == (site_file is not None):
-        raise UsageRefusal(say("usage.site_or_example"))
-    refuse_delimiter(site_file)
+    require_source(site_file, asked)
     site = choose_rows(read_asked_site(site_file, asked), asked["rows"])
     (profile,) = find_profiles([asked["standard"]] if asked["standard"] else [], site)
     rows = list_guideline_forces(site, profile)
@@ -59,8 +59,8 @@ def table(site_file: Path | None, **asked: Any) -> None:
 
         print_document(write_anchor_table(rows, words))
         return
+    from netdesign.edge.output import open_console
     from netdesign.report.anchor_table import print_anchor_table
-    from netdesign.report.console import open_console
 
     for question in site.questions:
         tell(say("cli.question", text=question), err=True)

@@ -1,14 +1,12 @@
 """Reads files of the user within a bound of size, and shows them without control signs.
 
 Then: locks of folders between runs, files that another program holds open, and the
-reasons of the system, of pydantic and of the parser in the program's own sentences.
+reasons that the system, pydantic and the parser of TOML give.
 """
 
 from __future__ import annotations
 
-import errno
 import os
-import re
 import sys
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -25,8 +23,6 @@ MAX_TOML_BYTES = 256 * 2**10
 _MOST_POINTS = 200
 
 _MOST_FAULTS = 50
-
-_TOML_PLACE = re.compile(r"\(at line ([0-9]+), column ([0-9]+)\)")
 
 
 def is_there(path: Path) -> bool:
@@ -69,10 +65,8 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     text = decode_utf8(content)
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ContentError(_describe_toml(error)) from None
-    except ValueError:  # of Python's, which the parser lets through
-        raise ContentError(say("file.long_number")) from None
+    except ValueError as error:
+        raise ContentError(say("file.no_value", fault=str(error))) from None
     except RecursionError:
         raise ContentError(say("file.nested")) from None
 
@@ -90,17 +84,6 @@ def decode_utf8(content: bytes) -> str:
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1  # without the mark
         raise ContentError(say("file.no_utf8", line=line)) from None
-
-
-def _describe_toml(error: tomllib.TOMLDecodeError) -> Message:
-    """Message, in every language, for a fault that the parser states in English."""
-    text = str(error)
-    match = _TOML_PLACE.search(text)
-    place = say("file.at_end")
-    if match:
-        place = say("file.at_line", line=match[1], column=match[2])
-    is_twice = text.startswith(("Cannot", "Duplicate"))
-    return say("file.twice" if is_twice else "file.no_value", place=place)
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -233,51 +216,13 @@ def _holds_open_files() -> bool:
     return sys.platform == "win32"
 
 
-# Of the kinds that a system tells by number; others keep the system's words.
-_OS_ERRORS = {
-    getattr(errno, name): name
-    for name in (
-        *("ENOENT", "EACCES", "EISDIR", "ENOTDIR", "EEXIST", "ENOSPC", "EROFS"),
-        *("ENAMETOOLONG", "EFBIG", "EIO", "ELOOP", "EPERM", "EBUSY"),
-    )
-}
-# Faults of a value's shape by the name that pydantic gives them, and what they state.
-_LIMITS = {
-    "greater_than": "gt",
-    "greater_than_equal": "ge",
-    "less_than": "lt",
-    "less_than_equal": "le",
-}
-_JSON_PLACE = re.compile(r"line (\d+) column (\d+)")
-_PLAIN = (
-    *("missing", "extra_forbidden", "finite_number", "float_type", "int_type"),
-    *("bool_type", "string_type", "list_type", "dict_type"),
-)
-_ALIKE = {
-    "float_parsing": "float_type",
-    "int_parsing": "int_type",
-    "int_from_float": "int_type",
-    "bool_parsing": "bool_type",
-    "unexpected_keyword_argument": "extra_forbidden",
-    "model_type": "dict_type",
-    "model_attributes_type": "dict_type",
-    "dataclass_type": "dict_type",
-}
-
-
 def explain(error: BaseException) -> Message | str:
     """Cause of a failure: the program's message, or the text of system or library."""
     if isinstance(error, NetDesignError | ContentError):
         return error.message
     if isinstance(error, OSError) and error.strerror:
-        return explain_system(error)
+        return error.strerror
     return str(error)
-
-
-def explain_system(error: OSError) -> Message | str:
-    """Words of the system, without the file."""
-    name = _OS_ERRORS.get(error.errno or 0)
-    return say(f"os_error.{name}") if name else str(error.strerror)
 
 
 def explain_with_file(error: OSError) -> Message | str:
@@ -290,29 +235,9 @@ def explain_with_file(error: OSError) -> Message | str:
     return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
 
 
-def _explain_literal(words: list[str]) -> Message:
-    """Accepted values: words that pydantic lists in quotes."""
-    if len(words) == 1:
-        return say("shape.literal_one", expected=words[0])
-    return say("shape.literal_error", some=tuple(words[:-1]), last=words[-1])
-
-
 def explain_shape(fault: Mapping[str, Any]) -> Message | str:
-    """Fault of a value: one of those that pydantic lists."""
-    kind, context = fault["type"], fault.get("ctx", {})
-    kind = _ALIKE.get(kind, kind)
-    if kind in _LIMITS:
-        return say(f"shape.{kind}", limit=context[_LIMITS[kind]])
-    if kind in _PLAIN:
-        return say(f"shape.{kind}")
-    if kind == "json_invalid":
-        line, column = _JSON_PLACE.findall(str(context["error"]))[-1]
-        return say("shape.json_invalid", line=line, column=column)
-    if kind == "literal_error":
-        return _explain_literal(re.findall(r"'[^']*'", str(context["expected"])))
-    if kind == "string_pattern_mismatch":
-        return say("shape.string_pattern_mismatch", pattern=str(context["pattern"]))
-    error = context.get("error")
+    """Fault of a value, in our words where we found it, else in those of pydantic."""
+    error = fault.get("ctx", {}).get("error")
     if isinstance(error, ContentError):
         return error.message
     return str(fault["msg"]).removeprefix("Value error, ")

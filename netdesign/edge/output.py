@@ -15,19 +15,28 @@ import os
 import re
 import sys
 import tempfile
+import textwrap
+import tomllib
 import unicodedata
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
+from functools import cache
+from importlib.resources import files
 from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from netdesign.edge.input_files import (
-    explain_system,
+    explain,
     explain_with_file,
     is_open_in_program,
     lock_folder,
 )
 from netdesign.outcome import OutputError
 from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # Names of outputs, for those who plan files and for those who write them.
 STUDY_FILE = "study.json"
@@ -62,7 +71,7 @@ def require_free(paths: list[Path], *, overwrite: bool, may_force: bool = True) 
         _require_free(paths, overwrite=overwrite, may_force=may_force)
     except OSError as error:
         raise OutputError(
-            say("text.at_place", place=str(error.filename), text=explain_system(error))
+            say("text.at_place", place=str(error.filename), text=explain(error))
         ) from error
 
 
@@ -222,26 +231,6 @@ def _usual_mode() -> int:
 
 
 _PLAIN = "netdesign.plain"  # the handler of signs that a code page lacks
-_SPELLED = {
-    **{"α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "η": "eta"},
-    **{"λ": "lambda", "⁻": "-"},
-    **{"θ": "theta", "μ": "mu", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau"},
-    **{"φ": "phi", "ψ": "psi", "Δ": "Delta", "Σ": "Sigma"},
-    **{"·": "*", "×": "x", "−": "-", "–": "-", "—": "-", "→": "->", "›": ">"},
-    **{"‹": "<", "«": '"', "»": '"', "„": '"', "“": '"', "”": '"', "’": "'"},
-    **{
-        "‘": "'",
-        "≤": "<=",
-        "≥": ">=",
-        "≈": "~",
-        "±": "+/-",
-        "°": " deg",
-        "√": "sqrt",
-        "∞": "inf",
-    },
-    **{"…": "...", "•": "*", "ß": "ss", "Æ": "AE", "æ": "ae", "Ø": "O", "ø": "o"},
-    **{"œ": "oe", "Œ": "OE", "✓": "v", "✗": "x", "†": "+", "‡": "++"},
-}
 
 
 class _Lasting(io.RawIOBase):
@@ -337,9 +326,15 @@ def _spell(error: UnicodeError) -> tuple[str, int]:
     return "".join(map(_spell_sign, text)), error.end
 
 
+@cache
+def _load_signs() -> Mapping[str, str]:
+    file = files(__package__) / "signs.toml"
+    return MappingProxyType(tomllib.loads(file.read_text(encoding="utf-8")))
+
+
 def _spell_sign(sign: str) -> str:
-    if sign in _SPELLED:
-        return _SPELLED[sign]
+    if sign in _load_signs():
+        return _load_signs()[sign]
     decomposed = unicodedata.normalize("NFKD", sign)
     return "".join(letter for letter in decomposed if letter.isascii()) or "?"
 
@@ -356,3 +351,45 @@ def print_json(text: str) -> None:
     else:
         buffer.write(f"{text}\n".encode())
     stream.flush()
+
+
+_PIPE = 160  # columns of an output that is no terminal, where no line is folded
+
+
+def open_console(*, err: bool = False) -> Console:
+    """Standard output or error, as wide as the terminal; wide in a pipe or a file."""
+    from rich.console import Console
+
+    console = Console(stderr=err)
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console.width, console.soft_wrap = _PIPE, True
+    return console
+
+
+def print_lines(lines: Iterable[str], console: Console, indent: int = 0) -> None:
+    """Print sentences; on a terminal each is folded between words.
+
+    Parameters
+    ----------
+    lines : iterable of str
+        Sentences, without line ends.
+    console : rich.console.Console
+        Where they are printed.
+    indent : int
+        Blanks before the second and each later line of a sentence.
+    """
+    from rich.text import Text
+
+    width = max(console.width, 2 * indent + 1)
+    for line in lines:
+        text = spell(line, console.encoding)
+        folded = [text]
+        if not console.soft_wrap:
+            folded = textwrap.wrap(
+                text,
+                width,
+                subsequent_indent=" " * indent,
+                break_on_hyphens=False,
+            ) or [""]
+        for part in folded:
+            console.print(Text(part), soft_wrap=True)

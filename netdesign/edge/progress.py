@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Sized
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
-_LATER_CASES = 6  # of a row that a search has to go on with
 _SILENCE_S = 5.0  # longest that plain lines keep silent while cases end
 
 
@@ -57,40 +56,22 @@ class Standing:
 
     ``open`` counts the solves of this phase and all later ones, as far as they can be
     known: never 0 while there may be another. ``words`` are the phase and what else
-    is known of it. ``stage`` changes with what a plain line is worth.
+    is known of it.
     """
 
     done: int
     open: int
+    phase: str
     words: tuple[Message | str, ...]
-    stage: Message | str
-
-    @property
-    def count(self) -> Message:
-        """``40 solved, about 90 to go``."""
-        if not self.open:
-            return say("progress.solved", done=self.done)
-        return say("progress.solved_to_go", done=self.done, open=self.open)
 
     @property
     def line(self) -> Message:
-        """``search: 40 solved, about 90 to go; gap 2 %``."""
+        """``search: 40 solved, about 90 to go; 2 of 7 net rows``."""
         phase, *rest = self.words
-        return say("progress.line", phase=phase, parts=(self.count, *rest))
-
-    @property
-    def bar(self) -> Message:
-        """Words beside a bar, the least important last, where they may be cut."""
-        return say("progress.bar", parts=(self.count, *self.words))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wave:
-    """Progress of a search of several rows; ``gap`` is the largest left [-]."""
-
-    rows_open: int
-    cases_waiting: int
-    gap: float
+        counted = say("progress.solved", done=self.done)
+        if self.open:
+            counted = say("progress.solved_to_go", done=self.done, open=self.open)
+        return say("progress.line", phase=phase, parts=(counted, *rest))
 
 
 class RunProgress:
@@ -108,19 +89,13 @@ class RunProgress:
         """
         self.clear = clear
         self._phases, self._show = tuple(phases), show
-        self._place, self._done, self._waiting = 0, 0, 0
-        self._begin()
+        self._place, self._done, self._before = 0, 0, 0
+        self._waiting, self._pieces = 0, 0
         self._named = self._phase.words
 
     @property
     def _phase(self) -> Phase:
         return self._phases[self._place]
-
-    def _begin(self) -> None:
-        self._before = self._done
-        self._expected, self._pieces = self._phase.cases, 0
-        self._words: tuple[Message, ...] = ()
-        self._stage: Message | str = self._phase.key
 
     def enter(self, key: str, words: Message | None = None) -> None:
         """Begin a phase, if it lies ahead; no phase begins twice.
@@ -130,14 +105,14 @@ class RunProgress:
         keys = [phase.key for phase in self._phases]
         if key not in keys[self._place + 1 :]:
             return
-        self._place, self._waiting = keys.index(key), 0
-        self._begin()
+        self._place, self._before = keys.index(key), self._done
+        self._waiting, self._pieces = 0, 0
         self._named = words or self._phase.words
         self._tell()
 
-    def ask(self, count: int) -> None:
+    def ask(self, cases: Sized) -> None:
         """Count the cases that are about to be solved."""
-        self._waiting = count
+        self._waiting = len(cases)
         self._tell()
 
     def count_case(self, _: object = None) -> None:
@@ -152,54 +127,23 @@ class RunProgress:
         self._waiting = 0
         self._tell()
 
-    def report_wave(self, wave: Wave) -> None:
-        """A wave of a search is over."""
-        later = wave.cases_waiting + _LATER_CASES * wave.rows_open
-        self._expected = self._done_here + later
-        self._words = (_name_gap(wave),) if wave.rows_open else ()
-        if self._words:  # that a search is over is not news
-            self._stage = self._words[0]
-        self._tell()
-
-    @property
-    def _done_here(self) -> int:
-        return self._done - self._before
-
-    def _count_left(self) -> int:
-        """Solves of this phase that are still expected.
-
-        Where it has pieces: as many for each as so far, the expected ones counting
-        like as many pieces that were seen.
-        """
-        phase, left = self._phase, self._expected - self._done_here
-        if phase.pieces:
-            seen = (phase.cases + self._done_here) / (phase.pieces + self._pieces)
-            left = math.ceil(seen * (phase.pieces - self._pieces))
-        return max(left, self._waiting)
-
     def _tell(self) -> None:
-        left = self._count_left()
+        expected = self._phase.cases - (self._done - self._before)
         later = sum(phase.cases for phase in self._phases[self._place + 1 :])
         is_last = self._place == len(self._phases) - 1
-        phase, words = self._phase, self._words
-        if phase.pieces:
-            pieces = {"done": self._pieces, "all": phase.pieces}
+        words: tuple[Message | str, ...] = (self._named,)
+        if self._phase.pieces:
+            pieces = {"done": self._pieces, "all": self._phase.pieces}
             unit = say("progress.rows")
             words = (*words, say("progress.pieces", **pieces, unit=unit))
         self._show(
             Standing(
                 done=self._done,
-                open=max(left + later, 0 if is_last else 1),
-                words=(self._named, *words),
-                stage=self._stage,
+                open=max(max(expected, self._waiting) + later, 0 if is_last else 1),
+                phase=self._phase.key,
+                words=words,
             )
         )
-
-
-def _name_gap(wave: Wave) -> Message:
-    if not math.isfinite(wave.gap):
-        return say("progress.no_bound", rows=wave.rows_open)
-    return say("progress.gap", gap=100 * float(wave.gap), rows=wave.rows_open)
 
 
 @contextmanager
@@ -231,18 +175,18 @@ def show_phases(
     progress = Progress(*columns, console=console, transient=True, expand=True)
     with progress:
         task = progress.add_task("", total=sum(phase.cases for phase in phases))
-        last: Message | str = ""
+        last = ""
 
         def show(standing: Standing) -> None:
             nonlocal last
-            is_new, last = standing.stage != last, standing.stage
+            is_new, last = standing.phase != last, standing.phase
             progress.start()
             progress.update(
                 task,
                 refresh=is_new,  # seen even where it is over before the next look
                 completed=standing.done,
                 total=standing.done + standing.open,
-                description=render(standing.bar, language),
+                description=render(standing.line, language),
             )
 
         yield RunProgress(phases, show, clear=progress.stop)
@@ -251,15 +195,15 @@ def show_phases(
 def show_stages(
     write: Callable[[Standing], object], silence_s: float = math.inf
 ) -> Callable[[Standing], None]:
-    """Writes each stage once, and what there is at least every so many seconds."""
-    last: Message | str = ""
+    """Writes each phase once, and what there is at least every so many seconds."""
+    last = ""
     shown_at = time.monotonic()
 
     def show(standing: Standing) -> None:
         nonlocal last, shown_at
-        is_new = standing.stage != last and standing.done > 0
+        is_new = standing.phase != last and standing.done > 0
         if is_new or time.monotonic() - shown_at >= silence_s:
-            last, shown_at = standing.stage, time.monotonic()
+            last, shown_at = standing.phase, time.monotonic()
             write(standing)
 
     return show

@@ -99,12 +99,11 @@ class RowEnvelope:
     results : tuple of CaseResult
         Every case, in the order of ``maxima.points``.
     maxima : Maxima
-        Maxima, upper bounds, log and model.
+        Maxima, upper bounds and model.
     confirmations : tuple of Confirmation
         One for each member that carries a force.
-    skipped, skips_tested : int
-        Cases known without a solve because the snow stuck with less friction
-        already, and how many of those were solved all the same as a test.
+    skipped : int
+        Cases known without a solve because the snow stuck with less friction already.
     lifted : mapping of str to float
         Upper bounds of the members where some post may pull; empty where none does.
     """
@@ -116,7 +115,6 @@ class RowEnvelope:
     maxima: Maxima
     confirmations: tuple[Confirmation, ...]
     skipped: int
-    skips_tested: int
     lifted: Mapping[str, float] = field(default_factory=dict)
 
     @property

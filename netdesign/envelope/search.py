@@ -10,7 +10,7 @@ coarsest meshes, then again near a largest force. Theory: envelope/THEORY.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Mapping, Sequence
+from collections.abc import Collection, Generator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, product
 from typing import Any, TypeAlias, TypeVar
@@ -18,7 +18,6 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 
 from netdesign.coupling.solution import SolvedState
-from netdesign.edge.progress import Wave
 from netdesign.envelope.result_reader import bound_lifted, name_quantities
 from netdesign.envelope.rows import (
     Confirmation,
@@ -204,11 +203,6 @@ class RowSearch:
         self.task = task
         self._search = MaximaSearch(len(task.ranges.axes), task.search)
 
-    @property
-    def gap(self) -> float:
-        """Largest gap left after the last round, over its quantity [-]."""
-        return self._search.gap
-
     def run(self) -> Steps[RowEnvelope]:
         """Envelope of the row; the same for the same ends."""
         task, search = self.task, self._search
@@ -233,7 +227,6 @@ class RowSearch:
             maxima=maxima,
             confirmations=(yield from self._confirm(quantities.members, maxima, every)),
             skipped=skip.skipped,
-            skips_tested=skip.tested,
             lifted=bound_lifted(task.layouts, maxima.points, every, task.search),
         )
 
@@ -262,11 +255,7 @@ class RowSearch:
         )
 
 
-def search_rows(
-    tasks: Sequence[RowTask],
-    runner: Runner,
-    on_wave: Callable[[Wave], None] = lambda _: None,
-) -> list[RowEnvelope]:
+def search_rows(tasks: Sequence[RowTask], runner: Runner) -> list[RowEnvelope]:
     """Envelopes of all rows, searched together: a wave has the next cases of every row.
 
     Parameters
@@ -275,8 +264,6 @@ def search_rows(
         One a row.
     runner : Runner
         Where cases are solved and kept; rows with the same net and snow share cases.
-    on_wave : callable, optional
-        Called after each wave.
 
     Returns
     -------
@@ -285,16 +272,8 @@ def search_rows(
     """
     searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
 
-    def describe(asked: Mapping[RowTask, Sequence[Job]]) -> None:
-        wave = Wave(
-            rows_open=len(asked),
-            cases_waiting=sum(map(len, asked.values())),
-            gap=max((searches[task].gap for task in asked), default=0.0),
-        )
-        on_wave(wave)
-
     steps = {task: search.run() for task, search in searches.items()}
-    envelopes = _run_together(steps, runner, describe)
+    envelopes = _run_together(steps, runner)
     return [envelopes[task] for task in tasks]
 
 
@@ -313,7 +292,6 @@ def run_grid(
 def _run_together(
     steps: Mapping[RowTask, Steps[_End]],
     runner: Runner,
-    on_wave: Callable[[Mapping[RowTask, Sequence[Job]]], None] = lambda _: None,
 ) -> dict[RowTask, _End]:
     """End of each task; a wave has the jobs that all of them wait for."""
     ended: dict[RowTask, _End] = {}
@@ -331,5 +309,4 @@ def _run_together(
     while asked:
         ends = iter(runner.solve([job for its in asked.values() for job in its]))
         asked = go_on({x: list(islice(ends, len(its))) for x, its in asked.items()})
-        on_wave(asked)
     return ended

@@ -5,7 +5,6 @@ A scene's support has its forces and bands from the functions that a site's case
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import Any
@@ -21,7 +20,7 @@ from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.scene import SceneSupport
 from netdesign.panel.row_end import EndForces, compute_end_forces
 from netdesign.panel.solve import RopeForces
-from netdesign.search.maxima import RESOLVED_SHARE, Addition
+from netdesign.search.maxima import RESOLVED_SHARE
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
@@ -66,7 +65,6 @@ def write_envelope_document(
     task, extremes = envelope.task, envelope.extremes
     spans = ((PARAMETERS[name], span) for name, span in task.ranges.intervals)
     run = _describe_run(envelope.results, envelope.skipped, counts, wall_s)
-    run["cases"]["skips_tested"] = envelope.skips_tested
     run["provenance"]["creep_law"] = task.scene.creep_law.name
     run["provenance"]["settings"] = {"accuracy": task.settings.accuracy}
     return {
@@ -88,7 +86,6 @@ def write_envelope_document(
             "resolved_share": RESOLVED_SHARE,
             "rests_on": render(say("envelope.rests_on"), language),
         },
-        "log": [_write_addition(envelope, case) for case in envelope.maxima.log],
         **run,
     }
 
@@ -183,27 +180,6 @@ def _write_bound(
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
     cases = [show_case(result.case.values) for result in results]
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
-
-
-def _write_addition(envelope: RowEnvelope, addition: Addition) -> dict[str, Any]:
-    """One line of the densification log."""
-    names = envelope.quantities
-    forces = {
-        "predicted": addition.predicted,
-        "claimed": addition.standard_error,  # of the prediction
-        "found": addition.found,
-    }
-    return {
-        "round": addition.round,
-        "reason": addition.reason,
-        "quantity": QUANTITY_KEYS.get(names[addition.quantity], "") if names else "",
-        "case": show_case(envelope.task.ranges.place(addition.point)),
-    } | {
-        f"{name}_kN_per_m": kilonewton_from_newton(force)
-        if math.isfinite(force)
-        else None
-        for name, force in forces.items()
-    }
 
 
 def _per_metre(values: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from netdesign.report.console import print_lines
+from netdesign.edge.json_text import list_fields
+from netdesign.edge.output import print_lines
 from netdesign.report.words import MISSING, Words, show_text
 from netdesign.structure.members import EndMember, Member
 from netdesign.study.guideline_anchors import AnchorForce, RowAnchors
@@ -118,20 +119,10 @@ def write_anchor_table(rows: Sequence[RowAnchors], words: Words) -> dict[str, An
         "rows": [
             {
                 "id": row.id,
-                "anchors": [_write_anchor(anchor) for anchor in row.anchors],
+                "anchors": [list_fields(anchor) for anchor in row.anchors],
                 "reason": words.show(row.reason) if row.reason else None,
                 "notes": [words.show(note) for note in row.notes],
             }
             for row in rows
         ],
-    }
-
-
-def _write_anchor(anchor: AnchorForce) -> dict[str, Any]:
-    return {
-        "anchor": anchor.anchor,
-        "position": anchor.position,
-        "guideline_kN": anchor.guideline_kN,
-        "coupled_kN": anchor.coupled_kN,
-        "ratio": anchor.ratio,
     }

@@ -1,7 +1,7 @@
 """Blocks of which every report is made: texts, tables, figures, and parts of them.
 
 A block says what it is and where it stands; how that looks is the writer's. ``look``
-names what a style sheet may set apart, ``on`` where the block is shown.
+names what a style sheet may set apart.
 """
 
 from __future__ import annotations
@@ -88,10 +88,6 @@ def small(lines: Sequence[str]) -> Content:
     return tuple(Piece(line, SMALL) for line in lines if line)
 
 
-# Where a text is shown: everywhere, or in a page and not in a document.
-Medium = Literal["all", "page"]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """Text that a reader sees, and the number behind it if it is one.
@@ -136,6 +132,12 @@ class Table:
     ) -> Table:
         """The same table with a look."""
         return replace(self, look=look, symbols=symbols or self.symbols)
+
+    def describe_empty(self, words: Words) -> str:
+        """Line that stands for the table without rows; one of figures is named."""
+        if not self.symbols:
+            return self.empty
+        return words("show.label", label=self.caption, text=self.empty)
 
 
 def number_column(key: str, heading: str) -> Column:
@@ -194,12 +196,14 @@ def given_cell(words: Words, value: float | str) -> Cell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
-    """Heading of a level from 1; level 2 stands in the contents of a document."""
+    """Heading of a level from 1; level 2 stands in the contents of a document.
+
+    A hidden one is for readers aloud, and in a page alone.
+    """
 
     text: Text
     level: int
     look: str = ""
-    on: Medium = "all"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -208,7 +212,6 @@ class Paragraph:
 
     text: Text
     look: str = ""
-    on: Medium = "all"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -255,16 +258,12 @@ class Figures:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:
-    """Blocks that belong together; a link leads to their ``id``.
-
-    Those below a ``fold`` are out of sight until a reader opens it.
-    """
+    """Blocks that belong together; a link leads to their ``id``."""
 
     blocks: tuple[Block, ...]
     id: str = ""
     look: str = ""
     kind: Literal["section", "article", "header", "div"] = "section"
-    fold: str = ""
 
 
 Block = Heading | Paragraph | Items | Pairs | Table | Figure | Figures | Part

@@ -34,38 +34,14 @@ _RANKS = {
     **{str(Verdict.NOT_PROVEN): 2, _UNMET: 2},
 }
 _WORST = 3  # rank of a failure, and of what is no longer there
-# Values of a check that are told one by one; those that follow from them are counted.
-_OF_CHECK = (
-    "utilisation",
-    "demand_kN",
-    "resistance_kN",
-    "resistance_basis",
-    "resistance_type",
-    "clause",
-    "declared",
-)
-# The same of its calculation: symbol, and which of low end, value and high end.
-_OF_STEPS = {
-    "demand_low_kN": ("E_d", 0),
-    "demand_high_kN": ("E_d", 2),
-    "utilisation_low": ("μ", 0),
-    "utilisation_high": ("μ", 2),
-    "action_factor": ("γ_E", 1),
-    "resistance_characteristic_kN": ("R_k", 1),
-    "resistance_factor": ("γ_R", 1),
-}
+# Values of a check that are told one by one; all others are counted.
+_OF_CHECK = ("utilisation", "resistance_kN")
 _MOST_DIGITS = 17  # tell any two numbers apart
 _NOTHING = (None, "", "-")
 # In the order in which they are told.
 _AREAS = (
-    *("verdict", "quantity", "settings", "project", "profile", "range", "input"),
+    *("verdict", "settings", "project", "profile", "range", "input"),
     *("governing", "check", "other"),
-)
-# What follows from a utilisation, or from a largest force, that is told beside it.
-_FOLLOWS = (
-    *("diff_check.demand_kN", "diff_check.demand_low_kN", "diff_check.demand_high_kN"),
-    *("diff_check.utilisation_low", "diff_check.utilisation_high"),
-    "diff.upper_bound",
 )
 Place = tuple[str, str, Message]  # area, net row, name of the value
 Pairs = Iterator[tuple[Message, Any]]  # names and values
@@ -87,7 +63,7 @@ class Change:
     ----------
     area : str
         ``verdict``, ``governing``, ``check``, ``project``, ``profile``, ``range``,
-        ``input``, ``settings``, ``quantity`` or ``other``.
+        ``input``, ``settings`` or ``other``.
     row : str
         Id of the net row; empty for the whole study.
     what : Message
@@ -195,24 +171,15 @@ def _describe(study: Study, both: Sequence[str]) -> dict[Place, Any]:
 
 
 def share_rows(changes: Sequence[Change]) -> list[tuple[Change, list[str]]]:
-    """Changes as a terminal tells them, each with the net rows that share it.
-
-    Of a check that is used otherwise only its utilisation is told.
-    """
+    """Changes as a terminal tells them, each with the net rows that share it."""
     shared: dict[object, tuple[Change, list[str]]] = {}
-    for change in filter(_is_told, changes):
+    for change in changes:
         is_of_row = bool(change.row) and change.area != "verdict"
         texts = (change.area, change.what, str(change.old), str(change.new))
         key: object = texts if is_of_row else (*texts, change.row, len(shared))
         _, rows = shared.setdefault(key, (change, []))
         rows.append(change.row)
     return list(shared.values())
-
-
-def _is_told(change: Change) -> bool:
-    what = change.what.arguments.get("what")
-    key = what.key if isinstance(what, Message) else change.what.key
-    return key not in _FOLLOWS
 
 
 def name_area(area: str, language: Language) -> str:
@@ -287,7 +254,6 @@ def _list_areas(
 ) -> Iterator[tuple[str, str, Iterable[tuple[Message, Any]]]]:
     """Area and row of all that a study says, with the names and values of each."""
     yield "verdict", "", [(say("diff.verdict"), _tell(study.verdict))]
-    yield "quantity", "", _list_quantities(study).items()
     yield "settings", "", _list_settings(study)
     yield "project", "", _list_project(study)
     yield "profile", "", _list_profile(study)
@@ -329,41 +295,21 @@ def _list_governing(row: RowStudy) -> Pairs:
     for force in row.member_forces:
         quantity = name_member(force.quantity)
         yield say("diff.largest", quantity=quantity), force.value_kN
-        yield say("diff.upper_bound", quantity=quantity), force.bound_kN
 
 
 def _list_checks(row: RowStudy) -> Pairs:
     for check in row.checks:
         title = _name_check(check)
-        for key in (*_OF_CHECK, *_OF_STEPS):
+        for key in _OF_CHECK:
             what = say("diff.of_check", check=title, what=say(f"diff_check.{key}"))
             yield what, _read_value(check, key)
 
 
 def _read_value(check: Check, key: str) -> Any:
-    """Value of a check; the basis of its resistance has words, its proof a place.
-
-    A utilisation without a bound is a word, too: JSON has no infinite number.
-    """
-    if key in _OF_STEPS:
-        symbol, end = _OF_STEPS[key]
-        step = check.step_of.get(symbol)
-        return step.ends[end] if step else None
-    value = getattr(check, key)
+    """Value of a check; a utilisation without a bound is a word: JSON has none."""
     if key == "utilisation" and check.is_unbounded:
         return _Word("unbounded", say("diff_value.unbounded"))
-    if key == "declared":
-        return _name_proof(check)
-    if key == "resistance_basis" and value:
-        return _Word(value, name("basis", value))
-    return value
-
-
-def _name_proof(check: Check) -> str | None:
-    """Place of the proof of a declared check, as the workbook has it."""
-    if check.declared is None:
-        return None
-    return ", ".join(text for text in asdict(check.declared).values() if text)
+    return getattr(check, key)
 
 
 def _list_project(study: Study) -> Pairs:
@@ -395,16 +341,6 @@ def _list_profile(study: Study) -> Pairs:
     yield say("diff.shared_sum"), profile.shared_sum
     for value in profile.values:
         yield say("diff.with_unit", what=value.id, unit=value.unit), value.value
-
-
-def _list_quantities(study: Study) -> dict[Message, Any]:
-    """Numbers of anchors by type, as far as they are known."""
-    counts: dict[Message, Any] = {say("diff.net_rows"): len(study.rows)}
-    for part in (piece for row in study.rows for piece in row.parts):
-        what = say("diff.pieces", type=part.type_id)
-        if part.count is not None:
-            counts[what] = counts.get(what, 0) + part.count
-    return counts
 
 
 def _list_settings(study: Study) -> Pairs:

@@ -19,6 +19,14 @@ if TYPE_CHECKING:
     from netdesign.study.records import Study
 
 
+# Files of a study by their kinds.
+NAMES = {
+    "html": "report.html",
+    "pdf": "report.pdf",
+    "docx": "report.docx",
+    "xlsx": "report.xlsx",
+    "csv": "cases.csv",
+}
 # Signs that make a spreadsheet program read a text as a formula.
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
@@ -90,7 +98,7 @@ def render_kind(kind: str, study: Study, style: ReportStyle) -> bytes:
 
 
 def _render_page(study: Study, style: ReportStyle) -> bytes:
-    from netdesign.report.page.html import render_html
+    from netdesign.report.page import render_html
 
     page = render_html(
         *(study, style.language),

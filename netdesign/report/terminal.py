@@ -6,12 +6,10 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from netdesign.edge.output import spell
+from netdesign import addon_table
+from netdesign.edge.output import print_lines, spell
 from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.blocks import SMALL, Badge, Content, Piece, write_plain
-from netdesign.report.console import print_lines
-from netdesign.report.sections.additions import list_additions
-from netdesign.report.sections.bars import show_rated, sign
 from netdesign.report.sections.basis import (
     describe_cases,
     describe_floor,
@@ -24,12 +22,20 @@ from netdesign.report.sections.basis import (
 from netdesign.report.sections.checks import (
     describe_briefly,
     describe_loads,
+    describe_study_scopes,
     list_changes,
+    list_exceeding,
     name_case,
 )
 from netdesign.report.sections.decision import show_structure
-from netdesign.report.sections.rated import ANCHORS, find_shown, list_anchor, rate
-from netdesign.report.sections.scopes import describe_study_scopes, list_exceeding
+from netdesign.report.sections.rated import (
+    ANCHORS,
+    find_shown,
+    list_anchor,
+    rate,
+    show_rated,
+    sign,
+)
 from netdesign.report.what_if import mark_verdict, title_pages
 from netdesign.report.words import Words, show_check, show_member, show_text
 from netdesign.study.records import RowStudy, Study
@@ -256,8 +262,8 @@ def _list_remarks(study: Study, words: Words, *, is_short: bool) -> Iterator[str
     if has_other_floor(study):
         floor = words("heading.floor")
         yield words("show.label", label=floor, text=describe_floor(study, words))
-    for addition in list_additions(study):
-        yield from addition.list_lines(study, words)
+    for list_lines in addon_table.load_for_rows(addon_table.LINES, study.rows):
+        yield from list_lines(study, words)
     yield from list_exceeding(study, words)
 
 

@@ -178,16 +178,15 @@ class VerdictWords:
 
     symbol: str
     style: str  # class of the style sheet
-    exit_code: int
     word: str = ""
     meaning: str = ""
 
 
 VERDICTS = {
-    Verdict.PASS: VerdictWords(symbol="✓", style="pass", exit_code=0),
-    Verdict.FAIL: VerdictWords(symbol="✗", style="fail", exit_code=1),
-    Verdict.NOT_PROVEN: VerdictWords(symbol="?", style="not-proven", exit_code=4),
-    Verdict.DECLARED: VerdictWords(symbol="†", style="declared", exit_code=6),
+    Verdict.PASS: VerdictWords(symbol="✓", style="pass"),
+    Verdict.FAIL: VerdictWords(symbol="✗", style="fail"),
+    Verdict.NOT_PROVEN: VerdictWords(symbol="?", style="not-proven"),
+    Verdict.DECLARED: VerdictWords(symbol="†", style="declared"),
 }
 
 

@@ -7,7 +7,6 @@ maximum; at last cases that test this bound. Theory: search/THEORY.md.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -28,7 +27,6 @@ from netdesign.search.upper_bound import (
     NOISE,
     Bounds,
     Inflation,
-    Question,
     bound_quantities,
     build_lattice,
     choose_questions,
@@ -103,24 +101,6 @@ class Watched:
     is_deciding: bool = True
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Addition:
-    """One line of the densification log: a case, why, and what the model expected.
-
-    ``predicted``, its ``standard_error`` and ``found`` are of the quantity that asked
-    for the case, in its unit; NaN predictions belong to the first design, a NaN
-    ``found`` to a case that failed.
-    """
-
-    point: Point
-    round: int
-    reason: str  # "first design", "could exceed", "test"
-    quantity: int
-    predicted: float
-    standard_error: float
-    found: float
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Maxima:
     """End of a search.
@@ -141,8 +121,6 @@ class Maxima:
         Place of each maximum in ``points``; of equals the least point.
     is_closed : bool
         Every gap is within the settings and the bound passed its tests.
-    log : tuple of Addition
-        Why each case was solved.
     surrogate : Surrogate or None
         Last model; None where there were too few cases for one.
     """
@@ -154,7 +132,6 @@ class Maxima:
     upper_bound: tuple[float, ...]
     governing: tuple[int, ...]
     is_closed: bool
-    log: tuple[Addition, ...]
     surrogate: Surrogate | None
 
 
@@ -172,10 +149,6 @@ class MaximaSearch:
         All cases told so far, in the order in which they were asked for.
     values, doubts : list of ndarray
         Their answers and the errors of these, an array for each round.
-    log : list of Addition
-        Why each of them was asked for.
-    gap : float
-        Largest gap left after the last round, over its quantity [-].
     result : Maxima or None
         End of the search; None while it goes on.
 
@@ -207,11 +180,9 @@ class MaximaSearch:
         self.points: tuple[Point, ...] = ()
         self.values: list[Floats] = []
         self.doubts: list[Floats] = []
-        self.log: list[Addition] = []
-        self.gap = math.inf
         self.result: Maxima | None = None
         self._lattice = build_lattice(dimension)
-        self._asked = [Question(point, 0) for point in list_first_design(dimension)]
+        self._asked = [*list_first_design(dimension)]
         self._axis_weights: Floats | None = None  # by the first design
         self._model: Surrogate | None = None
         self._bounds: Bounds | None = None  # these led to the questions
@@ -224,7 +195,7 @@ class MaximaSearch:
         Each coordinate is a share of its range, 0 to 1. Asked again before the values
         are told, the points are the same.
         """
-        return tuple(question.point for question in self._asked)
+        return tuple(self._asked)
 
     def tell(
         self,
@@ -254,9 +225,8 @@ class MaximaSearch:
             raise ModelError(
                 say("envelope.values", given=len(values), asked=len(self._asked))
             )
-        expected = self._predict()
-        self._note(values, expected)
-        if self._bounds is not None:
+        if self._model is not None and self._bounds is not None:
+            expected = self._model.predict(np.array(self.ask()))
             self._test(values, expected, self._bounds)
         self.points += self.ask()
         self.values.append(values)
@@ -264,36 +234,6 @@ class MaximaSearch:
         self._asked = self._choose(watched)
         if not self._asked:
             self.result = self._finish()
-
-    def _predict(self) -> Prediction:
-        """Prediction of what was asked for; NaN of the first design."""
-        if self._model is None:
-            nothing = np.full((len(self._asked), 1), np.nan)
-            return Prediction(mean=nothing, standard_error=nothing, sway=nothing)
-        return self._model.predict(np.array(self.ask()))
-
-    def _note(self, values: Floats, expected: Prediction) -> None:
-        """Log the questions with what was expected and what was found."""
-        number = self.log[-1].round + 1 if self.log else 0
-        for k, (question, value) in enumerate(zip(self._asked, values, strict=True)):
-            is_solved = bool(_find_solved(value[None])[0])
-            self.log.append(
-                Addition(
-                    point=question.point,
-                    round=number,
-                    reason=self._reason,
-                    quantity=question.quantity,
-                    predicted=float(expected.mean[k, question.quantity]),
-                    standard_error=float(expected.standard_error[k, question.quantity]),
-                    found=float(value[question.quantity]) if is_solved else math.nan,
-                )
-            )
-
-    @property
-    def _reason(self) -> str:
-        if self._bounds is None:
-            return "first design"
-        return "test" if self._bounds.is_closed else "could exceed"
 
     def _test(self, values: Floats, expected: Prediction, bounds: Bounds) -> None:
         """Test the bounds by cases that they did not know: they must have held."""
@@ -310,8 +250,8 @@ class MaximaSearch:
             if np.any(ratio > 1.0)
         ]
 
-    def _choose(self, watched: Mapping[int, Watched] | None) -> list[Question]:
-        """Next questions; none at the end of the search."""
+    def _choose(self, watched: Mapping[int, Watched] | None) -> list[Point]:
+        """Next cases; none at the end of the search."""
         values, doubts = np.concatenate(self.values), np.concatenate(self.doubts)
         is_solved = _find_solved(values)
         places, values = np.array(self.points)[is_solved], values[is_solved]
@@ -322,7 +262,6 @@ class MaximaSearch:
         self._model, self._bounds = self._bound(
             places, values, doubts[is_solved], watched
         )
-        self.gap = self._bounds.gap * self.settings.gap
         return [] if self._is_tested else self._list_questions(self._bounds)
 
     def _bound(
@@ -354,7 +293,7 @@ class MaximaSearch:
             inflations=self._inflations,
         )
 
-    def _list_questions(self, bounds: Bounds) -> list[Question]:
+    def _list_questions(self, bounds: Bounds) -> list[Point]:
         room = max(0, self.settings.max_cases - len(self.points))
         return choose_questions(bounds, self.points, self.settings.batch, room)
 
@@ -389,7 +328,6 @@ class MaximaSearch:
             upper_bound=maximum if bounds is None else tuple(bounds.upper.tolist()),
             governing=governing,
             is_closed=self._is_closed,
-            log=tuple(self.log),
             surrogate=self._model,
         )
 

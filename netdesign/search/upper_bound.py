@@ -11,7 +11,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product, repeat
-from typing import NamedTuple
 
 import numpy as np
 
@@ -47,7 +46,7 @@ class Bounds:
     upper: Floats
     watched: tuple[int, ...]
     deciding: tuple[int, ...]  # those of them that have to be close
-    summits: tuple[tuple[Point, int], ...]  # best values of the deciding quantities
+    summits: tuple[Point, ...]  # best values of the deciding quantities
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
@@ -55,12 +54,6 @@ class Bounds:
         """Deciding quantities whose gap is larger than its tolerance."""
         gaps = (self.upper - self.best) / self.tolerance
         return tuple(q for q in self.deciding if not gaps[q] <= 1.0 + 1e-9)
-
-    @property
-    def gap(self) -> float:
-        """Largest gap over its tolerance."""
-        gaps = (self.upper - self.best) / self.tolerance
-        return float(np.max(gaps[list(self.deciding)]))
 
     @property
     def is_closed(self) -> bool:
@@ -140,9 +133,7 @@ def bound_quantities(
         upper=_close_above(upper, best, _MARGIN * tolerance),
         watched=tuple(asked),
         deciding=tuple(deciding),
-        summits=tuple(
-            (summits[q], q) for q in deciding if values[:, q].max() >= best[q]
-        ),
+        summits=tuple(summits[q] for q in deciding if values[:, q].max() >= best[q]),
         wanted=tuple(wanted),
     )
 
@@ -257,13 +248,6 @@ _TEST_APART = 0.125  # least distance of a test from every known case
 _APART = 0.2  # least distance between the cases of one batch
 
 
-class Question(NamedTuple):
-    """One point, and the quantity that asks for it."""
-
-    point: Point
-    quantity: int
-
-
 def list_first_design(dimension: int) -> tuple[Point, ...]:
     """Cases of the first round: corners and centre, and what lies between.
 
@@ -286,7 +270,7 @@ def list_first_design(dimension: int) -> tuple[Point, ...]:
 
 def choose_questions(
     bounds: Bounds, points: Sequence[Point], batch: int, room: int
-) -> list[Question]:
+) -> list[Point]:
     """Next cases: where a quantity could exceed its maximum; then tests of the bounds.
 
     Parameters
@@ -307,7 +291,7 @@ def choose_questions(
             bounds, bounds.open, points, most, -math.inf, _BESIDE
         )
     sampled = set(points)
-    beside = [ask for ask in _list_neighbours(bounds) if ask.point not in sampled]
+    beside = [x for x in _list_neighbours(bounds) if x not in sampled]
     if beside:
         return beside[:room]
     return _pick(bounds, bounds.deciding, points, most, -math.inf, _TEST_APART)
@@ -320,7 +304,7 @@ def _pick(
     most: int,
     least: float,
     apart: float,
-) -> list[Question]:
+) -> list[Point]:
     """Wanted cases above an excess, well apart from each other and from known ones."""
     asked = [
         want for want in bounds.wanted if want[2] in quantities and want[0] > least
@@ -329,22 +313,22 @@ def _pick(
         return []
     at, sampled = np.array([point for _, point, _ in asked]), np.array(points)
     is_free = measure_distances(at, sampled).min(axis=1) >= apart * (1.0 - 1e-9)
-    chosen: list[Question] = []
+    chosen: list[Point] = []
     for k in np.flatnonzero(is_free).tolist():
         if len(chosen) >= most:
             break
-        _, point, quantity = asked[k]
-        if all(math.dist(point, other) > _APART for other, _ in chosen):
-            chosen.append(Question(point, quantity))
+        _, point, _ = asked[k]
+        if all(math.dist(point, other) > _APART for other in chosen):
+            chosen.append(point)
     return chosen
 
 
-def _list_neighbours(bounds: Bounds) -> list[Question]:
+def _list_neighbours(bounds: Bounds) -> list[Point]:
     """Points just beside every maximum, along each axis: they tell if it is one."""
-    asked: dict[Point, int] = {}
-    for place, quantity in bounds.summits:
+    asked: dict[Point, None] = {}
+    for place in bounds.summits:
         for axis, side in product(range(len(place)), (-_BESIDE, _BESIDE)):
             value = place[axis] + side
             if 0.0 <= value <= 1.0:
-                asked.setdefault((*place[:axis], value, *place[axis + 1 :]), quantity)
-    return [Question(point, quantity) for point, quantity in asked.items()]
+                asked[(*place[:axis], value, *place[axis + 1 :])] = None
+    return list(asked)

@@ -23,7 +23,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
 from netdesign.units import degree_from_radian
-from netdesign.words.message import dump, restore
+from netdesign.words.message import restore
 
 Settings = SolverSettings | MethodSettings
 
@@ -83,7 +83,7 @@ def encode_end(end: CaseEnd) -> str:
     """Text from which ``decode_end`` makes the very same value."""
     numbers: dict[str, Any] = list_fields(end)
     if isinstance(end, FailedSolution):
-        numbers = {"outcome": end.outcome.value, "reason": dump(end.reason)}
+        numbers = {"outcome": end.outcome.value, "reason": end.reason}
     # compressed it would be a third of that, and take as long again to keep
     return json.dumps(numbers, default=_write_part)
 

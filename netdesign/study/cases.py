@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import product
 
 from netdesign.coupling.scene import Scene
-from netdesign.edge.progress import Phase, Wave
+from netdesign.edge.progress import Phase
 from netdesign.envelope.ranges import NO_RANGES, Case, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.search import search_rows
@@ -56,7 +55,6 @@ def search_site(
     site: Site,
     run: CheckRun,
     runner: Runner | None = None,
-    on_wave: Callable[[Wave], None] = lambda _: None,
 ) -> list[RowEnvelope]:
     """Search the largest forces of all net rows; no limit profile is needed for it.
 
@@ -68,8 +66,6 @@ def search_site(
         Settings; their accuracy is the gap that is asked for, too.
     runner : Runner, optional
         Where cases are solved and kept; this process unless told otherwise.
-    on_wave : callable, optional
-        Called after each wave of cases.
 
     Returns
     -------
@@ -79,7 +75,7 @@ def search_site(
     """
     runner = runner or Runner()
     tasks = [_build_search(row, site.ranges, run) for row in site.rows]
-    return search_rows(tasks, runner, on_wave)
+    return search_rows(tasks, runner)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

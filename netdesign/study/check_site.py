@@ -113,16 +113,14 @@ def _split(job: RowsJob, runner: Runner, watch: RunProgress) -> list[RowsJob]:
     if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
         watch.enter("checks", say("phase.rows"))
         return [replace(job, site=replace(job.site, rows=rows)) for rows in groups]
-    solved = solve_rows(job.site, job.run, runner, watch)
+    solved = solve_rows(job.site, job.run, runner)
     watch.enter("checks")
     return _list_jobs(job, solved)
 
 
-def solve_rows(
-    site: Site, run: CheckRun, runner: Runner, watch: RunProgress
-) -> SolvedSite:
+def solve_rows(site: Site, run: CheckRun, runner: Runner) -> SolvedSite:
     """Solve the cases of every net row."""
-    rows = search_site(site, run, runner, watch.report_wave)
+    rows = search_site(site, run, runner)
     return SolvedSite(site=site, rows=rows)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import ClassVar
 
 from netdesign.checks import Check, Standard
 from netdesign.envelope.ranges import Interval
@@ -53,6 +54,8 @@ class AnchorForce:
     coupled_kN : float or None
         Largest of section, panel and truss of a stored study [kN].
     """
+
+    WRITTEN: ClassVar = ("ratio",)
 
     anchor: str
     position: str

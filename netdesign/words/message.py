@@ -95,18 +95,6 @@ def _find_kind(message: Message) -> _Kind:
     return (message.key, *map(_find_kind, inner))
 
 
-def dump(message: Message) -> dict[str, Any]:
-    """Plain values of a message, for JSON."""
-    arguments = {name: _dump(value) for name, value in message.arguments.items()}
-    return {"key": message.key, "arguments": arguments}
-
-
-def _dump(value: Argument) -> Any:
-    if isinstance(value, Message):
-        return dump(value)
-    return [_dump(part) for part in value] if isinstance(value, tuple) else value
-
-
 def restore(plain: Mapping[str, Any]) -> Message:
     """Message from its plain values.
 

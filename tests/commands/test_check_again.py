@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from netdesign.addons.evidence.benchmark.scenes import write_site
-from netdesign.commands import stored_study
-from netdesign.commands.stored_study import read_own_site
+from netdesign.commands import report
+from netdesign.commands.report import read_own_site
 from netdesign.edge.input_files import make_printable
 from netdesign.study import side_by_side
 from tests.each import each
@@ -94,7 +94,7 @@ def test_a_site_is_found_by_its_name_whatever_signs_it_has(tmp_path_factory, see
     (folder / "other.xlsx").write_bytes(b"")
     provenance = SimpleNamespace(site_file=make_printable(name))
     study = SimpleNamespace(provenance=provenance)
-    with mock.patch.object(stored_study, "_read_again", lambda _, path: path):
+    with mock.patch.object(report, "_read_again", lambda _, path: path):
         assert read_own_site(study, folder / "study.json", None) == site
         out = folder / "out" / "study.json"
         out.parent.mkdir()

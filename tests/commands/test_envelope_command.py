@@ -70,7 +70,6 @@ def test_the_document_is_that_of_the_interface(scene, store):
         assert one["confirmation"]["difference_percent"] is not None
     assert set(found["cases"]) >= {"solved", "reused", "skipped", "failed"}
     assert found["cases"]["failed"] == 0
-    assert len(found["log"]) == found["cases"]["asked"]
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,6 @@
-"""Options without effect are refused where typed."""
+"""Options that need another one are refused without it."""
 
 import pytest
-
-
-@pytest.fixture
-def site(call):
-    call("init", "site.xlsx", "--example")
-    return "site.xlsx"
 
 
 def refuse(call, *words):
@@ -27,10 +21,3 @@ def refuse(call, *words):
 )
 def test_options_that_belong_to_another_one(call, words, needed):
     assert refuse(call, *words).endswith(f"no effect without {needed}")
-
-
-def test_jobs_beside_a_cluster(call):
-    cluster = ("--executor", "dask://nowhere:1")
-    for words in (("check", "--example"), ("winter", "--example"), ("envelope", "s")):
-        told = refuse(call, *words, *cluster, "--jobs", "2")
-        assert told.endswith("--jobs: no effect beside --executor")

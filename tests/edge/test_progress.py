@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from netdesign.edge.progress import Phase, RunProgress, Wave
+from netdesign.edge.progress import Phase, RunProgress
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from tests.make import write_tiny
@@ -31,11 +31,9 @@ def run_made_up(drawn, show):
     for phase, (_, pieces, waves) in zip(phases, drawn, strict=True):
         progress.enter(phase.key)
         for asked, lost in waves:
-            progress.ask(asked)
+            progress.ask(range(asked))
             for _ in range(max(1, asked - lost)):
                 progress.count_case()
-            if not pieces:
-                progress.report_wave(Wave(rows_open=1, cases_waiting=0, gap=0.5))
         for _ in range(pieces):
             progress.count_piece()
     progress.enter("reports")
@@ -47,7 +45,7 @@ def test_no_count_is_zero_before_the_last_solve_ends(drawn):
     shown = []
     run_made_up(drawn, shown.append)
     number = sum(max(1, a - lost) for *_, waves in drawn for a, lost in waves)
-    before = [one for one in shown if one.stage != "reports"]
+    before = [one for one in shown if one.phase != "reports"]
     assert all(one.open >= 1 for one in before)
     assert (shown[-1].done, shown[-1].open) == (number, 0)
     assert [one.done for one in shown] == sorted(one.done for one in shown)

@@ -15,8 +15,7 @@ import time
 from pathlib import Path
 
 from netdesign import cli
-from netdesign.report import files
-from netdesign.report.page import html
+from netdesign.report import files, page
 from netdesign.report.workbook import excel
 from netdesign.solving import runner, store, workers
 
@@ -31,7 +30,7 @@ STEPS = (
     (store.CaseStore, "keep_row"),
     (store.CaseStore, "find_row"),
     (files, "render_kind"),
-    (html, "render_html"),
+    (page, "render_html"),
     (excel, "render_workbook"),
     (os, "fsync"),
     (Path, "chmod"),

@@ -14,7 +14,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.report.files import ReportStyle, render_kind
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.words import Words
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.accessible import list_violations, measure_contrast

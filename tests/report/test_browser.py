@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from tests.report.build_study import build_study
 from tests.report.printing import run_browser
 

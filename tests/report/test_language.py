@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.checks import load_standard
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.words import Words, show_own
 from netdesign.words.catalogue import LANGUAGES, load_texts, render
 from netdesign.words.message import Message, say

@@ -7,7 +7,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.outcome import Verdict
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.sections.checks import describe_resistance
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check, show_member

@@ -5,9 +5,8 @@ from rich.console import Console
 
 from netdesign.commands.check_run import _print_summaries
 from netdesign.report.blocks import write_plain
-from netdesign.report.sections.bars import show_rated
-from netdesign.report.sections.rated import ANCHORS, list_anchor, rate
-from netdesign.report.sections.scopes import describe_study_scopes
+from netdesign.report.sections.checks import describe_study_scopes
+from netdesign.report.sections.rated import ANCHORS, list_anchor, rate, show_rated
 from netdesign.report.terminal import Matrix, print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, Words
 from netdesign.words.catalogue import LANGUAGES

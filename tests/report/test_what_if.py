@@ -8,7 +8,7 @@ import pytest
 from rich.console import Console
 
 from netdesign.report.document.word import render_document
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.what_if import mark_verdict, title_pages
 from netdesign.report.words import Words

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -32,7 +31,7 @@ def drive_roughly(
     while points := search.ask():
         values = np.array([response(np.array(point)) for point in points])
         doubts = np.zeros_like(values)
-        if search.gap == math.inf:
+        if not search.points:
             far = (values < 0.9 * values.max(axis=0)).all(axis=1)
             doubts[far] = share * np.abs(values[far])
         values += rng.uniform(-1.0, 1.0, values.shape) * doubts

@@ -13,7 +13,7 @@ OPEN = Bounds(
     upper=np.array([7.7, 2.91]),
     watched=(0, 1),
     deciding=(0, 1),
-    summits=(((0.0, 0.4375), 0), ((0.5, 1.0), 1)),
+    summits=((0.0, 0.4375), (0.5, 1.0)),
     wanted=(
         (9.0, (0.25, 0.25), 0),
         (8.1, (0.3125, 0.25), 0),
@@ -39,22 +39,22 @@ def test_first_design_holds_corners_centre_and_the_parts_between():
 
 def test_where_a_quantity_could_exceed_is_asked_first_and_apart():
     chosen = choose_questions(OPEN, [(0.0, 0.0)], batch=6, room=90)
-    assert chosen == [((0.25, 0.25), 0), ((0.75, 0.5), 0)]
+    assert chosen == [(0.25, 0.25), (0.75, 0.5)]
 
 
 def test_where_all_that_could_exceed_is_known_the_like_of_it_is_asked():
     known = [(0.25, 0.25), (0.3125, 0.25), (0.75, 0.5)]
     negative = replace(OPEN, wanted=(*OPEN.wanted, (-0.6, (0.75, 0.9375), 0)))
-    assert choose_questions(negative, known, batch=6, room=90) == [((0.75, 0.9375), 0)]
+    assert choose_questions(negative, known, batch=6, room=90) == [(0.75, 0.9375)]
 
 
 def test_closed_bounds_are_tested_beside_their_maxima_inside_the_box():
     chosen = choose_questions(CLOSED, [(0.0, 0.5)], batch=2, room=90)
     assert chosen == [
-        ((0.0625, 0.4375), 0),
-        ((0.0, 0.375), 0),
-        ((0.4375, 1.0), 1),
-        ((0.5625, 1.0), 1),
-        ((0.5, 0.9375), 1),
+        (0.0625, 0.4375),
+        (0.0, 0.375),
+        (0.4375, 1.0),
+        (0.5625, 1.0),
+        (0.5, 0.9375),
     ]
     assert choose_questions(CLOSED, [(0.0, 0.5)], batch=2, room=3) == chosen[:3]

@@ -9,7 +9,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.report.files import ReportStyle, render_kind
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.site.model import InputEcho
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer

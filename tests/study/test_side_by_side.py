@@ -134,8 +134,6 @@ class Counting:
     def enter(self, key, words=None):
         """No phase is told."""
 
-    report_wave = enter
-
 
 def test_a_row_is_sent_without_the_others(pool, monkeypatch):
     """All rows of a large site, sent with each of them, would cost more than solves."""

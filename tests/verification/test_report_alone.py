@@ -9,8 +9,8 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import SolverSettings
-from netdesign.report.page.html import render_html
-from netdesign.report.sections.assumed import ALTITUDE
+from netdesign.report.page import render_html
+from netdesign.report.sections.decision import ALTITUDE
 from netdesign.site.reader import read_site
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_site

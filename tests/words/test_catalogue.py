@@ -17,7 +17,7 @@ TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
 FAMILIES = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
-    *("os_error.", "shape.", "symbol.", "finding.error", "finding.question"),
+    *("symbol.", "finding.error", "finding.question"),
     *("finding.note", "case_count.", "outcome.", "ended.", "member.", "mode."),
     *("basis.", "status.", "axis.", "evidence.", "law.", "termination."),
     *("verdict.", "meaning.", "factor.", "creep_law.", "of_scope."),

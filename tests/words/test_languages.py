@@ -1,13 +1,15 @@
 """No text shows words of another language, and all that users read has a text."""
 
 import ast
+import json
 
 import pytest
 
+from netdesign.edge.json_text import write_json
 from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import normalise
 from netdesign.words.catalogue import LANGUAGES, render
-from netdesign.words.message import dump, restore, say
+from netdesign.words.message import restore, say
 from tests.site.columns.fields import FIELDS as BY_TABLE
 from tests.site.columns.fields import QUANTITIES
 from tests.sources import list_calls
@@ -55,7 +57,7 @@ def test_a_refusal_names_headings_and_words_that_are_accepted(language):
 def test_a_message_is_stored_and_comes_back():
     inner = say("unit.count_cases", count=3)
     message = say("text.lines", lines=(inner, "site.xlsx", inner))
-    plain = dump(message)
+    plain = json.loads(write_json(message))
     assert plain["arguments"]["lines"][1] == "site.xlsx"
     assert restore(plain) == message
     assert str(restore(plain)) == "3 cases\nsite.xlsx\n3 cases"

@@ -15,18 +15,19 @@ from netdesign.commands.options import (
     refuse_without,
     take_options,
 )
-from netdesign.commands.running import (
-    follow,
-    print_document,
-    require_places,
-    write_outputs,
-)
-from netdesign.commands.stored_study import (
+from netdesign.commands.report import (
     find_inputs,
     show_differences,
     solve_again,
 )
-from netdesign.commands.usage import UsageRefusal, tell
+from netdesign.commands.running import (
+    UsageRefusal,
+    follow,
+    print_document,
+    require_places,
+    tell,
+    write_outputs,
+)
 from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:

@@ -20,7 +20,6 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.sections.additions import Addition
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -241,10 +240,3 @@ def _show_value(variable: VariableRecord, value: float | None, words: Words) -> 
     form = QUANTITIES.get(variable.key)
     shown = words.show_given(float(f"{value:.3g}"))
     return append_unit(shown, form.unit) if form and form.unit else shown
-
-
-SHOWN = Addition(
-    annex="annex-reliability",
-    show=show_reliability,
-    list_lines=list_reliability,
-)

@@ -12,12 +12,14 @@ import click
 
 from netdesign.commands.options import refuse_without, take_options
 from netdesign.commands.running import (
+    UsageRefusal,
     follow,
     print_document,
     require_places,
+    speak,
+    tell,
     write_outputs,
 )
-from netdesign.commands.usage import UsageRefusal, speak, tell
 from netdesign.outcome import TerrainError
 
 if TYPE_CHECKING:
@@ -85,7 +87,7 @@ def _map_study(
         map_verdicts,
         write_verdicts,
     )
-    from netdesign.commands.stored_study import require_inputs
+    from netdesign.commands.report import require_inputs
     from netdesign.study.document import load_study
 
     out, language = asked["out"], speak()

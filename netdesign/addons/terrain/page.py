@@ -44,7 +44,7 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     show_place,
 )
-from netdesign.report.page.render import render_page
+from netdesign.report.page import render_page
 from netdesign.report.words import Words, show_text
 
 SLOPE_CLASSES = (25, 30, 35, 40, 45, 50)  # lower ends of the classes [deg]

@@ -12,16 +12,15 @@ import click
 
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.options import (
-    refuse_delimiter,
     refuse_without,
     take_options,
 )
 from netdesign.commands.running import (
-    EXIT_CODES,
     open_phases,
     print_document,
     print_faults,
     require_places,
+    tell,
     write_outputs,
 )
 from netdesign.commands.site_input import (
@@ -30,8 +29,7 @@ from netdesign.commands.site_input import (
     read_asked_site,
     require_source,
 )
-from netdesign.commands.usage import tell
-from netdesign.outcome import ModelError, Verdict
+from netdesign.outcome import EXIT_CODES, ModelError, Verdict
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
@@ -72,8 +70,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
     )
     from netdesign.edge.progress import Phase
 
-    sources = [] if asked["heights"] is None else [asked["heights"]]
-    require_source(site_file, asked, *sources)
+    require_source(site_file, asked)
     folder = asked["out"] or (None if asked["as_json"] else Path(_FOLDER))
     require_places(folder, (DOCUMENT_FILE, PAGE_FILE), asked)
     site = read_asked_site(site_file, asked)
@@ -253,7 +250,6 @@ def snowpack(height_file: Path, **asked: Any) -> None:
     from netdesign.addons.winter.settling import MODELS as KNOWN
     from netdesign.addons.winter.settling import follow_heights
 
-    refuse_delimiter(height_file)
     if not asked["as_json"]:
         refuse_without(["layers"], "--json")
     series = _read_heights(height_file, asked).series

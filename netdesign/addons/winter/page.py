@@ -27,7 +27,7 @@ from netdesign.report.blocks import (
     section,
     text_cell,
 )
-from netdesign.report.page.render import render_page
+from netdesign.report.page import render_page
 from netdesign.report.words import (
     ENGLISH,
     MISSING,

@@ -22,8 +22,7 @@ _W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 NAMESPACE = f'xmlns:w="{_W}"'
 KEEP = "<w:keepNext/>"  # a paragraph on one page with the next
 POINT = 20  # twentieths of a point, in which widths are counted
-SMALLEST_PT = 7.5
-_CELL_PT = 7.5
+SMALLEST_PT = 7.5  # of cells and small text
 _MARGIN_PT = 3.0  # left and right of the text of a cell
 _TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
 _SIGN = 0.51  # width of a sign in sizes of the font
@@ -122,7 +121,7 @@ def write_table(
     Parameters
     ----------
     grid : Grid
-        Its text is smaller where its columns do not fit on the paper.
+        Its margins are smaller where its columns do not fit on the paper.
     styles : tuple of str
         Ids of the style of tables and of that of the paragraphs in a cell.
     width_pt : float
@@ -131,20 +130,19 @@ def write_table(
         On one page, with what follows.
     """
     least, wanted = _measure_columns(grid)
-    is_tight = sum(least) > width_pt
-    if is_tight:
+    margin_pt = _MARGIN_PT
+    if sum(least) > width_pt:
+        margin_pt = _TIGHT_MARGIN_PT
         least, wanted = _measure_tight(grid)
         if sum(least) > width_pt:
             grid = _loosen(grid)
             least, wanted = _measure_tight(grid)
     widths = [round(POINT * w) for w in share_width(least, wanted, width_pt)]
-    head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight, True)]
+    head = [_write_line(grid.headings, grid, widths, styles[1], True, True)]
     lines = [
-        _write_line(line, grid, widths, styles[1], False, is_tight, keeps)
-        for line in grid.lines
+        _write_line(line, grid, widths, styles[1], False, keeps) for line in grid.lines
     ]
     columns = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
-    margin_pt = _TIGHT_MARGIN_PT if is_tight else _MARGIN_PT
     margin = f'w:w="{round(POINT * margin_pt)}" w:type="dxa"'
     look = int(bool(grid.headings))
     return (
@@ -164,16 +162,14 @@ def _write_line(
     widths: Sequence[int],
     style: str,
     is_head: bool,
-    is_tight: bool,
     keeps: bool,
 ) -> str:
     spans = len(cells) == 1 < len(widths)
     taken = [sum(widths)] if spans else widths
     spanned = f'<w:gridSpan w:val="{len(widths)}"/>' if spans else ""
-    is_small = is_tight if is_head or is_tight else None
     inside = ""
     for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False):
-        runs = write_runs(cell, is_bold=is_head, is_small=is_small)
+        runs = write_runs(cell, is_bold=is_head)
         look = KEEP if keeps else ""
         look += '<w:jc w:val="right"/>' if is_number and not spans else ""
         inside += (
@@ -185,7 +181,7 @@ def _write_line(
 
 
 def _measure_columns(
-    grid: Grid, *, is_tight: bool = False
+    grid: Grid, margin_pt: float = _MARGIN_PT
 ) -> tuple[list[float], list[float]]:
     """Widths of the longest word and of the longest line of each column [pt].
 
@@ -198,22 +194,22 @@ def _measure_columns(
     first = bool(grid.headings)
     least = [
         max(
-            _BOLD_SIGN * _measure(_list_words(column[:first]), is_tight),
-            _find_weight(cells) * _measure(_list_words(column[first:]), is_tight),
+            _BOLD_SIGN * _measure(_list_words(column[:first]), margin_pt),
+            _find_weight(cells) * _measure(_list_words(column[first:]), margin_pt),
         )
         for column, cells in zip(texts, columns, strict=True)
     ]
     wanted = [
-        _LINE * _measure(_list_lines(column[first:]), is_tight) for column in texts
+        _LINE * _measure(_list_lines(column[first:]), margin_pt) for column in texts
     ]
     return least, [max(pair) for pair in zip(least, wanted, strict=True)]
 
 
 def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
     """The same where words of headings have to break, before any number does."""
-    wanted, _ = _measure_columns(grid, is_tight=True)
+    wanted, _ = _measure_columns(grid, _TIGHT_MARGIN_PT)
     headings = tuple((Piece(_PART),) for _ in grid.headings)
-    least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
+    least, _ = _measure_columns(replace(grid, headings=headings), _TIGHT_MARGIN_PT)
     return least, wanted
 
 
@@ -254,12 +250,9 @@ def _count(word: str) -> float:
     return len(word) + _CAPITAL * sum(sign.isupper() for sign in word)
 
 
-def _measure(lengths: Sequence[float], is_tight: bool) -> float:
+def _measure(lengths: Sequence[float], margin_pt: float) -> float:
     """Width that the longest text takes in a cell [pt]."""
-    size, margin = _CELL_PT, _MARGIN_PT
-    if is_tight:
-        size, margin = SMALLEST_PT, _TIGHT_MARGIN_PT
-    return max(lengths, default=1) * _SIGN * size + 2.0 * margin + 1.0
+    return max(lengths, default=1) * _SIGN * SMALLEST_PT + 2.0 * margin_pt + 1.0
 
 
 def share_width(

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.input_files import make_printable
 from netdesign.report.blocks import (
+    HIDDEN,
     STRONG,
     Block,
     Cell,
@@ -44,7 +45,7 @@ from netdesign.report.document.markup import (
 )
 from netdesign.report.drawing.raster import read_size, read_title, render_png
 from netdesign.report.sections.whole import build_report, list_properties
-from netdesign.report.words import VERDICTS, Words
+from netdesign.report.words import Words
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -117,7 +118,6 @@ _SHEET = "sheet"  # look of a part that begins a page
 _KEPT = ("row",)  # looks of parts that stand on one page if they can
 _HIGHEST = 0.8  # of a page that a drawing may take
 _BETWEEN = 6.0  # drawings in one line [pt]
-_VERDICTS = tuple(signs.symbol for signs in VERDICTS.values())
 _STYLES = {
     "kind": styles.SMALL,
     "meta": styles.SMALL,
@@ -158,7 +158,7 @@ class Writer:
             self._write_block(block)
 
     def _write_block(self, block: Block) -> None:
-        if isinstance(block, Heading | Paragraph) and block.on == "page":
+        if isinstance(block, Heading) and block.look == HIDDEN:
             return
         writers: dict[type, Callable[[Any], None]] = {
             Heading: self._write_heading,
@@ -173,8 +173,6 @@ class Writer:
         writers[type(block)](block)
 
     def _write_part(self, block: Part) -> None:
-        if block.fold:
-            return
         self.begins_page = self.begins_page or _SHEET in block.look.split()
         for inner in block.blocks:
             self.keeps = block.look in _KEPT or self.keeps
@@ -213,9 +211,7 @@ class Writer:
             caption = list_runs(table.caption, has_symbols=of_headings)
             self._add_grid(caption, _list_cells(table))
         else:
-            text = table.empty
-            if table.symbols:
-                text = self.words("show.label", label=table.caption, text=text)
+            text = table.describe_empty(self.words)
             self._write_text(Paragraph(text=text, look="none"))
 
     def _write_figure(self, block: Figure) -> None:
@@ -292,35 +288,15 @@ def _list_cells(table: Table) -> Grid:
 
 
 def _list_cell(cell: Cell, table: Table) -> Runs:
-    """Text of a cell; that of a verdict is bold: its symbol comes first."""
     if cell.content:
         return list_runs(cell.content)
-    if table.symbols == "cells":
-        return (Piece(cell.text, has_symbols=True),)
-    starts = tuple(f"{sign} " for sign in _VERDICTS)
-    is_verdict = cell.text in _VERDICTS or cell.text.startswith(starts)
-    shown = cell.text.replace(" ", "\u00a0", int(is_verdict))
-    return (Piece(shown, STRONG if is_verdict else ""),)
-
-
-def _field(kind: str) -> str:
-    return f'<w:r><w:fldChar w:fldCharType="{kind}"/></w:r>'
-
-
-def _instruct(text: str) -> str:
-    return f'<w:r><w:instrText xml:space="preserve"> {text} </w:instrText></w:r>'
+    return (Piece(cell.text, has_symbols=table.symbols == "cells"),)
 
 
 def write_field(instruction: str, shown: str = "") -> str:
-    """Runs of a field that a word processor works out, as PAGE."""
+    """Field that a word processor works out, as PAGE."""
     cached = f"<w:r><w:t>{escape(shown)}</w:t></w:r>" if shown else ""
-    return (
-        _field("begin")
-        + _instruct(instruction)
-        + _field("separate")
-        + cached
-        + _field("end")
-    )
+    return f'<w:fldSimple w:instr=" {instruction} ">{cached}</w:fldSimple>'
 
 
 def render_document(

@@ -24,6 +24,7 @@ LINE_PT = 1.3 * TEXT_PT  # from one line of a label to the next
 _AIR = 1.5  # between two labels [pt]
 _STEP = 3.0  # between the points of a line that stand for it [pt]
 _REACHES = (4.0, 9.0, 15.0, 22.0, 30.0, 40.0, 52.0, 66.0, 82.0)
+_FURTHER = (105.0, 135.0, 170.0, 210.0, 260.0, 320.0)  # where a label may cross a line
 _LED_FROM = 12.0  # reach from which a line leads to the label
 _TURNS = (0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6, -6, 7, -7, 8)  # of 22.5 degrees
 _DESCENT = 0.25  # of a letter below its line
@@ -55,7 +56,6 @@ class Label:
     lines: tuple[tuple[str, str], ...]
     at: Point
     toward: Point  # direction in which it would stand best
-    link: str = ""  # part of the page that it leads to
 
     @property
     def size(self) -> tuple[float, float]:
@@ -95,38 +95,18 @@ class LabelBoard:
         anchor, x = ("end", box.right) if is_right else ("start", box.left)
         for place, (text, colour) in enumerate(label.lines):
             base = box.top + (place + 1) * LINE_PT - _DESCENT * TEXT_PT
-            sketch.text(x, base, text, anchor=anchor, fill=colour, link=label.link)
+            sketch.text(x, base, text, anchor=anchor, fill=colour)
 
     def _find(self, label: Label) -> tuple[Box, Point, float]:
         """Box of the label, the point of it that is nearest to its own, the reach."""
-        for avoids_lines in (True, False):
-            for box, foot, reach in self._list_places(label):
+        passes = ((True, _REACHES), (False, (*_REACHES, *_FURTHER)))
+        for avoids_lines, reaches in passes:
+            for box, foot, reach in _list_places(label, reaches):
                 if self._is_free(box, avoids_lines=avoids_lines):
                     return box, foot, reach
         wide, tall = label.size
-        rows = range(int((self.height - tall) / LINE_PT) + 1)
-        free = (
-            box
-            for left in range(0, max(1, int(self.width - wide)), 8)
-            for row in rows
-            if self._is_free(
-                box := Box(left, row * LINE_PT, left + wide, row * LINE_PT + tall),
-                avoids_lines=False,
-            )
-        )
-        box = next(free, Box(0.0, self.height, wide, self.height + tall))
+        box = Box(0.0, self.height, wide, self.height + tall)
         return box, (box.right, box.top + tall / 2), math.inf
-
-    def _list_places(self, label: Label) -> Iterator[tuple[Box, Point, float]]:
-        best, size = math.atan2(label.toward[1], label.toward[0]), label.size
-        for reach in _REACHES:
-            for turn in _TURNS:
-                angle = best + math.pi / 8 * turn
-                foot = (
-                    label.at[0] + reach * math.cos(angle),
-                    label.at[1] + reach * math.sin(angle),
-                )
-                yield _hang(size, foot, angle), foot, reach
 
     def _is_free(self, box: Box, *, avoids_lines: bool) -> bool:
         if box.left < 0 or box.top < 0:
@@ -141,6 +121,21 @@ class LabelBoard:
         left, right = box.left - 1, box.right + 1
         top, bottom = box.top - 1, box.bottom + 1
         return any(left < x < right and top < y < bottom for x, y in self.lines)
+
+
+def _list_places(
+    label: Label, reaches: Sequence[float]
+) -> Iterator[tuple[Box, Point, float]]:
+    """Boxes around the point of a label, near first, each with its foot and reach."""
+    best, size = math.atan2(label.toward[1], label.toward[0]), label.size
+    for reach in reaches:
+        for turn in _TURNS:
+            angle = best + math.pi / 8 * turn
+            foot = (
+                label.at[0] + reach * math.cos(angle),
+                label.at[1] + reach * math.sin(angle),
+            )
+            yield _hang(size, foot, angle), foot, reach
 
 
 def write_label(text: str, at: Point, toward: Point, colour: str = INK) -> Label:

@@ -97,7 +97,6 @@ class Chart:
     shapes: list[str] = field(default_factory=list)
     labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
     language: Language = "en"  # of its numbers
-    role: str = "img"  # a picture; with links in it a group of these
 
     def line(
         self,
@@ -115,15 +114,10 @@ class Chart:
             f'stroke-width="{width}"{dashes}/>'
         )
 
-    def area(
-        self, points: Iterable[tuple[float, float]], fill: str, edge: str = ""
-    ) -> None:
-        """Filled polygon [pt]; ``edge`` is the colour of a dashed line around it."""
+    def area(self, points: Iterable[tuple[float, float]], fill: str) -> None:
+        """Filled polygon [pt]."""
         path = _list_points(points)
-        line = f' stroke="{edge}" stroke-width="0.6" stroke-dasharray="3 2"'
-        self.shapes.append(
-            f'<polygon points="{path}" fill="{fill}"{line if edge else ""}/>'
-        )
+        self.shapes.append(f'<polygon points="{path}" fill="{fill}"/>')
 
     def text(
         self,
@@ -133,18 +127,13 @@ class Chart:
         *,
         anchor: str = "start",
         fill: str = INK,
-        size: float = TEXT_PT,
         bold: bool = False,
-        link: str = "",
     ) -> None:
-        """One line of text; y is its base line [pt]; ``link`` a part of the page."""
+        """One line of text; y is its base line [pt]."""
         look = f'text-anchor="{anchor}"'
         look += "" if fill == INK else f' fill="{fill}"'
-        look += "" if size == TEXT_PT else f' font-size="{size:.2f}"'
         look += ' font-weight="bold"' if bold else ""
         text = f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
-        if link:
-            text, self.role = f'<a href="#{link}">{text}</a>', "group"
         self.labels.setdefault(look, []).append(text)
 
     def dot(
@@ -226,7 +215,7 @@ class Chart:
             f"<g {look}>{''.join(texts)}</g>" for look, texts in self.labels.items()
         )
         return (
-            f'<svg xmlns="http://www.w3.org/2000/svg" role="{self.role}" '
+            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" '
             f'aria-label="{escape(title)}" width="{width:.0f}pt" '
             f'height="{height:.0f}pt" '
             f'viewBox="0 0 {width:.0f} {height:.0f}" font-size="{TEXT_PT}" '

@@ -74,7 +74,7 @@ def _list_shapes(
     """Shapes in the order of painting, each with what it and its groups say."""
     inherited = {**look, **parent.attrib}
     for child in parent:
-        if _name(child) in ("g", "a"):
+        if _name(child) == "g":
             yield from _list_shapes(child, inherited)
         else:
             yield child, {**inherited, **child.attrib}

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Iterator
 
 from netdesign.checks.check import CasePoint
-from netdesign.outcome import Outcome
+from netdesign.outcome import EXIT_CODES, Outcome
 from netdesign.report.blocks import (
     Block,
     Cell,
@@ -29,7 +29,6 @@ from netdesign.report.sections.basis import label_rows, name_profile
 from netdesign.report.what_if import name_study
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
     Words,
     add_unit,
     show_member,
@@ -49,13 +48,14 @@ _NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?(e[+-]?[0-9]+)?")
 
 def list_annexes(study: Study, words: Words) -> Iterator[Part]:
     """Annexes in their order."""
+    none = Paragraph(text=words("heading.no_rows"), look="none")
     yield worked.show_all(study, words, _name_symbols(study, words))
     yield show_quality(study, words)
     yield section(
         "annex-cases",
         words("heading.annex_cases"),
         *(build_cases(row, words).shown("extremes") for row in study.rows),
-        *(() if study.rows else (_say_none(words),)),
+        *(() if study.rows else (none,)),
     )
     yield basis.show_profile(study, words)
     yield section(
@@ -118,7 +118,7 @@ def build_provenance(study: Study, words: Words) -> Table:
     libraries = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
     named[words("heading.libraries")] = libraries
     verdict = show_verdict(study.verdict, words)
-    code = VERDICTS[study.verdict].exit_code
+    code = EXIT_CODES[study.verdict]
     named[words("heading.exit_code")] = words(
         "show.exit_code", code=code, verdict=verdict.word
     )
@@ -176,10 +176,6 @@ def explain_case(case: CaseRecord, words: Words) -> Cell:
     )
 
 
-def _say_none(words: Words) -> Paragraph:
-    return Paragraph(text=words("heading.no_rows"), look="none")
-
-
 def build_cases(row: RowStudy, words: Words) -> Table:
     """Every case of a row with its forces or the reason why there are none."""
     keys = [f"{member}_kN" for member in REPORTED_MEMBERS]
@@ -225,12 +221,6 @@ def _list_refused(study: Study, words: Words) -> Iterator[Block]:
                 named = words("spread.creep_law", law=variant.creep_law)
                 text = reason if named in reason else f"{named}, {reason}"
                 rows.setdefault(text, []).append(row.id)
-    yield from _list_by_rows(rows, study, words)
-
-
-def _list_by_rows(
-    rows: dict[str, list[str]], study: Study, words: Words
-) -> Iterator[Block]:
     if rows:
         yield Items(items=tuple(label_rows(rows, study, words)), look="small")
 

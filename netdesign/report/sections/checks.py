@@ -1,11 +1,12 @@
-"""Checks in words and cells; what would make one pass, and limits of single values."""
+"""Checks and scopes in words; what would make a check pass."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from netdesign.checks.check import Change, Check
 from netdesign.outcome import Verdict
+from netdesign.report.sections.basis import label_rows
 from netdesign.report.words import (
     MISSING,
     Words,
@@ -13,8 +14,11 @@ from netdesign.report.words import (
     show_check,
     show_text,
 )
-from netdesign.study.records import RowStudy
+from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import (
+    BY_APPROVAL,
+    Scope,
+    ScopeRecord,
     find_governing,
     is_far_from_limit,
 )
@@ -23,7 +27,6 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
 _FEW = 4  # checks that share a reason and are named
-# Key of a gap: the row lacks more inputs than a check names.
 
 
 def describe_resistance(check: Check, words: Words) -> str:
@@ -153,39 +156,21 @@ def list_flips(check: Check, words: Words) -> tuple[str, ...]:
     ``characteristic resistance ≥ 142 kN, now 120 kN (as far as the calculated cases
     show)``
     """
-    return tuple(
-        _add_note(_compare_now(change, words), change, words)
-        for change in check.changes
-    )
+    return tuple(_describe_flip(change, words) for change in check.changes)
 
 
-def _compare_now(change: Change, words: Words) -> str:
-    text = describe_change(change, words)
-    if change.now is None:
-        return text
-    shown = words.show_quantity(change.now, change.unit)
-    return words("show.change_now", change=text, now=shown)
-
-
-def _add_note(text: str, change: Change, words: Words) -> str:
-    if change.note is None:
-        return text
-    return words("show.with_note", text=text, note=words.show(change.note))
-
-
-def describe_change(change: Change, words: Words) -> str:
-    """One change in words: ``characteristic resistance ≥ 219 kN``."""
+def _describe_flip(change: Change, words: Words) -> str:
     quantity = words.show(change.quantity)
     bound = words.show_quantity(change.bound, change.unit)  # rounded by the search
     if change.sense == "at least":
         bound = append_unit(words.show_minimum(change.bound), "kN")
-    return words(_SENSES[change.sense], quantity=quantity, bound=bound)
-
-
-def _explain_change(change: Change, words: Words) -> str:
-    """One change with the condition that it has."""
-    text = words("show.passes_with", change=_compare_now(change, words))
-    return _add_note(text, change, words)
+    text = words(_SENSES[change.sense], quantity=quantity, bound=bound)
+    if change.now is not None:
+        shown = words.show_quantity(change.now, change.unit)
+        text = words("show.change_now", change=text, now=shown)
+    if change.note is not None:
+        text = words("show.with_note", text=text, note=words.show(change.note))
+    return text
 
 
 def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
@@ -200,13 +185,87 @@ def list_changes(rows: Sequence[tuple[str, Check]], words: Words) -> list[str]:
                     check=show_check(words, check),
                     verdict=words(f"verdict.{check.verdict}"),
                 ),
-                text=_explain_change(change, words),
+                text=words("show.passes_with", change=flip),
             )
         )
         for row, check in rows
-        for change in check.changes
+        for flip in list_flips(check, words)
     ]
     if lines:
         return lines
     is_far = all(is_far_from_limit(check) for _, check in rows)
     return [words("show.no_change" if is_far else "show.no_change_alone")]
+
+
+_BETWEEN = " · "
+
+
+def describe_study_scopes(study: Study, words: Words) -> str:
+    """``anchors FAIL 1.48 (6 assumed), A4 · structure by approval X · siting PASS``.
+
+    Each scope stands with the row that decides it, where there are several.
+    """
+    rows = {row.id: row for row in study.rows}
+    texts = []
+    for scope, record in study.scopes.items():
+        row = rows.get(record.row or "")
+        text = _describe(scope, record, _find_check(row, record), words)
+        is_open = record.verdict is not Verdict.PASS and len(rows) > 1 and row
+        texts.append(f"{text}, {show_text(row.id)}" if row and is_open else text)
+    return _BETWEEN.join(texts)
+
+
+def _find_check(row: RowStudy | None, record: ScopeRecord) -> Check | None:
+    """Check that decides a scope."""
+    checks = row.checks if row else []
+    return next((check for check in checks if check.id == record.governing), None)
+
+
+def _describe(
+    scope: Scope, record: ScopeRecord, check: Check | None, words: Words
+) -> str:
+    name = words(f"of_scope.{scope}")
+    if document := _find_approval(record, check):
+        return words("scopes.by_approval", scope=name, document=show_text(document))
+    verdict = words(f"verdict.{record.verdict}")
+    used = show_extent(record, check, words)
+    parts = [name, verdict, *([used] if used else [])]
+    if record.assumed:
+        parts.append(words("scopes.assumed", count=record.assumed))
+    return " ".join(parts)
+
+
+def _find_approval(record: ScopeRecord, check: Check | None) -> str:
+    """Document of the type approval that proves a scope; "" without one."""
+    is_by_approval = record.governing == BY_APPROVAL
+    is_proven = check is not None and check.declared and is_by_approval
+    return check.declared.document if is_proven and check and check.declared else ""
+
+
+def show_extent(record: ScopeRecord, check: Check | None, words: Words) -> str:
+    """Utilisation of the check that decides, else its force; "" of one without."""
+    if check is not None and check.used is not None:
+        return words.show_number("utilisation", check.used)
+    demand = check.read_band("E_d")[1] if check else None
+    is_met = record.verdict in (Verdict.PASS, Verdict.DECLARED)
+    if demand is None or is_met:
+        return ""
+    return append_unit(words.show_number("demand_kN", demand), "kN")
+
+
+def list_exceeding(study: Study, words: Words) -> Iterator[str]:
+    """Checks whose coupled force exceeds the resistance, though it does not decide."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        beyond = [check for check in row.checks if check.exceeds_by_model]
+        if not beyond:
+            continue
+        worst = max(beyond, key=lambda check: check.utilisation_by_model or 0.0)
+        text = words(
+            "scopes.exceeds",
+            check=show_check(words, worst),
+            times=words.show_number("utilisation", worst.utilisation_by_model),
+            count=len(beyond),
+        )
+        rows.setdefault(text, []).append(row.id)
+    yield from label_rows(rows, study, words)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from netdesign.checks.check import Check
 from netdesign.outcome import SEVERITY, Verdict
@@ -25,14 +26,6 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.assumed import list_assumed
-from netdesign.report.sections.bars import (
-    draw_bar,
-    is_span,
-    show_rated,
-    sign,
-    used_cell,
-)
 from netdesign.report.sections.basis import (
     anchor_rows,
     count_assumed,
@@ -47,23 +40,30 @@ from netdesign.report.sections.checks import (
     describe_briefly,
     describe_cause,
     describe_eased,
+    list_exceeding,
 )
 from netdesign.report.sections.rated import (
     ANCHORS,
+    draw_bar,
     find_shown,
     find_structure,
+    is_span,
     list_anchor,
     rate,
     rate_scope,
     show_need,
+    show_rated,
+    sign,
+    used_cell,
 )
-from netdesign.report.sections.scopes import list_exceeding
 from netdesign.report.what_if import build_what_if, mark_verdict, name_kind
-from netdesign.report.words import Words, show_text
+from netdesign.report.words import Words, append_unit, show_text, show_unit, understand
+from netdesign.site.model import InputEcho
 from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study, find_input
 from netdesign.study.scopes import Scope
 from netdesign.study.to_do import WHO, list_to_do
+from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check
 
 _NO_BREAK = "\u00a0"
@@ -79,7 +79,7 @@ def show_decision(study: Study, words: Words, *, is_verified: bool = False) -> P
             *_show_title(study, words, is_verified=is_verified),
             Paragraph(text=_name_rows_by_state(study, words), look="say"),
             *_show_matrix(study, words),
-            Heading(text=words("heading.decision"), level=2, look=HIDDEN, on="page"),
+            Heading(text=words("heading.decision"), level=2, look=HIDDEN),
             *list_to_confirm(study, words),
             _sign(study, words),
         ),
@@ -329,3 +329,83 @@ def _sign(study: Study, words: Words) -> Part:
         look="sign-off",
         blocks=(table, Paragraph(text=tied, look="small")),
     )
+
+
+DEFAULT = "default"  # cell of an input that takes its default value
+# Left empty, its factor is taken by the guideline's load.
+ALTITUDE = say("column.rows.altitude")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssumedLine:
+    """One range or value, with the rows that have it; none: all of them."""
+
+    name: str
+    value: str
+    rows: tuple[str, ...] = ()
+
+
+def list_assumed(study: Study, words: Words) -> Iterator[AssumedLine]:
+    """Searched ranges, then other assumed values, each name once.
+
+    Rows whose ranges differ share a line: least low end to largest high end.
+    """
+    values: dict[str, dict[str, None]] = {}
+    ends: dict[str, list[float]] = {}
+    rows: dict[str, dict[str, None]] = {}
+    units: dict[str, str] = {}
+    for row in study.rows:
+        for value in row.assumed:
+            name = words.show(value.input)
+            rows.setdefault(name, {})[row.id] = None
+            values.setdefault(name, {})[words.show(value.text)] = None
+            if value.low is not None and value.high is not None:
+                ends.setdefault(name, []).extend((value.low, value.high))
+                units[name] = value.unit.removeprefix("-")
+        for echo in row.inputs:
+            shown, name = _show_default(echo, words), words.show(echo.label)
+            if shown and row.id not in rows.get(name, {}):
+                rows.setdefault(name, {})[row.id] = None
+                values.setdefault(name, {})[shown] = None
+    yield from (x for x in _list_ranges(study, words) if x.name not in rows)
+    for name, ids in rows.items():
+        texts = list(values[name])
+        if name in ends and len(texts) > 1:
+            texts = [_show_ends(ends[name], units[name], words)]
+        some = () if len(ids) == len(study.rows) else tuple(ids)
+        yield AssumedLine(name=name, value=words.join(texts), rows=some)
+
+
+def _show_ends(ends: list[float], unit: str, words: Words) -> str:
+    """Least and largest of some ends, to four digits, with their unit."""
+    low, high = (words.show_given(float(f"{x:.4g}")) for x in (min(ends), max(ends)))
+    text = low if low == high else words("show.from_to", low=low, high=high)
+    return append_unit(text, show_unit(unit)) if unit else text
+
+
+def _show_default(echo: InputEcho, words: Words) -> str:
+    """What an empty cell was taken as; "" of one that says nothing."""
+    if echo.cell == DEFAULT and echo.value != "":
+        return words.show_quantity(understand(echo, words), echo.unit)
+    if echo.label == ALTITUDE and echo.value == "":
+        return words("show.largest_altitude_factor")
+    return ""
+
+
+def _list_ranges(study: Study, words: Words) -> Iterator[AssumedLine]:
+    """Ranges of the site, low and high end in one line."""
+    ends: dict[str, list[InputEcho]] = {}
+    names: dict[str, Message] = {}
+    for echo in study.range_inputs:
+        named = echo.label.arguments.get("name") if _is_message(echo) else None
+        if isinstance(named, Message) and isinstance(echo.value, float):
+            ends.setdefault(named.key, []).append(echo)
+            names[named.key] = named
+    for key, echoes in ends.items():
+        numbers = [echo.value for echo in echoes if isinstance(echo.value, float)]
+        shown = _show_ends(numbers, echoes[0].unit, words)
+        yield AssumedLine(name=words.show(names[key]), value=shown)
+
+
+def _is_message(echo: InputEcho) -> bool:
+    return isinstance(echo.label, Message)

@@ -34,7 +34,6 @@ from netdesign.report.drawing.pressure_figure import (
     find_larger_case,
 )
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.sections.bars import show_answer
 from netdesign.report.sections.checks import (
     describe_cause,
     list_flips,
@@ -51,6 +50,7 @@ from netdesign.report.sections.rated import (
     list_anchor,
     list_part,
     rate,
+    show_answer,
 )
 from netdesign.report.words import (
     MISSING,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from netdesign.checks.check import Check, SingleTest
 from netdesign.outcome import Verdict
@@ -25,13 +25,14 @@ from netdesign.report.blocks import (
     symbols,
     text_cell,
 )
-from netdesign.report.sections.bars import show_answer, used_cell
 from netdesign.report.sections.rated import (
     ANCHOR_MEMBERS,
     Rated,
     find_demand,
     list_anchor,
     rate,
+    show_answer,
+    used_cell,
 )
 from netdesign.report.words import MISSING, Words, append_unit, show_member, show_text
 from netdesign.study.records import RowStudy, Study
@@ -242,26 +243,12 @@ def _tell_tests(check: Check | None, words: Words) -> str:
     return words("anchors.tested", count=count, least=least, resistance=known)
 
 
-@dataclass(slots=True)
-class _Order:
-    """Anchors of one type over all rows."""
-
-    lines: list[AnchorLine] = field(default_factory=list)
-
-    @property
-    def count(self) -> int | None:
-        """Number of all, if each is known."""
-        counts = [line.count for line in self.lines]
-        known = [count for count in counts if count is not None]
-        return sum(known) if len(known) == len(counts) else None
-
-
 def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> Table:
     """Types with their numbers, metres and loads; what fails is not ordered."""
-    orders: dict[str, _Order] = {}
+    orders: dict[str, list[AnchorLine]] = {}
     for line in lines:
         if line.rated.verdict is not Verdict.FAIL and line.type_id:
-            orders.setdefault(line.type_id, _Order()).lines.append(line)
+            orders.setdefault(line.type_id, []).append(line)
     numbers = ("count", "length", "total", "demand", "proof")
     tested = {
         check.resistance_type: check
@@ -275,8 +262,8 @@ def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> 
             words, "anchors.", ("type", *numbers, "tests", "rows"), numbers=numbers
         ),
         rows=tuple(
-            _show_order(kind, order, tested.get(kind), words)
-            for kind, order in sorted(orders.items())
+            _show_order(kind, of_type, tested.get(kind), words)
+            for kind, of_type in sorted(orders.items())
         ),
         empty=words("show.none"),
         look="order",
@@ -285,19 +272,21 @@ def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> 
 
 
 def _show_order(
-    kind: str, order: _Order, tested: Check | None, words: Words
+    kind: str, of_type: Sequence[AnchorLine], tested: Check | None, words: Words
 ) -> tuple[Cell, ...]:
-    lengths = [line.length_m for line in order.lines if line.length_m is not None]
-    is_known = order.count is not None and len(lengths) == len(order.lines)
-    total = sum((x.count or 0) * (x.length_m or 0.0) for x in order.lines)
-    demands = [line.demand_kN for line in order.lines if line.demand_kN is not None]
-    worst = max(order.lines, key=lambda line: line.proof_kN or 0.0)
-    rows = dict.fromkeys(show_text(line.row) for line in order.lines)
+    counts = [line.count for line in of_type if line.count is not None]
+    count = sum(counts) if len(counts) == len(of_type) else None
+    lengths = [line.length_m for line in of_type if line.length_m is not None]
+    is_known = count is not None and len(lengths) == len(of_type)
+    total = sum((x.count or 0) * (x.length_m or 0.0) for x in of_type)
+    demands = [line.demand_kN for line in of_type if line.demand_kN is not None]
+    worst = max(of_type, key=lambda line: line.proof_kN or 0.0)
+    rows = dict.fromkeys(show_text(line.row) for line in of_type)
     ends = (min(lengths), max(lengths)) if lengths else (None,)
     each = [words.show_fixed(end, 1) for end in ends]
     return (
         text_cell(kind),
-        _count_cell(order.count, words),
+        _count_cell(count, words),
         text_cell("–".join(dict.fromkeys(each))),
         fixed_cell(words, total if is_known else None, 0),
         force_cell(words, max(demands, default=None)),

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import Any
 
+from netdesign import addon_table
 from netdesign.report.blocks import Block
 from netdesign.report.sections import annexes, basis, decision, schedule, worked
-from netdesign.report.sections.additions import list_additions
 from netdesign.report.sections.row import RowPage
 from netdesign.report.what_if import title_pages
 from netdesign.report.words import Words, show_text
@@ -45,8 +45,8 @@ def build_report(
         *further,
         *(
             part
-            for addition in list_additions(study)
-            for part in addition.show(study, words)
+            for show in addon_table.load_for_rows(addon_table.ANNEXES, study.rows)
+            for part in show(study, words)
         ),
     )
 

@@ -32,12 +32,12 @@ from netdesign.report.sections.basis import (
     show_basis,
     show_profile,
 )
+from netdesign.report.sections.checks import describe_study_scopes
 from netdesign.report.sections.decision import (
     build_matrix,
     list_to_confirm,
 )
 from netdesign.report.sections.schedule import show_schedule
-from netdesign.report.sections.scopes import describe_study_scopes
 from netdesign.report.sections.whole import list_properties
 from netdesign.report.what_if import build_what_if, mark_title, name_kind, title_pages
 from netdesign.report.words import MISSING, Words, show_text

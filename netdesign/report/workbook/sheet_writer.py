@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from netdesign.report.blocks import (
+    HIDDEN,
     Block,
     Heading,
     Items,
@@ -48,7 +49,7 @@ class SheetWriter:
         for block in blocks:
             if isinstance(block, Part):
                 self.write(block.blocks)
-            elif isinstance(block, Heading) and block.on == "all":
+            elif isinstance(block, Heading) and block.look != HIDDEN:
                 self.line += 1
                 self._write_line(write_plain(block.text), bold=True)
             elif isinstance(block, Paragraph):

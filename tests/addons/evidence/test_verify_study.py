@@ -10,7 +10,7 @@ import pytest
 
 import netdesign as nd
 from netdesign import cli
-from netdesign.commands import stored_study
+from netdesign.commands import report
 from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from netdesign.study.document import hash_text, read_document, write_document
@@ -125,7 +125,7 @@ CHANGES = (
 
 
 def test_every_changed_value_has_its_place(verify, monkeypatch):
-    monkeypatch.setattr(stored_study, "_SHOWN", 10_000)
+    monkeypatch.setattr(report, "_SHOWN", 10_000)
 
     def change(study):
         for change_one, _ in CHANGES:

@@ -12,7 +12,7 @@ from netdesign.addons.reliability.section import (
     show_reliability,
     tabulate_indices,
 )
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook

@@ -1,6 +1,6 @@
 """Quality of the solutions, cases, second opinions as tables."""
 
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.sections.annexes import (
     build_cases,
 )

@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.sections.assumed import ALTITUDE, list_assumed
 from netdesign.report.sections.basis import (
     anchor_rows,
     name_rows,
 )
+from netdesign.report.sections.decision import ALTITUDE, list_assumed
 from netdesign.report.words import Words
 from netdesign.site.model import InputEcho
 from tests.report.build_study import build_study

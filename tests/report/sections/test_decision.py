@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import SEVERITY, Verdict
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.sections.annexes import name_verification
 from netdesign.report.words import VERDICTS
 from netdesign.study.scopes import Scope

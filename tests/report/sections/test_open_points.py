@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.sections.basis import count_assumed, show_line
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.to_do import list_to_do

@@ -8,12 +8,12 @@ from netdesign.checks.comparison import compare
 from netdesign.checks.geometry import Approval
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import write_plain
-from netdesign.report.page.html import render_html
-from netdesign.report.sections.decision import show_structure
-from netdesign.report.sections.scopes import (
+from netdesign.report.page import render_html
+from netdesign.report.sections.checks import (
     describe_study_scopes,
     list_exceeding,
 )
+from netdesign.report.sections.decision import show_structure
 from netdesign.report.words import ENGLISH
 from netdesign.study.scopes import SCOPES
 from netdesign.words.message import say

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.blocks import Items
-from netdesign.report.page.html import render_html
+from netdesign.report.page import render_html
 from netdesign.report.sections.annexes import list_annexes
 from netdesign.report.sections.worked import work_out
 from netdesign.report.words import ENGLISH, show_check

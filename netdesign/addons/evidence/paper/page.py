@@ -56,7 +56,7 @@ from netdesign.report.drawing.plain_svg import (
     Point,
     show_place,
 )
-from netdesign.report.page.render import render_page
+from netdesign.report.page import render_page
 from netdesign.report.words import ENGLISH
 from netdesign.units import day_from_second, kilonewton_from_newton
 

@@ -43,7 +43,7 @@ from netdesign.report.drawing.plain_svg import (
     Frame,
     measure_words,
 )
-from netdesign.report.page.render import render_page
+from netdesign.report.page import render_page
 from netdesign.report.words import ENGLISH, show_member
 from netdesign.snow.ground import (
     build_ground_from_glide_factor,

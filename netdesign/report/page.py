@@ -1,4 +1,7 @@
-"""Blocks -> one self-contained page: no script, no other file, all text escaped."""
+"""Blocks -> one self-contained page: no script, no other file, all text escaped.
+
+The page of a study is ready for A4.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +26,13 @@ from netdesign.report.blocks import (
     Sketch,
     Table,
     Text,
+    link,
     list_pieces,
 )
+from netdesign.report.sections.whole import build_report
+from netdesign.report.what_if import mark_verdict, title_pages
 from netdesign.report.words import Words
+from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
@@ -34,6 +41,51 @@ if TYPE_CHECKING:
 _LOWERED = re.compile(r"_(\w+)")
 _MARKS = re.compile("[&<>'\"\n]")  # what HTML has another sign for
 _REPORT, _STUDY = ("report.css",), ("report.css", "study.css")
+
+
+def render_html(
+    study: Study,
+    language: Language = "en",
+    *,
+    has_annexes: bool = False,
+    is_verified: bool = False,
+) -> str:
+    """Page of a study.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    language : str
+        ``en``, ``fr`` or ``de``.
+    has_annexes : bool
+        All checks step by step, other laws, cases and profile follow.
+    is_verified : bool
+        The stored study was solved again in this run.
+    """
+    words = Words(language)
+    running = title_pages(study, words)
+    title = (mark_verdict(study, words).word, words("heading.anchor_check"), running)
+    blocks = build_report(
+        study, words, has_annexes=has_annexes, is_verified=is_verified
+    )
+    return render_page(
+        blocks,
+        " - ".join(title),
+        language,
+        skip=link("todo", words("heading.skip_to_todo")),
+        style=f"@page {{ @bottom-left {{ content: {_quote_css(running)}; }} }}",
+        is_report=True,
+    )
+
+
+def _quote_css(text: str) -> str:
+    """CSS string in which every sign that could end it is a code."""
+    safe = "".join(
+        sign if sign.isascii() and sign.isalnum() else f"\\{ord(sign):06x}"
+        for sign in text
+    )
+    return f'"{safe}"'
 
 
 def render_page(
@@ -214,10 +266,8 @@ def _write_heading(points: tuple[str, ...], heading: str, has_symbols: bool) -> 
 
 
 def _describe_empty(words: Words, table: Table) -> Markup:
-    """Line that stands for a table without rows; one of figures is named."""
-    if not table.symbols:
-        return escape(table.empty)
-    return write_subscripts(words("show.label", label=table.caption, text=table.empty))
+    text = table.describe_empty(words)
+    return write_subscripts(text) if table.symbols else escape(text)
 
 
 def load_style(*names: str) -> Markup:

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.page import html
+from netdesign.report.page import render_html
 from netdesign.report.sections.whole import build_report
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.document import compute_digest
@@ -15,7 +15,7 @@ from tests.report.reading import PageReader
 
 @pytest.fixture(scope="module")
 def page():
-    return html.render_html(build_study())
+    return render_html(build_study())
 
 
 def test_page_is_self_contained_under_a_strict_policy(page):
@@ -38,7 +38,7 @@ def test_every_section_is_there_and_says_something(has_annexes, rows):
     expected = set(list_sections(study, has_annexes=has_annexes))
     blocks = build_report(study, ENGLISH, has_annexes=has_annexes)
     assert expected <= set(list_filled(blocks))
-    page = html.render_html(study, "en", has_annexes=has_annexes)
+    page = render_html(study, "en", has_annexes=has_annexes)
     assert expected <= set(PageReader(page).ids)
 
 
@@ -47,7 +47,7 @@ def take_first_page(page):
 
 
 def test_annexes_are_left_out_unless_they_are_asked_for(page):
-    whole = html.render_html(build_study(), has_annexes=True)
+    whole = render_html(build_study(), has_annexes=True)
     annexes = {x for x in PageReader(whole).ids if x.startswith("annex-")}
     assert len(annexes) >= 5
     assert not annexes & set(PageReader(page).ids)
@@ -57,7 +57,7 @@ def test_annexes_are_left_out_unless_they_are_asked_for(page):
 @each("language", LANGUAGES)
 def test_the_first_page_names_the_study_and_the_last_annex_how_it_is_verified(language):
     study, words = build_study(), Words(language)
-    page = html.render_html(study, language, has_annexes=True)
+    page = render_html(study, language, has_annexes=True)
     shown = " ".join(PageReader(take_first_page(page)).text)
     assert compute_digest(study) in shown
     whole = " ".join(PageReader(page).text)
