@@ -2,6 +2,13 @@
 
 import math
 
+from netdesign.checks import rate_member
+
+
+def check_member(*args, **kwargs):
+    """Check of one member in one mode, as ``rate_member`` rates it."""
+    return rate_member(*args, **kwargs).write()
+
 
 def compare_support(check) -> float:
     """Force on the support over that of the section inside the row [-]."""

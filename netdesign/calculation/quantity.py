@@ -21,6 +21,8 @@ from netdesign.words.message import Message, say
 Dimension = tuple[tuple[str, int], ...]
 PURE: Dimension = ()
 _POWERS = tuple("123456789")
+# A row is judged at many corners, most of whose quantities are alike.
+_remember = lru_cache(maxsize=4096, typed=True)
 
 
 @lru_cache
@@ -223,33 +225,13 @@ class Quantity:
             If its dimension is not that of the unit: a force times a length is no
             force.
         """
-        if find_dimension(unit) != self.dimension:
-            dimension = name_dimension(self.dimension)
-            raise ModelError(
-                say("calculation.unit", symbol=symbol, unit=unit, found=dimension)
-            )
-        made = apply("=", self) if self.symbol else self
-        return Quantity(
-            low=made.low,
-            value=made.value,
-            high=made.high,
-            dimension=made.dimension,
-            symbol=symbol,
-            unit=unit,
-            kind=made.kind,
-            source=clause,
-            operation=made.operation,
-            of=made.of,
-            lacks=made.lacks,
-        )
+        return _give_name(self, symbol, unit, clause)
 
 
 Operand = Quantity | float
 
 
-@lru_cache(
-    maxsize=4096
-)  # a row is judged at many corners, most of whose leaves are alike
+@_remember
 def leaf(
     symbol: str,
     value: float | None,
@@ -293,11 +275,35 @@ def leaf(
     )
 
 
+@_remember
+def _give_name(of: Quantity, symbol: str, unit: str, clause: str) -> Quantity:
+    if find_dimension(unit) != of.dimension:
+        dimension = name_dimension(of.dimension)
+        raise ModelError(
+            say("calculation.unit", symbol=symbol, unit=unit, found=dimension)
+        )
+    made = apply("=", of) if of.symbol else of
+    return Quantity(
+        low=made.low,
+        value=made.value,
+        high=made.high,
+        dimension=made.dimension,
+        symbol=symbol,
+        unit=unit,
+        kind=made.kind,
+        source=clause,
+        operation=made.operation,
+        of=made.of,
+        lacks=made.lacks,
+    )
+
+
 def constant(value: float) -> Quantity:
     """Pure number of a formula."""
     return Quantity(low=value, value=value, high=value)
 
 
+@_remember
 def apply(operation: str, *operands: Operand) -> Quantity:
     """Quantity that an operation makes of others; of a missing one a missing one.
 

@@ -2,7 +2,6 @@
 
 from netdesign.checks.check import Check as Check
 from netdesign.checks.comparison import RatedForce as RatedForce
-from netdesign.checks.comparison import check_member as check_member
 from netdesign.checks.comparison import find_resistance as find_resistance
 from netdesign.checks.comparison import rate_member as rate_member
 from netdesign.checks.geometry import Approval as Approval

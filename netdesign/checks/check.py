@@ -44,23 +44,6 @@ class CasePoint:
 
 
 @dataclass(frozen=True, kw_only=True)
-class AssumedPoint:
-    """What is assumed of a row's statics where one check is worst; given ones are None.
-
-    The document leaves these out.
-    """
-
-    LEAVES_OUT_NONE: ClassVar[bool] = True
-
-    post_tilt_deg: float | None = None
-    uphill_anchor_distance_m: float | None = None
-    downhill_anchor_distance_m: float | None = None
-    guy_count: float | None = None
-    guy_splay_deg: float | None = None
-    end_guy_angle_deg: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
 class Change:
     """The smallest change of one quantity that flips a check."""
 
@@ -106,7 +89,7 @@ class Check:
     utilisation, verdict and its reason.
     """
 
-    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("assumed", "eased")  # all is given
+    LEAVES_OUT_NONE: ClassVar[tuple[str, ...]] = ("eased",)  # all is given
     WRITTEN: ClassVar = (
         *("demand_kN", "resistance_kN", "utilisation"),
         *("utilisation_by_model", "utilisation_by_guideline"),
@@ -134,7 +117,6 @@ class Check:
     tests: TestSeries | None = None  # of a pull-out resistance that is from them
     proof_limit_kN: float | None = None  # of a test's load, by the tendon that it pulls
     changes: Items[Change] = field(default_factory=list)
-    assumed: AssumedPoint | None = None  # where it is worst
     # Low end of the utilisation at the best ends of what is assumed [-].
     eased: float | None = None
 

@@ -194,18 +194,6 @@ def rate_member(
     return rated.with_open(OpenKind.RESISTANCE_MISSING, *lacks)
 
 
-def check_member(
-    action: Quantity,
-    resistance: GivenResistance,
-    standard: Standard,
-    points: Sequence[Open] = (),
-    *,
-    strength: Quantity | None = None,
-) -> Check:
-    """Check one member in one mode, with the parameters of `rate_member`."""
-    return rate_member(action, resistance, standard, points, strength=strength).write()
-
-
 def compare(
     mode: str,
     met: Verdict,

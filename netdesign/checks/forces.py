@@ -7,8 +7,7 @@ resistance/THEORY.md, (R1), (R12), (R15). Forces in kN, lengths in m, angles in 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from netdesign.calculation.quantity import (
     Quantity,
@@ -21,13 +20,108 @@ from netdesign.calculation.quantity import (
     sqrt,
     tan,
 )
-from netdesign.checks.inputs import (
-    MemberLoad,
-    Support,
-    place_end_support,
-)
 
-Leaves = Mapping[str, Quantity]  # given and solved quantities of a check by symbol
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Support:
+    """Support of a row: the factors from a force inside the row to that on it.
+
+    Attributes
+    ----------
+    spacing, width : Quantity or None
+        b and b_e [m]; None inside the row, where one is the other.
+    end_factor, end_length : Quantity or None
+        f_R [-] and its length [m]; None inside the row.
+    is_second : bool
+        It stands beside the end.
+    reaching : int
+        End effects that reach the last bay.
+    has_both : bool
+        An anchor of two posts, each beside an end: ropes add a force to both guys.
+    """
+
+    spacing: Quantity | None = None
+    width: Quantity | None = None
+    end_factor: Quantity | None = None
+    end_length: Quantity | None = None
+    is_second: bool = False
+    reaching: int = 1
+    has_both: bool = False
+
+    def widen(self, force: Quantity) -> Quantity:
+        """Force by the width of net that the support carries, from that of a bay."""
+        if self.width is None or self.spacing is None:
+            return force
+        return force * self.width / self.spacing
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberLoad:
+    """Way from a force of the section to that of a member, inside the row.
+
+    Attributes
+    ----------
+    share : Quantity or None
+        g, of the section's force in the member [-]; None of all of it.
+    added : Quantity or None
+        A, by the load along the row [kN]; None of nothing.
+    lateral, along : Quantity or None
+        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
+    across, splay : Quantity or None
+        Of two guys on one anchor, square to what they share in the section [kN]; and
+        the angle of each out of it [deg].
+    """
+
+    share: Quantity | None = None
+    added: Quantity | None = None
+    lateral: Quantity | None = None
+    along: Quantity | None = None
+    across: Quantity | None = None
+    splay: Quantity | None = None
+
+
+def place_end_support(
+    spacing: Quantity,
+    factor: Quantity,
+    length: Quantity,
+    *,
+    second: Quantity | None = None,
+    other: Quantity | None = None,
+    beside: Quantity | None = None,
+    is_shared: bool = False,
+) -> Support:
+    """First or last support of a row: half a bay and the end effect.
+
+    With ``second`` the one beside it: a bay, and that part of a bay of the end effect
+    by the lever rule. ``other`` and ``beside`` are parts of a bay of the other end's
+    effect on it, and of the end effects on the next support.
+
+    An anchor that it shares holds a guy of the next post, too, which carries a bay and
+    the part ``beside``. In a row of four that post stands beside the other end.
+    """
+
+    def widen(part: Quantity) -> Quantity:
+        return spacing + factor * part * spacing
+
+    width = spacing / 2 + factor * length if second is None else widen(second)
+    if other is not None:
+        width = width + factor * other * spacing
+    if is_shared:
+        both = (width + (spacing if beside is None else widen(beside))) / 2
+        width = largest(width, both) if second is None else both
+    has_both = False
+    if is_shared and second is not None and beside is not None:
+        has_both = (beside.value or 0.0) >= (second.value or 0.0)
+    clause = "(S9)" if second is None else "(S10a)"
+    return Support(
+        spacing=spacing,
+        width=width.named("b_e", "m", "(S20)" if is_shared else clause),
+        end_factor=factor,
+        end_length=length,
+        is_second=second is not None,
+        reaching=1 if other is None else 2,
+        has_both=has_both,
+    )
 
 
 def find_lateral_factor(share: Quantity) -> Quantity:
@@ -100,10 +194,9 @@ def bring_to_support(
         force = force + load.added
     if load.across is not None and (push is None or load.splay is None):
         force = sqrt(force * force + load.across * load.across)
-    if support.width is not None and support.spacing is not None:
-        force = force * support.width / support.spacing
-    elif support.end_factor is not None:  # of the net itself: the end effect is local
-        force = force * (1 + support.end_factor)
+    force = support.widen(force)
+    if support.width is None and support.end_factor is not None:
+        force = force * (1 + support.end_factor)  # of the net: the effect is local
     if push is not None:
         force = _add_push(force, load, support, push)
     elif load.lateral is not None:
@@ -130,8 +223,7 @@ def _pull_shared(
 
     Or to both, each away from the other: square to the section no more than one counts.
     """
-    if at.width is not None and at.spacing is not None:
-        across = across * at.width / at.spacing
+    across = at.widen(across)
     guys = 2 * push if at.has_both else push
     in_section, square = force + guys * cos(splay), across + push * sin(splay)
     return sqrt(in_section * in_section + square * square)
@@ -225,14 +317,20 @@ def hold_one_way(rope: Quantity, part: Quantity, splay: Quantity) -> Quantity:
 
 
 def press_one_way(
-    rope: Quantity, post: Leaves, at: Support, mark: str = ""
+    rope: Quantity,
+    at: Support,
+    weight: Quantity,
+    share: Quantity,
+    pull: Quantity,
+    splay: Quantity,
+    least_tension: Quantity,
+    *,
+    mark: str = "",
 ) -> Quantity:
     """Compression of the second post by that pull and the load along the row, (S18)."""
-    sideways, least = post["k"] * post[f"P{mark}"], post[f"T_min{mark}"]
-    if at.width is not None and at.spacing is not None:
-        sideways, least = (load * at.width / at.spacing for load in (sideways, least))
-    held = above_zero((sideways + rope) / tan(post["β"]) - least)
-    return (post["w"] * held).named(f"Z{mark}", "kN", "(P11)")
+    sideways, least = at.widen(share * pull), at.widen(least_tension)
+    held = above_zero((sideways + rope) / tan(splay) - least)
+    return (weight * held).named(f"Z{mark}", "kN", "(P11)")
 
 
 def slide_base(pressing: Quantity, tilt: Quantity) -> Quantity:
@@ -262,161 +360,3 @@ def rate(
     demand = (on_action * force).named("E_d", "kN", "(V1)")
     design = (resistance / on_resistance).named("R_d", "kN", "(V1)")
     return (demand / design).named("μ", "-", "(V2)")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SupportForce:
-    """Characteristic force on one member of one support, with what it follows from.
-
-    Attributes
-    ----------
-    action : Quantity
-        E_k [kN].
-    coupled, by_panel, guideline : Quantity or None
-        On the support, by section, panel and guideline [kN]; None where there is none.
-        Of a base that slides, those across it.
-    support, load, push : Support, MemberLoad, Quantity or None
-        What turns a force inside the row into the member's, and the ropes' part.
-    shared : Quantity or None
-        That of a linear truss of post, guys and end guy, on a guy or its anchor [kN].
-    pressing, tilt : Quantity or None
-        Force across the base plate [kN], and that along it over it [-], of a base that
-        slides.
-    """
-
-    action: Quantity
-    coupled: Quantity
-    by_panel: Quantity | None = None
-    guideline: Quantity | None = None
-    support: Support
-    load: MemberLoad = field(default_factory=MemberLoad)
-    push: Quantity | None = None
-    shared: Quantity | None = None
-    pressing: Quantity | None = None
-    tilt: Quantity | None = None
-
-    @property
-    def by_model(self) -> list[Quantity]:
-        """Forces of the coupled calculation, whether they decide or not."""
-        return [force for force in (self.coupled, self.by_panel, self.shared) if force]
-
-
-# Symbols of the number of guys on one anchor, by how their pulls are added.
-GUYS_ON_ANCHOR = {"vector": "n_g", "scalar": "n_h"}
-_SHARED = {"n_g": load_shared_anchor, "n_h": load_shared_anchor_in_line}
-
-
-def calculate_force(leaves: Leaves, *, by_guideline: bool = False) -> SupportForce:
-    """Characteristic force of a check from its leaves, whichever of them it has.
-
-    It is the largest one; ``by_guideline``, that of the guideline's load where there is
-    one, and not less than the maker's ``E_m0``.
-
-
-    ``E_s``, ``E_p0``, ``E_g0`` are the forces inside the row by section, panel and
-    guideline, which has a pull on the head and a least tension of its own; ``V_s`` and
-    so on those across a base that slides, with its tilt ``t``; ``T_r`` alone is the
-    rope of a member that holds the row's end, with the angle ``γ`` of its guy.
-    """
-    support = _find_support(leaves)
-    letter = "V" if "V_s" in leaves else "E"
-    inside, in_panel, by_floor = (
-        leaves.get(f"{letter}_{index}") for index in ("s", "p0", "g0")
-    )
-    if inside is None or "T_b" in leaves:
-        return _calculate_end(leaves, support)
-    load, push = _find_load(leaves, support), _find_push(leaves, support)
-    shared, of_maker = leaves.get("E_t"), leaves.get("E_m0")
-    beside = (in_panel, by_floor, shared, of_maker)
-    name = f"{letter}_k" if not any(beside) else f"{letter}_c"
-    coupled = bring_to_support(name, inside, load, support, push)
-    by_panel = guideline = None
-    if in_panel is not None:
-        by_panel = bring_to_support(f"{letter}_p", in_panel, load, support, push)
-    if by_floor is not None:
-        own = _find_load(leaves, support, mark="_g")
-        of_floor = _find_push(leaves, support, mark="_g")
-        guideline = bring_to_support(f"{letter}_g", by_floor, own, support, of_floor)
-    stated = take_from_maker(of_maker, support) if of_maker else None
-    solved = () if by_guideline and guideline else (coupled, by_panel)
-    deciding = (*solved, guideline, shared if solved else None, stated)
-    action = take_largest(f"{letter}_k", *(x for x in deciding if x is not None))
-    if guideline is action:
-        action = action.named(f"{letter}_k", "kN", "(V1)")
-    tilt = leaves.get("t")
-    return SupportForce(
-        action=action if tilt is None else slide_base(action, tilt),
-        coupled=coupled,
-        by_panel=by_panel,
-        guideline=guideline,
-        support=support,
-        load=load,
-        push=push,
-        shared=shared,
-        pressing=None if tilt is None else action,
-        tilt=tilt,
-    )
-
-
-def _calculate_end(leaves: Leaves, support: Support) -> SupportForce:
-    """Force in a border rope, or on a member that holds its pull along the row."""
-    if "T_b" in leaves:
-        action = pull_border_rope(_take_rope(leaves, "T_b"), support)
-    elif "γ" in leaves:
-        pull = pull_at_end(_take_rope(leaves), support)
-        action = pull_end_guy(pull, leaves["γ"])
-    else:
-        action = pull_at_end(_take_rope(leaves), support).named("E_k", "kN", "(P8)")
-    return SupportForce(action=action, coupled=action, by_panel=action, support=support)
-
-
-def _take_rope(leaves: Leaves, symbol: str = "T_r") -> Quantity:
-    """Force of a border rope, raised to the guideline's load where that is larger."""
-    rope = leaves[symbol]
-    return leaves["φ_g"] * rope if "φ_g" in leaves else rope
-
-
-def _find_support(leaves: Leaves) -> Support:
-    if "f_R" not in leaves:
-        return Support()
-    if "Δl" not in leaves:  # of a rope whose pull grows by f_R alone
-        return Support(end_factor=leaves["f_R"])
-    effect = (leaves["b"], leaves["f_R"], leaves["Δl"])
-    is_shared = any(symbol in leaves for symbol in _SHARED)
-    second, other, beside = (leaves.get(symbol) for symbol in ("s_2", "s_e", "s_n"))
-    return place_end_support(
-        *effect, second=second, other=other, beside=beside, is_shared=is_shared
-    )
-
-
-def _find_load(leaves: Leaves, support: Support, mark: str = "") -> MemberLoad:
-    """Load along the row; with a mark that of the guideline's own pull on the head."""
-    along = [leaves[symbol] for symbol in ("k", f"P{mark}", "β") if symbol in leaves]
-    for guys, load in _SHARED.items():
-        if guys in leaves:
-            return load(leaves[guys], leaves["c"], *along, mark=mark)
-    if "c" in leaves:
-        return load_guy(leaves["c"], *along, mark=mark)
-    if "w" in leaves:
-        if support.is_second and "T_r" in leaves:
-            return MemberLoad()  # what presses the post is worked out together
-        loads = [leaves["w"], *along, leaves[f"T_min{mark}"]]
-        return load_post(*loads, mark=mark)
-    if "k" in leaves:
-        share = leaves["k"]
-        return MemberLoad(lateral=find_lateral_factor(share), along=share)
-    return MemberLoad()
-
-
-def _find_push(leaves: Leaves, support: Support, mark: str = "") -> Quantity | None:
-    """Find what the ropes' pull along the row adds at its end, or beside it."""
-    if "T_r" not in leaves:
-        return None
-    rope, splay = _take_rope(leaves), leaves.get("β") if "c" in leaves else None
-    if not support.is_second:
-        pull = pull_at_end(rope, support)
-        return push_by_end_guy(pull, leaves["γ"], leaves.get("e"), splay)
-    pull = pull_one_way(rope, support)
-    if splay is not None:
-        return hold_one_way(pull, leaves["c"], splay)
-    return press_one_way(pull, leaves, support, mark) if "w" in leaves else pull

@@ -1,14 +1,10 @@
-"""Inputs of a check: force with its band, resistance, proof, place in the row.
-
-The width of net that an end support carries: structure/THEORY.md, (S9) to (S20).
-"""
+"""Inputs of a check: force with its band, resistance, proof elsewhere."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from netdesign.calculation.quantity import Quantity, largest
 from netdesign.outcome import ModelError
 from netdesign.resistance.ground import PullOutTests
 from netdesign.words.message import Message, say
@@ -112,99 +108,3 @@ class Declaration:
     mode: str
     position: str = ""
     proof: Proof
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Support:
-    """Support of a row: the factors from a force inside the row to that on it.
-
-    Attributes
-    ----------
-    spacing, width : Quantity or None
-        b and b_e [m]; None inside the row, where one is the other.
-    end_factor, end_length : Quantity or None
-        f_R [-] and its length [m]; None inside the row.
-    is_second : bool
-        It stands beside the end.
-    reaching : int
-        End effects that reach the last bay.
-    has_both : bool
-        An anchor of two posts, each beside an end: ropes add a force to both guys.
-    """
-
-    spacing: Quantity | None = None
-    width: Quantity | None = None
-    end_factor: Quantity | None = None
-    end_length: Quantity | None = None
-    is_second: bool = False
-    reaching: int = 1
-    has_both: bool = False
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MemberLoad:
-    """Way from a force of the section to that of a member, inside the row.
-
-    Attributes
-    ----------
-    share : Quantity or None
-        g, of the section's force in the member [-]; None of all of it.
-    added : Quantity or None
-        A, by the load along the row [kN]; None of nothing.
-    lateral, along : Quantity or None
-        k_q and k, by the load along the row at the net's foot [-]; None of 1 and 0.
-    across, splay : Quantity or None
-        Of two guys on one anchor, square to what they share in the section [kN]; and
-        the angle of each out of it [deg].
-    """
-
-    share: Quantity | None = None
-    added: Quantity | None = None
-    lateral: Quantity | None = None
-    along: Quantity | None = None
-    across: Quantity | None = None
-    splay: Quantity | None = None
-
-
-def place_end_support(
-    spacing: Quantity,
-    factor: Quantity,
-    length: Quantity,
-    *,
-    second: Quantity | None = None,
-    other: Quantity | None = None,
-    beside: Quantity | None = None,
-    is_shared: bool = False,
-) -> Support:
-    """First or last support of a row: half a bay and the end effect.
-
-    With ``second`` the one beside it: a bay, and that part of a bay of the end effect
-    by the lever rule. ``other`` and ``beside`` are parts of a bay of the other end's
-    effect on it, and of the end effects on the next support.
-
-    An anchor that it shares holds a guy of the next post, too, which carries a bay and
-    the part ``beside``. In a row of four that post stands beside the other end.
-    """
-
-    def widen(part: Quantity) -> Quantity:
-        return spacing + factor * part * spacing
-
-    width = spacing / 2 + factor * length if second is None else widen(second)
-    if other is not None:
-        width = width + factor * other * spacing
-    if is_shared:
-        both = (width + (spacing if beside is None else widen(beside))) / 2
-        width = largest(width, both) if second is None else both
-    has_both = False
-    if is_shared and second is not None and beside is not None:
-        has_both = (beside.value or 0.0) >= (second.value or 0.0)
-    clause = "(S9)" if second is None else "(S10a)"
-    return Support(
-        spacing=spacing,
-        width=width.named("b_e", "m", "(S20)" if is_shared else clause),
-        end_factor=factor,
-        end_length=length,
-        is_second=second is not None,
-        reaching=1 if other is None else 2,
-        has_both=has_both,
-    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
@@ -84,7 +85,7 @@ class Confirmation:
         return confirmed / screened - 1.0 if screened > 0.0 else 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class RowEnvelope:
     """End of a row's search. Forces in N per anchor, or N/m without a layout.
 
@@ -136,7 +137,7 @@ class RowEnvelope:
                 )
         return None
 
-    @property
+    @cached_property
     def extremes(self) -> dict[str, Extreme]:
         """Largest forces by member; a confirmation above the bound raises its end."""
         extremes = find_extremes(self.results)

@@ -28,7 +28,7 @@ from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
-from netdesign.study.record_envelope import (
+from netdesign.study.case_records import (
     record_largest,
     show_case,
     show_coincident,

@@ -1,9 +1,12 @@
-"""Directions in which anchors are pulled over the whole envelope, and their axes."""
+"""Directions in which anchors are pulled over the whole envelope, and their axes.
+
+Last: how many anchors of each type a row is built of, and how long.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from netdesign.checks import Check, OpenKind, Standard
 from netdesign.checks.comparison import compare, leave_open
@@ -21,7 +24,7 @@ from netdesign.structure.anchors import (
     turn_sideways,
 )
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Position,
     find_axis_at_dip,
@@ -31,7 +34,7 @@ from netdesign.structure.row_position import (
     turn_down,
 )
 from netdesign.structure.splay import Guys
-from netdesign.study.case_records import PullRecord
+from netdesign.study.case_records import PartRecord, PullRecord
 from netdesign.study.load_along_row import place_row
 from netdesign.study.row_to_check import RowToCheck
 from netdesign.units import degree_from_radian
@@ -42,6 +45,7 @@ GUY_ANCHORS = (Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 # Below the horizontal, of a bore without a given axis, so that mortar fills it: a
 # supplier's manual asks for it (Geobrugg GBE-3000A).
 USUAL_DIP = math.radians(15.0)
+_ENDS = 2  # of a row
 _CLOSE = 1e-9  # of two dips, which rounding keeps apart [deg]
 
 
@@ -145,6 +149,11 @@ def may_share(guys: Guys) -> bool:
     return guys.count > 1 and guys.are_shared is not False
 
 
+def is_shared(row: NetRow, member: str) -> bool:
+    """An anchor holds a guy of each of two neighbouring posts, or may do so."""
+    return may_share(row.guys) and member in GUY_ANCHORS
+
+
 def build_pull(
     row: NetRow,
     anchor: Member | EndMember,
@@ -171,7 +180,7 @@ def build_pull(
     flattest = find_axis_at_dip(USUAL_DIP, row.slope_angle, anchor)
     axis = max(pulls.mean, flattest) if typed_axis is None else typed_axis
     along_row = share if anchor in row.layout.anchors_at_foot else 0.0
-    if may_share(row.guys) and anchor in GUY_ANCHORS:
+    if is_shared(row, anchor):
         along_row = math.tan(row.guys.splay or 0.0)
     turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return PullRecord(
@@ -227,3 +236,72 @@ def check_direction(
     return (
         check if open_cases is None else check.with_open(OpenKind.UNSOLVED, open_cases)
     )
+
+
+def list_parts(row: NetRow) -> list[PartRecord]:
+    """List the anchors of a net row; those in mid-panel count with the foot anchors."""
+    counts: dict[tuple[str, str, float | None], int | None] = {}
+    for member, kind, count in _list_anchors(row):
+        key = (member, kind.type_id, kind.drilled_length)
+        before = counts.get(key, 0)
+        is_known = count is not None and before is not None
+        counts[key] = (before or 0) + (count or 0) if is_known else None
+    return [
+        PartRecord(part=member, type_id=type_id, count=count, size=size)
+        for (member, type_id, size), count in counts.items()
+    ]
+
+
+def _list_anchors(row: NetRow) -> Iterator[tuple[str, Resistance, int | None]]:
+    """Anchors of the supports, between the posts, and of those that hold the row."""
+    posts = row.post_count
+    for position, supports in _count_supports(row):
+        types = _index(row.resistances_at(position))
+        for anchor in ANCHORS:
+            if anchor not in types:
+                continue
+            yield anchor, types[anchor], _count(row, anchor, position, supports)
+    if any(panel.has_mid_anchors for panel in row.panels):
+        foot = _index(row.resistances)[Member.FOOT_ANCHOR]
+        yield Member.FOOT_ANCHOR, foot, None if posts is None else posts - 1
+    held = _index(row.row_end.resistances) if row.row_end else {}
+    for member in END_ANCHORS:
+        if member in held and held[member].type_id:
+            yield member, held[member], _ENDS
+
+
+def _count_supports(row: NetRow) -> Iterator[tuple[Position, int | None]]:
+    """Supports by position; the first and last ones alone where they differ."""
+    count = row.post_count
+    if row.end_resistances is None:
+        yield "intermediate", count
+        return
+    yield "intermediate", None if count is None else max(0, count - _ENDS)
+    yield "edge", None if count is None else min(_ENDS, count)
+
+
+def _count(
+    row: NetRow, anchor: Member, position: Position, supports: int | None
+) -> int | None:
+    """Number of an anchor at some supports; a shared one is one of both its posts.
+
+    The end post counts the shared anchors between itself and the next post.
+    """
+    if supports is None:
+        return None
+    if not is_shared(row, anchor):
+        return supports * (1 if anchor == Member.FOOT_ANCHOR else row.guys.count)
+    if row.guys.are_shared is None:
+        return None
+    if row.end_resistances is None:
+        return supports + 1
+    if position == "edge":
+        return min(2 * supports, (row.post_count or 0) + 1)
+    return max(0, supports - 1)
+
+
+def _index(resistances: Iterable[Resistance]) -> dict[str, Resistance]:
+    first: dict[str, Resistance] = {}
+    for resistance in resistances:
+        first.setdefault(resistance.member, resistance)
+    return first

@@ -22,9 +22,9 @@ from netdesign.outcome import Verdict
 from netdesign.site.assumed import Assumed
 from netdesign.site.model import NetRow
 from netdesign.structure.members import ROPE_OF
+from netdesign.study.case_records import read_point, record_point
 from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import MemberForce, RowForces
-from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_to_check import (
     CaseSolver,
     RowToCheck,
@@ -149,7 +149,7 @@ class _BestEnds:
         high = check.utilisation_band[1]
         is_beyond = check.is_unbounded or (high is not None and high > 1.0)
         if is_beyond and self._is_rope_of_assumed_sag():
-            return replace(self.judged, check=_leave_to_sags(check))
+            return replace(self.judged, rated=_leave_to_sags(check))
         if self.judged.again is None or not is_beyond:
             return self.judged
         if check.verdict is Verdict.FAIL and self._has_open_pull():
@@ -160,7 +160,7 @@ class _BestEnds:
             check = check.ease(self._find_least())
         if check.verdict is not Verdict.FAIL and (deciding := self._tell()):
             check = check.with_open(OpenKind.ASSUMED_DECIDES, deciding)
-        return replace(self.judged, check=check)
+        return replace(self.judged, rated=check)
 
     @property
     def _are_sags_assumed(self) -> bool:

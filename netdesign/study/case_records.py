@@ -1,20 +1,30 @@
 """Records of cases, forces, supports and the guideline's loads.
 
-All numbers are in engineer's units, as in ``records``.
+All numbers are in engineer's units, as in ``records``. Last: how they are made of a
+row's envelope.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from netdesign.checks.check import CasePoint
 from netdesign.edge.json_text import Items
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.ranges import PARAMETERS, Case
+from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import PullRange
-from netdesign.structure.members import EndMember, Member
+from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.structure.row_position import Position
-from netdesign.units import radian_from_degree
+from netdesign.units import (
+    kilonewton_from_newton,
+    kilonewton_if_known,
+    radian_from_degree,
+)
 from netdesign.words.message import Text
 
 
@@ -176,6 +186,28 @@ class PullRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PartRecord:
+    """Anchors of one type in one place of a net row.
+
+    Attributes
+    ----------
+    part : str
+        Member that the anchor holds.
+    type_id : str
+        Empty where none is named.
+    count : int or None
+        None where neither the row's length nor its posts are given.
+    size : float or None
+        Length of one [m]; None where it is not given.
+    """
+
+    part: str
+    type_id: str
+    count: int | None
+    size: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class HeldSidewaysRecord:
     """Numbers of a row that the load along it follows from: (S15) to (S18)."""
 
@@ -207,3 +239,93 @@ class EndGuyRecord:
     # of the outer guy by a linear truss; None where there is no second guy on a side
     uphill_guy_kN: float | None = None
     downhill_guy_kN: float | None = None
+
+
+def show_case(values: Mapping[str, float]) -> dict[str, float]:
+    """Values of a case under their keys, each in the unit of its key."""
+    shown = ((PARAMETERS[name], value) for name, value in values.items())
+    return {parameter.key: parameter.show(value) for parameter, value in shown}
+
+
+def record_point(case: Case) -> CasePoint:
+    """Case of a site."""
+    return CasePoint(**show_case(case.values))
+
+
+def read_point(point: CasePoint) -> Case:
+    """Case of a record, in SI units."""
+    values = point.values
+    return Case.of(
+        {
+            name: parameter.read(values[parameter.key])
+            for name, parameter in PARAMETERS.items()
+            if parameter.key in values
+        }
+    )
+
+
+def record_case(result: CaseResult) -> CaseRecord:
+    """Outcome and forces of a solved case."""
+    forces = {
+        f"{member}_kN": kilonewton_if_known(
+            result.member_forces[member].value if result.is_converged else None
+        )
+        for member in REPORTED_MEMBERS
+    }
+    solution = result.solution
+    return CaseRecord(
+        case=record_point(result.case),
+        outcome=result.outcome,
+        reason=result.reason,
+        error_percent=_largest_error_percent(result),
+        balance_residual=solution.balance.relative_residual if solution else None,
+        **forces,
+    )
+
+
+def _largest_error_percent(result: CaseResult) -> float | None:
+    """Largest error of the two end pulls over their size, in per cent."""
+    if result.solution is None:
+        return None
+    pulls = (result.solution.foot, result.solution.head)
+    return 100.0 * max(pull.error / pull.size for pull in pulls)
+
+
+def record_largest(extreme: Extreme, envelope: RowEnvelope) -> LargestForce:
+    """Largest force, with what may hide between the cases."""
+    force = extreme.widened
+    return LargestForce(
+        quantity=extreme.member,
+        low_kN=kilonewton_from_newton(force.low),
+        value_kN=kilonewton_from_newton(force.value),
+        high_kN=kilonewton_from_newton(force.high),
+        bound_kN=kilonewton_from_newton(extreme.upper_bound),
+        case=record_point(extreme.governing.case),
+        confirmed=_record_confirmation(envelope, extreme.member),
+    )
+
+
+def show_coincident(extreme: Extreme, members: Sequence[str]) -> dict[str, float]:
+    """Forces of the other members in the governing case [kN]."""
+    forces = extreme.governing.member_forces
+    return {
+        member: kilonewton_from_newton(forces[member].value)
+        for member in members
+        if member != extreme.member
+    }
+
+
+def _record_confirmation(
+    envelope: RowEnvelope, member: str
+) -> ConfirmationRecord | None:
+    confirmation = next((c for c in envelope.confirmations if c.member == member), None)
+    if confirmation is None:
+        return None
+    confirmed = confirmation.confirmed.solution
+    difference, forces = confirmation.difference, confirmation.confirmed.member_forces
+    return ConfirmationRecord(
+        confirmed_kN=kilonewton_if_known(forces[member].value if forces else None),
+        difference_percent=None if difference is None else 100.0 * difference,
+        elements=confirmed.cost.elements if confirmed else None,
+        reason=confirmation.confirmed.reason,
+    )

@@ -1,29 +1,283 @@
-"""The use case: site -> cases -> checks -> studies."""
+"""The use case: site -> cases -> checks -> studies.
+
+Rows are solved and judged side by side in a pool of workers, or in turn. A judgement
+asks for one case after the other, so a row keeps one process busy. A worker has the
+run's store, and does what this process would.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import hashlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain
+from pathlib import Path
 
 from netdesign import addon_table
+from netdesign.addon_table import OF_ROWS
 from netdesign.checks import Standard
 from netdesign.edge.progress import Phase, RunProgress
 from netdesign.envelope.rows import RowEnvelope
-from netdesign.site.model import Site
-from netdesign.solving.runner import Runner
-from netdesign.study.cases import list_alike, search_site
-from netdesign.study.judge import gather_study
-from netdesign.study.records import Study
-from netdesign.study.row_to_check import CheckRun
-from netdesign.study.side_by_side import (
-    RowsJob,
-    Studies,
-    find_rows,
-    judge_rows,
-    keep_rows,
-    name_rows,
+from netdesign.outcome import Fault, catch_fault
+from netdesign.site.model import NetRow, Project, Site
+from netdesign.solving.runner import Counts, Runner
+from netdesign.solving.store import (
+    CaseStore,
+    StoreError,
+    identify_installation,
+    write_parts,
 )
-from netdesign.words.message import say
+from netdesign.study.cases import list_alike, search_site
+from netdesign.study.document import restore_row
+from netdesign.study.judge import gather_study, judge_row
+from netdesign.study.records import RowStudy, Study
+from netdesign.study.row_to_check import CaseSolver, CheckRun
+from netdesign.words.message import Message, say
+
+Studies = list[RowStudy]  # of one row, one a profile
+
+
+def cut_site(site: Site, row: NetRow) -> Site:
+    """Part of a site on which one of its rows is judged: the row, and what bears on it.
+
+    What is not listed here decides nothing of a row. The notes of a site, its file and
+    the rest of its project stand beside the rows.
+    """
+    return Site(
+        project=Project(
+            snow_document=site.project.snow_document,
+            glide_document=site.project.glide_document,
+        ),
+        ranges=site.at_row(row).ranges,
+        rows=(row,),
+        file_name="",
+        sha256="",
+        declared=tuple(
+            declaration
+            for declaration in site.declared
+            if declaration.row_id in ("", row.id)
+        ),
+        confirmed=site.confirmed,
+        catalogue=site.catalogue,
+        links=site.links,
+        of_addons={x: y for x, y in site.of_addons.items() if x in OF_ROWS},
+    )
+
+
+def name_rows(
+    site: Site, standards: Sequence[Standard], run: CheckRun
+) -> dict[str, str]:
+    """Names of the records of a site's rows by all that decides them, by ids of rows.
+
+    Command, time and number of processes are no part of a name: no record has them.
+    A row with a value of a new kind has no name, and is judged every time.
+    """
+    settings = [run.settings, run.creep_law, run.has_reliability]
+    names = {}
+    with suppress(TypeError):
+        shared = write_parts([identify_installation(), settings, list(standards)])
+        types = write_parts(list(site.catalogue))
+        for row in site.rows:
+            part = write_parts(replace(cut_site(site, row), catalogue=()))
+            whole = f"[{shared}, {part}, {types}]"
+            names[row.id] = hashlib.sha256(whole.encode()).hexdigest()
+    return names
+
+
+def find_rows(
+    names: Mapping[str, str], runner: Runner, count: int
+) -> dict[str, Studies]:
+    """Rows that the store knows, by their ids, under so many profiles each.
+
+    A damaged record is told and left out.
+    """
+    by_row = {}
+    for row_id, name in names.items():
+        texts = runner.find_row(name)
+        if texts is None:
+            continue
+        try:
+            pairs = zip(texts, range(count), strict=True)
+            by_row[row_id] = [_restore(text) for text, _ in pairs]
+        except ValueError:
+            path = str(runner.store.path if runner.store else "")
+            runner.tell(say("store.row_damaged", path=path, name=name[:12]))
+    return by_row
+
+
+def keep_rows(
+    names: Mapping[str, str],
+    rows: Iterable[NetRow],
+    judged: Iterable[Studies],
+    runner: Runner,
+) -> None:
+    """Keep the records of some rows; of a run that lost a case or met a fault, none.
+
+    Another run could end otherwise.
+    """
+    if runner.faults or runner.counts.lost:
+        return
+    for row, studies in zip(rows, judged, strict=True):
+        name = names.get(row.id)
+        if name is not None:
+            runner.keep_row(name, [study.written for study in studies])
+
+
+def _restore(text: str) -> RowStudy:
+    """Record of a row, with its text: 2.0 that was written as 2 is written so again.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    row = restore_row(text)
+    vars(row)["written"] = text
+    return row
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowsJob:
+    """Some rows of a site, to be judged in one process.
+
+    Attributes
+    ----------
+    site : Site
+        With these rows alone: all rows of a large site take long to be sent.
+    solved : tuple of RowEnvelope, or None
+        Cases of these rows; None where they are to be searched first.
+    standards : tuple of Standard
+        Limit profiles.
+    run : CheckRun
+        Settings.
+    store : Path or None
+        File of known cases.
+    """
+
+    site: Site
+    solved: tuple[RowEnvelope, ...] | None = None
+    standards: tuple[Standard, ...]
+    run: CheckRun
+    store: Path | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JudgedRows:
+    """Studies of the rows of a job, and what a worker did for them.
+
+    ``counts`` and ``faults`` are those of the worker's runner; the user reads the
+    ``messages``.
+    """
+
+    studies: list[Studies]
+    counts: Counts
+    faults: dict[Fault, set[str]]
+    messages: list[Message]
+
+
+def judge_rows(
+    jobs: Sequence[RowsJob],
+    runner: Runner,
+    on_job: Callable[[RowsJob, list[Studies]], None] = lambda *_: None,
+) -> dict[str, Studies]:
+    """Studies of the rows of all jobs, by their ids.
+
+    Parameters
+    ----------
+    jobs : sequence of RowsJob
+        Each is done in one process.
+    runner : Runner
+        Its pool takes the jobs, if it has one; else this process does.
+    on_job : callable, optional
+        Called with each job once it is done, and with what it found.
+    """
+    judged_at: dict[int, list[Studies]] = {}
+    pool = runner.workers.pool
+    if pool is not None and len(jobs) > 1:
+        shown: dict[Message, None] = {}  # once, however many workers say it
+        waiting = list(enumerate(jobs))[::-1]  # taken from its end
+        for place, judged in pool.spread(judge_away, waiting):
+            if judged is None:
+                continue
+            judged_at[place] = judged.studies
+            for message in judged.messages:
+                if message not in shown:
+                    runner.tell(message)
+            shown |= dict.fromkeys(judged.messages)
+            runner.take(judged.counts, judged.faults)
+            on_job(jobs[place], judged.studies)
+    # Where a worker died, each case is now given to a worker; where it failed, it fails
+    # here, by name and place.
+    for place, job in enumerate(jobs):
+        if place not in judged_at:
+            judged_at[place] = _judge(job, runner)
+            on_job(job, judged_at[place])
+    return {
+        row.id: studies
+        for place, job in enumerate(jobs)
+        for row, studies in zip(job.site.rows, judged_at[place], strict=True)
+    }
+
+
+def judge_away(job: RowsJob) -> JudgedRows | None:
+    """Studies of the rows of a job, made by a worker.
+
+    None where the program fails: the fault is met again where it can be told.
+    """
+    judged = catch_fault(partial(_judge_away, job), "")
+    return None if isinstance(judged, Fault) else judged
+
+
+def _judge_away(job: RowsJob) -> JudgedRows:
+    messages: list[Message] = []
+    with ExitStack() as stack:
+        store: CaseStore | None = None
+        if job.store is not None:
+            try:
+                opened = CaseStore(job.store, messages.append, is_open=True)
+                store = stack.enter_context(opened)
+            except StoreError as error:
+                messages.append(say("store.going_on", reason=error.message))
+        runner = Runner(store=store, tell=messages.append)
+        studies = _judge(job, runner)
+    for row in chain.from_iterable(studies):
+        _ = row.written  # here, while others judge
+    return JudgedRows(
+        studies=studies,
+        counts=runner.counts,
+        faults=runner.faults,
+        messages=messages,
+    )
+
+
+def _judge(job: RowsJob, runner: Runner) -> list[Studies]:
+    solved: Sequence[RowEnvelope] | None = job.solved
+    if solved is None:
+        solved = search_site(job.site, job.run, runner)
+    pairs = list(zip(job.site.rows, solved, strict=True))
+    for row, of_row in pairs:
+        again = (confirmation.confirmed for confirmation in of_row.confirmations)
+        for result in (*of_row.results, *again):
+            runner.keep_fault(result.fault, row.id)
+    return [_judge_row(job, row, of_row, runner) for row, of_row in pairs]
+
+
+def _judge_row(
+    job: RowsJob,
+    row: NetRow,
+    solved: RowEnvelope,
+    runner: Runner,
+) -> Studies:
+    """Studies of a row; profiles share its cases: forces do not depend on them."""
+    solver = CaseSolver(job.run.settings, job.run.creep_law, runner)
+    site = cut_site(job.site, row)
+    return [
+        judge_row(site, row, solved, standard, job.run, solver)
+        for standard in job.standards
+    ]
+
 
 # Progress that is not shown.
 _SILENT = RunProgress([Phase(key="", words="", cases=0)], lambda _: None)

@@ -13,7 +13,6 @@ from typing import ClassVar
 
 from netdesign.checks import Check, Standard
 from netdesign.envelope.ranges import Interval
-from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import END_ANCHORS, Member
@@ -26,6 +25,7 @@ from netdesign.study.guideline_load import (
     find_effects,
     find_row_floors,
     list_assumed,
+    record_floor,
 )
 from netdesign.study.load_along_row import (
     find_splay,
@@ -150,14 +150,14 @@ def find_row_anchors(site: Site, row: NetRow, standard: Standard) -> RowAnchors:
             AnchorForce(anchor=anchor, position="edge", guideline_kN=None)
             for anchor in END_ANCHORS
         ]
-    notes = _list_notes(row, [at_corner.held for at_corner, _ in known])
+    notes = _list_notes(row, [forces.held for forces in known])
     return RowAnchors(id=row.id, anchors=forces, reason=reason, notes=notes)
 
 
 def _list_variants(
     site: Site, row: NetRow, standard: Standard, effects: RowEffects
-) -> list[tuple[RowForces, Floor]] | Message:
-    """Row at each corner of its statics with the forces inside it, or why it has none.
+) -> list[RowForces] | Message:
+    """Forces of a row at each corner of its statics, or why it has none.
 
     The end guy has no part in them.
     """
@@ -178,32 +178,23 @@ def _list_variants(
             law=BOUTILLIER_2004,  # no force here depends on it
             effects=effects,
             largest={},
-            floor=None,
+            floor=record_floor(floor),
             held=_hold_sideways(variant, span, pull, share),
             tilt=0.0,
         )
-        variants.append((at_corner, floor))
+        variants.append(at_corner)
     return variants
 
 
 def _find_largest(
-    variants: Sequence[tuple[RowForces, Floor]], anchor: Member, width: LoadedWidth
+    variants: Sequence[RowForces], anchor: Member, width: LoadedWidth
 ) -> float | None:
     """Largest force on an anchor of a support at any corner of the statics [kN]."""
     if anchor == Member.FOOT_ANCHOR:  # no statics change it, unless a guy ends there
-        shared = [each for each in variants if each[0].row.layout.is_foot_shared]
+        shared = [each for each in variants if each.row.layout.is_foot_shared]
         variants = shared or variants[:1]
-    inside = ((forces, floor.find(anchor)) for forces, floor in variants)
-    return max(
-        (
-            find_guideline_force(
-                forces, anchor, width, kilonewton_from_newton(force.force)
-            )
-            for forces, force in inside
-            if force is not None
-        ),
-        default=None,
-    )
+    forces = (find_guideline_force(each, anchor, width) for each in variants)
+    return max((force for force in forces if force is not None), default=None)
 
 
 def _list_notes(

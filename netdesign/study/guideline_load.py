@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from typing import Literal
@@ -18,7 +18,6 @@ from netdesign.checks.schema import DIMENSIONING, GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.coupling.interface import NetState, find_net_face
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import USUAL, Case, Ranges
-from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import (
     Floor,
     FloorForce,
@@ -61,8 +60,8 @@ from netdesign.study.case_records import (
     FloorRecord,
     GuidelineCase,
     GuidelineRecord,
+    record_point,
 )
-from netdesign.study.record_envelope import record_point
 from netdesign.units import (
     given_degree_from_radian,
     kilonewton_from_newton,
@@ -295,17 +294,6 @@ _DECIMALS = 3  # of heights on the net [m]
 _OTHER_DENSITY = 0.1  # share from which another density is told as a cause
 
 
-def find_solved(result: CaseResult) -> tuple[float, float] | None:
-    """Load along the slope [N/m] and force of the foot anchor [N] of a solved case.
-
-    None where it has no solution.
-    """
-    if result.solution is None or not result.is_converged:
-        return None
-    load = result.solution.foot.x + result.solution.head.x
-    return load, result.member_forces[Member.FOOT_ANCHOR].value
-
-
 def record_guideline(
     row: NetRow, foot: Extreme | None, standard: Standard
 ) -> GuidelineRecord | None:
@@ -313,40 +301,13 @@ def record_guideline(
 
     None where there is no solution to compare with.
     """
-    if foot is None:
+    result = foot.governing if foot else None
+    if result is None or result.solution is None or not result.is_converged:
         return None
-    result = foot.governing
-    solution, solved = result.solution, find_solved(result)
-    if solution is None or solved is None:
-        return None
-    heights = solution.net_curve[1].round(_DECIMALS).tolist()
-    pairs = zip(heights, _list_pressures(solution), strict=True)
-    return replace(
-        compare_case(row, result.case, solved, read_floor_model(standard)),
-        along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
-    )
-
-
-def compare_case(
-    row: NetRow, case: Case, solved: tuple[float, float], model: LoadModel
-) -> GuidelineRecord:
-    """Record the guideline's load cases against the forces of one case.
-
-    Parameters
-    ----------
-    row : NetRow
-        Net row.
-    case : Case
-        Solved case.
-    solved : tuple of float
-        Load along the slope on the net [N/m], and force of the foot anchor [N].
-    model : LoadModel
-        Of the guideline.
-    """
-    row, (load, foot) = row.at(case), solved
+    row, case, solution = row.at(result.case), result.case, result.solution
     net = build_geometry(row, case.inclination)
     cases = compare_with_guideline(
-        model,
+        read_floor_model(standard),
         net,
         density=case.density,
         altitude=row.altitude,
@@ -355,12 +316,16 @@ def compare_case(
             find_glide_factors(row, row.net_height),
         ),
     )
+    force = result.member_forces[Member.FOOT_ANCHOR].value
+    heights = solution.net_curve[1].round(_DECIMALS).tolist()
+    pairs = zip(heights, _list_pressures(solution), strict=True)
     return GuidelineRecord(
         case=record_point(case),
-        solved_load_kN_per_m=kilonewton_from_newton(load),
-        solved_foot_anchor_kN=kilonewton_from_newton(foot),
+        solved_load_kN_per_m=kilonewton_from_newton(solution.foot.x + solution.head.x),
+        solved_foot_anchor_kN=kilonewton_from_newton(force),
         cases=[_record_case(case, net) for case in cases],
-        sentence=_explain_difference(row, case, foot, cases),
+        sentence=_explain_difference(row, case, force, cases),
+        along_net=[(y, pressure) for y, pressure in pairs if pressure is not None],
     )
 
 

@@ -82,7 +82,7 @@ def _record(
     floor: HeadSpan | None,
     load: tuple[float, float],
 ) -> HeldSidewaysRecord:
-    row, extremes, (share, splay) = task.row, task.extremes, load
+    row, extremes, (share, splay) = task.row, task.solved.extremes, load
     hidden = {
         member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
@@ -208,7 +208,8 @@ def _share_end(
     if not states.has_panels:
         return None
     keys = (*GUYS, *GUYS_BY_PANEL, RopeForce.UPPER_ALONG)
-    extremes = [task.extremes[key] for key in keys if key in task.extremes]
+    solved = task.solved.extremes
+    extremes = [solved[key] for key in keys if key in solved]
     hidden = 1.0 + max(
         (
             extreme.hidden / extreme.force.high

@@ -6,17 +6,33 @@ forces, the guideline's, cells of the workbook, values of the profile.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 
 from netdesign.calculation.quantity import Kind, Quantity, leaf
 from netdesign.checks import Standard
 from netdesign.checks.comparison import find_profile_value
 from netdesign.checks.forces import (
-    GUYS_ON_ANCHOR,
-    SupportForce,
-    calculate_force,
+    MemberLoad,
+    Support,
+    bring_to_support,
+    find_lateral_factor,
+    hold_one_way,
+    load_guy,
     load_post,
+    load_shared_anchor,
+    load_shared_anchor_in_line,
+    place_end_support,
+    press_one_way,
+    pull_at_end,
+    pull_border_rope,
+    pull_end_guy,
+    pull_one_way,
+    push_by_end_guy,
+    slide_base,
+    take_from_maker,
+    take_largest,
 )
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.panel_forces import POST_PULLS
@@ -31,10 +47,9 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.anchor_pulls import GUY_ANCHORS, may_share
+from netdesign.study.anchor_pulls import is_shared
 from netdesign.study.case_records import (
     FloorRecord,
-    HeldSidewaysRecord,
     LargestForce,
 )
 from netdesign.study.row_forces import MemberForce as MemberForce
@@ -60,6 +75,8 @@ PUSHED: Mapping[str, str] = {
     Member.POST_BASE: "base_part",
     **PARTS,
 }
+_PRESSED = (Member.POST, Member.POST_BASE)  # by the load along the row
+_WEIGHTS: Mapping[str, str] = {**PARTS, **dict.fromkeys(_PRESSED, "post_part")}
 # Tension of the outer guy of each side by the linear truss.
 _BY_TRUSS: Mapping[str, str] = {
     Member.UPHILL_GUY: "uphill_guy_kN",
@@ -67,9 +84,13 @@ _BY_TRUSS: Mapping[str, str] = {
     Member.DOWNHILL_GUY: "downhill_guy_kN",
     Member.DOWNHILL_ANCHOR: "downhill_guy_kN",
 }
-# Modes with a force of their own; in all others that of the member counts.
-OWN_FORCES = ("sliding",)
+SLIDING = "sliding"  # mode with a force of its own; in all others the member's counts
 _ROPES = (NetPart.RIDGE_ROPE, NetPart.LOWER_ROPE)
+# How an anchor of two guys is loaded, and the symbol of their number.
+_SHARED = {
+    "vector": (load_shared_anchor, "n_g"),
+    "scalar": (load_shared_anchor_in_line, "n_h"),
+}
 
 
 def find_cell(row: NetRow, column: str) -> str:
@@ -94,105 +115,269 @@ def find_force(
 
     Each is calculated once.
     """
-    mode = resistance.mode if resistance.mode in OWN_FORCES else ""
-    key = (resistance.member, mode, width)
+    is_sliding = resistance.mode == SLIDING
+    key = (resistance.member, is_sliding, width)
     if key not in forces.worked_out:
-        forces.worked_out[key] = _work_out(forces, resistance, width)
+        at = _MemberAt(forces=forces, member=resistance.member, width=width)
+        is_of_rope = at.member in ROPE_OF
+        forces.worked_out[key] = (
+            at.find_end_force() if is_of_rope else at.find_force(is_sliding=is_sliding)
+        )
     return forces.worked_out[key]
 
 
-def _calculate(forces: RowForces, leaves: Sequence[Quantity]) -> SupportForce:
-    return _calculate_of(tuple(leaves), forces.standard.is_by_guideline)
+@dataclass(frozen=True, kw_only=True)
+class _MemberAt:
+    """Member of one support of a row, with the numbers that its formulas take.
 
+    Of two loads on the section, ``mark`` ends the symbols of the guideline's own.
+    """
 
-@lru_cache(maxsize=4096)  # of alike leaves at many corners
-def _calculate_of(leaves: tuple[Quantity, ...], by_guideline: bool) -> SupportForce:
-    of = {quantity.symbol: quantity for quantity in leaves}
-    return calculate_force(of, by_guideline=by_guideline)
+    forces: RowForces
+    member: str
+    width: LoadedWidth
 
+    def find_force(self, *, is_sliding: bool) -> MemberForce | None:
+        """Force on the member, along a base that slides; None without a solved case."""
+        forces, standard = self.forces, self.forces.standard
+        section, panel = forces.largest.get(self.member), self._panel
+        if section is None:
+            return None
+        letter = "V" if is_sliding else "E"
+        guideline, by_truss = self.find_by_guideline(letter), self._find_truss()
+        stated = find_maker_force(forces.row, standard, self.member)
+        is_alone = not any((panel, guideline, by_truss, stated))
+        inside = solve_for(section, f"{letter}_s")
+        coupled = self._bring(f"{letter}_k" if is_alone else f"{letter}_c", inside)
+        by_panel = of_maker = None
+        if panel is not None:
+            by_panel = self._bring(f"{letter}_p", solve_for(panel, f"{letter}_p0"))
+        if stated is not None:
+            of_maker = take_from_maker(stated, self.support)
+        deciding = [coupled, by_panel, guideline, by_truss, of_maker]
+        if standard.is_by_guideline and guideline is not None:
+            deciding = [guideline, of_maker]
+        action = take_largest(f"{letter}_k", *filter(None, deciding))
+        if action is guideline:
+            action = action.named(f"{letter}_k", "kN", "(V1)")
+        tilt = _solved("t", forces.tilt, "-", "tilt")
+        is_by_panel = high_of(by_panel) > high_of(coupled)
+        return MemberForce(
+            action=slide_base(action, tilt) if is_sliding else action,
+            coupled=coupled,
+            by_panel=by_panel,
+            guideline=guideline,
+            by_truss=by_truss,
+            support=self.support,
+            load=self._find_load(),
+            push=self._find_push(),
+            pressing=action if is_sliding else None,
+            solved=(section,) if panel is None else (section, panel),
+            largest=panel if panel is not None and is_by_panel else section,
+        )
 
-def _work_out(
-    forces: RowForces, resistance: Resistance, width: LoadedWidth
-) -> MemberForce | None:
-    member = resistance.member
-    if member in ROPE_OF:
-        return _find_end_force(forces, member, width)
-    section = forces.largest.get(member)
-    if section is None:
-        return None
-    is_sliding = resistance.mode == "sliding"
-    letter = "V" if is_sliding else "E"
-    leaves = _list_support_leaves(forces.row, width, member)
-    leaves += [solve_for(section, f"{letter}_s")]
-    panel = forces.largest.get(name_in_panel(member))
-    if panel is not None:
-        leaves.append(solve_for(panel, f"{letter}_p0"))
-    least = forces.find_least(member)
-    if least is not None:
-        leaves.append(_solved(f"{letter}_g0", least.force_kN, "kN", f"floor.{member}"))
-    leaves += list_maker_leaves(forces.row, forces.standard, member)
-    leaves += _list_load_leaves(forces, member, width)
-    if panel is not None:
-        leaves += _list_rope_leaves(forces, member, width)
-    if is_sliding:
-        leaves.append(_solved("t", forces.tilt, "-", "tilt"))
-    force = _calculate(forces, leaves)
-    is_by_panel = high_of(force.by_panel) > high_of(force.coupled)
-    return MemberForce(
-        on=force,
-        solved=(section,) if panel is None else (section, panel),
-        largest=panel if panel is not None and is_by_panel else section,
-    )
+    def find_end_force(self) -> MemberForce | None:
+        """Force of a border rope, or on what holds its pull at the row's end.
+
+        None where the row has no end, or where no case has a panel.
+        """
+        forces, member = self.forces, self.member
+        is_rope, record = member in _ROPES, forces.largest.get(ROPE_OF[member])
+        is_endless = forces.row.row_end is None and not is_rope
+        if is_endless or record is None or forces.effects.open_end is not None:
+            return None
+        rope = _raise_rope(forces, record, "T_b" if is_rope else "T_r")
+        angle = _find_guy_angle(forces.row)
+        if is_rope:
+            action = pull_border_rope(rope, self.support)
+        elif angle and member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
+            action = pull_end_guy(pull_at_end(rope, self.support), angle)
+        else:
+            action = pull_at_end(rope, self.support).named("E_k", "kN", "(P8)")
+        return MemberForce(
+            action=action,
+            coupled=action,
+            by_panel=action,
+            support=self.support,
+            solved=(record,),
+            largest=record,
+        )
+
+    def find_by_guideline(self, letter: str = "E") -> Quantity | None:
+        """Force by the guideline's load; None where its model knows none."""
+        least, source = self.forces.find_least(self.member), f"floor.{self.member}"
+        if least is None:
+            return None
+        inside = _solved(f"{letter}_g0", least.force_kN, "kN", source)
+        return self._bring(f"{letter}_g", inside, "_g")
+
+    def _bring(self, symbol: str, inside: Quantity, mark: str = "") -> Quantity:
+        load, push = self._find_load(mark), self._find_push(mark)
+        return bring_to_support(symbol, inside, load, self.support, push)
+
+    @cached_property
+    def support(self) -> Support:
+        """Widths that load the support, inside the row or at its end.
+
+        The mesh has the whole end effect, which is local.
+        """
+        row, width = self.forces.row, self.width
+        if width.position == "intermediate":
+            return Support()
+        rule, count = "end.constant", find_cell(row, "post_count")
+        factor = leaf("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
+        if self.member == NetPart.MESH:
+            return Support(end_factor=factor)
+        is_second, holds_two = self._is_second, is_shared(row, self.member)
+        own = ("s_2" if is_second else "s_e", width.share)
+        parts = (own, ("s_n", width.beside if holds_two else 0.0))
+        share, beside = (
+            leaf(symbol, part, "-", count) if part else None for symbol, part in parts
+        )
+        return place_end_support(
+            leaf("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
+            factor,
+            leaf("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
+            second=share if is_second else None,
+            other=None if is_second else share,
+            beside=beside,
+            is_shared=holds_two and bool(self._list_along("")),
+        )
+
+    @property
+    def _is_second(self) -> bool:
+        return self.width.position == "second"
+
+    @property
+    def _panel(self) -> LargestForce | None:
+        return self.forces.largest.get(name_in_panel(self.member))
+
+    def _list_along(self, mark: str) -> tuple[Quantity, ...]:
+        """Weight of the load along the row in the member, its share, pull and splay.
+
+        None of a member that it does not load. A post has what its guys hold anyway.
+        """
+        held, name = self.forces.along_row, _WEIGHTS.get(self.member)
+        if held is None or name is None or self._is_at_foot:
+            return ()
+        symbol = "w" if self.member in _PRESSED else "c"
+        pull = leaf(
+            *("P", held.pull_kN, "kN", "head_pull"),
+            kind=Kind.SOLVED,
+            band=(held.pull_low_kN, held.pull_high_kN),
+        )
+        tension = ("T_min", held.least_tension_kN, "kN", "least_tension")
+        if mark:
+            pull = _solved("P_g", held.floor_pull_kN, "kN", "floor.head_pull")
+            tension = ("T_min_g", held.floor_tension_kN, "kN", "floor.least_tension")
+        along = (
+            _solved(symbol, getattr(held, name), "-", name),
+            find_profile_value(self.forces.standard, LATERAL_SHARE, "k"),
+            pull,
+            leaf("β", held.splay_deg, "deg", find_cell(self.forces.row, "guy_splay")),
+        )
+        return (*along, _solved(*tension)) if self.member in _PRESSED else along
+
+    @property
+    def _is_at_foot(self) -> bool:
+        return self.member in self.forces.row.layout.anchors_at_foot
+
+    def _find_load(self, mark: str = "") -> MemberLoad:
+        """Way from the section's force to the member's, with the load along the row."""
+        along = self._list_along(mark)
+        if self._is_at_foot:
+            share = find_profile_value(self.forces.standard, LATERAL_SHARE, "k")
+            if share.is_known:
+                return MemberLoad(lateral=find_lateral_factor(share), along=share)
+        if not along:
+            return MemberLoad()
+        if self.member in _PRESSED:
+            if self._is_second and self._rope:
+                return MemberLoad()  # what presses that post is worked out together
+            return load_post(*along, mark=mark)
+        if not is_shared(self.forces.row, self.member):
+            return load_guy(*along, mark=mark)
+        load_anchor, symbol = _SHARED[self.forces.standard.shared_sum]
+        guys = leaf(symbol, 2.0, "-", find_cell(self.forces.row, "guy_anchors"))
+        return load_anchor(guys, *along, mark=mark)
+
+    @cached_property
+    def _rope(self) -> Quantity | None:
+        """Pull of a border rope along the row that a member at or beside its end holds.
+
+        At the end it comes by the end guy; beside it one side pulls more than the
+        other, unless the ropes slide.
+        """
+        end, name = self.forces.row.row_end, RopeForce.UPPER_ALONG
+        if end is None or self._panel is None or self.width.position == "intermediate":
+            return None
+        if self._is_second:
+            of_head = self.member in PUSHED and self.forces.along_row is not None
+            if end.ropes_slide or not (of_head or self.member == Member.FOOT_ANCHOR):
+                return None
+            name = name if of_head else RopeForce.LOWER_ALONG
+        elif not self._pushed:
+            return None
+        record = self.forces.largest.get(name)
+        return None if record is None else _raise_rope(self.forces, record, "T_r")
+
+    @property
+    def _pushed(self) -> float:
+        """Part of the end guy's pull on the head that the member has [-]."""
+        part: float = getattr(self.forces.at_end, PUSHED.get(self.member, ""), 0.0)
+        return part
+
+    def _find_truss(self) -> Quantity | None:
+        """Force of an outer guy, or on its anchor, by the truss at the row's end."""
+        truss = getattr(self.forces.at_end, _BY_TRUSS.get(self.member, ""), None)
+        if truss is None or self._panel is None or self.width.position != "edge":
+            return None
+        return _solved("E_t", truss, "kN", "truss")
+
+    def _find_push(self, mark: str = "") -> Quantity | None:
+        """Find what the ropes' pull along the row adds at its end, or beside it."""
+        rope, support, along = self._rope, self.support, self._list_along(mark)
+        if rope is None:
+            return None
+        is_pressed = self.member in _PRESSED
+        if not self._is_second:
+            part = _solved("e", self._pushed, "-", PUSHED[self.member])
+            splay = along[-1] if along and not is_pressed else None
+            pull, angle = pull_at_end(rope, support), _find_guy_angle(self.forces.row)
+            return angle and push_by_end_guy(pull, angle, part, splay)
+        pull = pull_one_way(rope, support)
+        if not along:
+            return pull
+        if is_pressed:
+            return press_one_way(pull, support, *along, mark=mark)
+        part, *_, splay = along
+        return hold_one_way(pull, part, splay)
 
 
 def find_guideline_force(
-    forces: RowForces, member: str, width: LoadedWidth, inside: float
-) -> float:
+    forces: RowForces, member: str, width: LoadedWidth
+) -> float | None:
     """Force on a member of a support by the guideline's load alone [kN].
 
-    The guideline knows no pull of the ropes along the row.
+    None where its model knows none.
 
     Parameters
     ----------
     forces : RowForces
-        Of a row without a solved case, with the guideline's pull on its heads.
+        With the guideline's forces, and its pull on the heads.
     member, width : str, LoadedWidth
         Member and support.
-    inside : float
-        Force in the section, inside the row [kN].
 
     Raises
     ------
     ModelError
         Where the force is missing, with the reason.
     """
-    leaves = _list_support_leaves(forces.row, width, member)
-    leaves.append(_solved("E_s", inside, "kN", f"floor.{member}"))
-    leaves += _list_load_leaves(forces, member, width)
-    force = _calculate(forces, leaves).action
-    if force.value is None:
+    at = _MemberAt(forces=forces, member=member, width=width)
+    force = at.find_by_guideline()
+    if force is not None and force.value is None:
         raise ModelError(force.lacks[0])
-    return force.value
-
-
-def _find_end_force(
-    forces: RowForces, member: str, width: LoadedWidth
-) -> MemberForce | None:
-    """Force of a border rope, or on a member that holds its pull at the row's end.
-
-    None where the row has no end, or where no case has a panel.
-    """
-    rope = forces.largest.get(ROPE_OF[member])
-    is_endless = forces.row.row_end is None and member in tuple(EndMember)
-    if is_endless or rope is None or forces.effects.open_end is not None:
-        return None
-    symbol = "T_b" if member in _ROPES else "T_r"
-    leaves = [*_list_support_leaves(forces.row, width, member), solve_for(rope, symbol)]
-    leaves += _list_floor_factor(forces, ROPE_OF[member])
-    if member in (EndMember.END_GUY, EndMember.END_GUY_ANCHOR):
-        leaves += _list_guy_angle(forces.row)
-    force = _calculate(forces, leaves)
-    return MemberForce(on=force, solved=(rope,), largest=rope)
+    return None if force is None else force.value
 
 
 def find_end_pull(forces: RowForces) -> float | None:
@@ -201,9 +386,8 @@ def find_end_pull(forces: RowForces) -> float | None:
     rope = forces.largest.get(RopeForce.UPPER_ALONG)
     if forces.row.row_end is None or rope is None or width.position != "edge":
         return None
-    leaves = _list_support_leaves(forces.row, width, EndMember.END_GUY)
-    leaves += [solve_for(rope, "T_r"), *_list_floor_factor(forces, rope.quantity)]
-    pull = _calculate(forces, leaves).action
+    at = _MemberAt(forces=forces, member=EndMember.END_GUY, width=width)
+    pull = pull_at_end(_raise_rope(forces, rope, "T_r"), at.support)
     return newton_from_kilonewton(high_of(pull))
 
 
@@ -212,86 +396,32 @@ def find_one_way_pull(forces: RowForces) -> float:
     width, end = forces.effects.find_support("second"), forces.row.row_end
     if end is None or end.ropes_slide or width.position != "second":
         return 0.0
-    leaves = _list_support_leaves(forces.row, width, Member.FOOT_ANCHOR)
-    leaves += [_solved(symbol, 1.0, "kN", "") for symbol in ("E_s", "T_r")]
-    return high_of(_calculate(forces, leaves).push)
+    at = _MemberAt(forces=forces, member=Member.FOOT_ANCHOR, width=width)
+    return high_of(pull_one_way(_solved("T_r", 1.0, "kN", ""), at.support))
 
 
 def _solved(symbol: str, value: float, unit: str, source: str) -> Quantity:
     return leaf(symbol, value, unit, source, kind=Kind.SOLVED)
 
 
-def _list_support_leaves(
-    row: NetRow, width: LoadedWidth, member: str
-) -> list[Quantity]:
-    """Widths that load a support, inside the row or at its end.
-
-    The mesh has the whole end effect, which is local.
-    """
-    if width.position == "intermediate":
-        return []
-    rule, count = "end.constant", find_cell(row, "post_count")
-    factor = leaf("f_R", width.end_factor, "-", rule, kind=Kind.PROFILE)
-    if member == NetPart.MESH:
-        return [factor]
-    parts = {"s_2" if width.position == "second" else "s_e": width.share}
-    if is_shared(row, member):
-        parts["s_n"] = width.beside
-    return [
-        leaf("b", row.layout.post_spacing, "m", find_cell(row, "post_spacing")),
-        factor,
-        leaf("Δl", width.end_length, "m", rule, kind=Kind.PROFILE),
-        *(leaf(symbol, part, "-", count) for symbol, part in parts.items() if part),
-    ]
+def _raise_rope(forces: RowForces, record: LargestForce, symbol: str) -> Quantity:
+    """Force of a border rope, raised to the guideline's load where that is larger."""
+    rope, name = solve_for(record, symbol), record.quantity
+    if forces.floor is None:
+        return rope
+    is_lower = name in (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+    factor = forces.floor.lower_rope if is_lower else forces.floor.ridge_rope
+    return _solved("φ_g", factor, "-", "floor") * rope if factor > 1.0 else rope
 
 
-def _list_load_leaves(
-    forces: RowForces, member: str, width: LoadedWidth
-) -> list[Quantity]:
-    """Leaves of what the load along the row adds."""
-    share = find_profile_value(forces.standard, LATERAL_SHARE, "k")
-    held = forces.along_row
-    if member in forces.row.layout.anchors_at_foot:
-        return [share] if share.is_known else []
-    if held is None or member in (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH):
-        return []  # it presses a post, (S18)
-    splay = leaf("β", held.splay_deg, "deg", find_cell(forces.row, "guy_splay"))
-    by_floor = _list_floor_leaves(forces, member, held)
-    pull = leaf(
-        *("P", held.pull_kN, "kN", "head_pull"),
-        kind=Kind.SOLVED,
-        band=(held.pull_low_kN, held.pull_high_kN),
-    )
-    if member in PARTS:
-        part: float = getattr(held, PARTS[member])
-        leaves = [_solved("c", part, "-", PARTS[member]), share, pull, splay]
-        leaves += by_floor[:1]
-        if not is_shared(forces.row, member):
-            return leaves
-        cell = find_cell(forces.row, "guy_anchors")
-        symbol = GUYS_ON_ANCHOR[forces.standard.shared_sum]
-        return [leaf(symbol, 2.0, "-", cell), *leaves]
-    weight = _solved("w", held.post_part, "-", "post_part")
-    least = _solved("T_min", held.least_tension_kN, "kN", "least_tension")
-    leaves = [weight, share, pull, splay, least]
-    added = [load_post(*leaves).added]
-    if by_floor:
-        of_floor, own = by_floor
-        added.append(load_post(weight, share, of_floor, splay, own).added)
-    is_loaded = any(map(high_of, added)) or width.position == "second"
-    return [*leaves, *by_floor] if is_loaded else []
-
-
-def _list_floor_leaves(
-    forces: RowForces, member: str, held: HeldSidewaysRecord
-) -> list[Quantity]:
-    """Pull and least tension of the guideline's own load, where that loads a member."""
-    if forces.find_least(member) is None:
-        return []
-    return [
-        _solved("P_g", held.floor_pull_kN, "kN", "floor.head_pull"),
-        _solved("T_min_g", held.floor_tension_kN, "kN", "floor.least_tension"),
-    ]
+def _find_guy_angle(row: NetRow) -> Quantity | None:
+    angle = row.row_end.guy_angle if row.row_end else None
+    if angle is None:
+        return None
+    assumed = row.find_assumed("end_guy_angle")
+    is_given = assumed is None or assumed.is_typed
+    cell = find_cell(row, "end_guy_angle") if is_given else ""
+    return leaf("γ", degree_from_radian(angle), "deg", cell)
 
 
 def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
@@ -304,68 +434,6 @@ def lifts(forces: Iterable[LargestForce], floor: FloorRecord | None) -> bool:
     return any(force > 0.0 for force in pulls)
 
 
-def _list_rope_leaves(
-    forces: RowForces, member: str, width: LoadedWidth
-) -> list[Quantity]:
-    """Pull of a border rope along the row that a member at or beside its end holds.
-
-    At the end it comes by the end guy; besides, the truss of both has its own force.
-    """
-    row = forces.row
-    if row.row_end is None or width.position == "intermediate":
-        return []
-    if width.position == "second":
-        return _list_unbalanced(forces, member, slide=bool(row.row_end.ropes_slide))
-    angle, at_end = _list_guy_angle(row), forces.at_end
-    rope = forces.largest.get(RopeForce.UPPER_ALONG)
-    if member not in PUSHED or at_end is None or rope is None:
-        return []
-    truss = getattr(at_end, _BY_TRUSS.get(member, ""), None)
-    leaves = [] if truss is None else [_solved("E_t", truss, "kN", "truss")]
-    part: float = getattr(at_end, PUSHED[member])
-    if part > 0.0:
-        of_rope = _list_floor_factor(forces, rope.quantity)
-        leaves += [solve_for(rope, "T_r"), *of_rope, *angle]
-        leaves.append(_solved("e", part, "-", PUSHED[member]))
-    return leaves
-
-
-def _list_unbalanced(forces: RowForces, member: str, *, slide: bool) -> list[Quantity]:
-    """Rope that pulls a member beside the row's end more from one side; none slides."""
-    of_head = member in PUSHED and forces.along_row is not None
-    if slide or not (of_head or member == Member.FOOT_ANCHOR):
-        return []
-    rope = RopeForce.UPPER_ALONG if of_head else RopeForce.LOWER_ALONG
-    solved = forces.largest.get(rope)
-    if solved is None:
-        return []
-    return [solve_for(solved, "T_r"), *_list_floor_factor(forces, rope)]
-
-
-def _list_floor_factor(forces: RowForces, rope: str) -> list[Quantity]:
-    """Factor by which the guideline's load raises a rope; none where it does not."""
-    if forces.floor is None:
-        return []
-    is_lower = rope in (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
-    factor = forces.floor.lower_rope if is_lower else forces.floor.ridge_rope
-    return [_solved("φ_g", factor, "-", "floor")] if factor > 1.0 else []
-
-
-def _list_guy_angle(row: NetRow) -> list[Quantity]:
-    angle = row.row_end.guy_angle if row.row_end else None
-    if angle is None:
-        return []
-    assumed = row.find_assumed("end_guy_angle")
-    is_given = assumed is None or assumed.is_typed
-    cell = find_cell(row, "end_guy_angle") if is_given else ""
-    return [leaf("γ", degree_from_radian(angle), "deg", cell)]
-
-
-def is_shared(row: NetRow, member: str) -> bool:
-    """An anchor holds a guy of each of two neighbouring posts, or may do so."""
-    return may_share(row.guys) and member in GUY_ANCHORS
-
-
 _STATED: Mapping[str, str] = {
     Member.FOOT_ANCHOR: "foot_force",
     Member.UPHILL_ANCHOR: "uphill_force",
@@ -373,10 +441,10 @@ _STATED: Mapping[str, str] = {
 }
 
 
-def list_maker_leaves(row: NetRow, standard: Standard, member: str) -> list[Quantity]:
+def find_maker_force(row: NetRow, standard: Standard, member: str) -> Quantity | None:
     """Characteristic force on an anchor by the net's maker, where it is a floor."""
     name = _STATED.get(member)
     stated = getattr(row.approval, name) if row.approval and name else None
     if stated is None or not standard.has_maker_floor:
-        return []
-    return [leaf("E_m0", kilonewton_from_newton(stated.value), "kN", stated.cell)]
+        return None
+    return leaf("E_m0", kilonewton_from_newton(stated.value), "kN", stated.cell)

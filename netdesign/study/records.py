@@ -34,10 +34,10 @@ from netdesign.study.case_records import (
     GuidelineRecord,
     HeldSidewaysRecord,
     LargestForce,
+    PartRecord,
     PullRecord,
 )
 from netdesign.study.conditions import Condition, merge_conditions
-from netdesign.study.parts import PartRecord
 from netdesign.study.scopes import (
     AssumedRecord,
     Scope,

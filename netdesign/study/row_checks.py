@@ -35,9 +35,9 @@ from netdesign.study.member_checks import (
     WORSE,
     MemberCheck,
     find_open,
+    list_remedies,
 )
 from netdesign.study.member_force import RowForces
-from netdesign.study.remedies import list_remedies
 from netdesign.study.row_resistances import CONNECTION
 from netdesign.study.row_to_check import Basis, RowToCheck
 from netdesign.study.scopes import STRUCTURE, is_of_structure

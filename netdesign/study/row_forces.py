@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from netdesign.calculation.quantity import Quantity
-from netdesign.checks.forces import SupportForce
+from netdesign.checks.forces import MemberLoad, Support
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import (
     EndGuyRecord,
@@ -58,7 +58,7 @@ class RowForces(Basis):
     open_cases: Message | None = None
     open_panel: Message | None = None
     # forces that were asked for
-    worked_out: dict[tuple[str, str, LoadedWidth], MemberForce | None] = field(
+    worked_out: dict[tuple[str, bool, LoadedWidth], MemberForce | None] = field(
         default_factory=dict, init=False, compare=False, repr=False
     )
 
@@ -85,26 +85,43 @@ class RowForces(Basis):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MemberForce:
-    """Characteristic force on one member of one support, with where it comes from.
+    """Characteristic force on one member of one support, with what it follows from.
 
     Attributes
     ----------
-    on : SupportForce
-        The force, step by step.
+    action : Quantity
+        E_k [kN].
+    coupled, by_panel, guideline, by_truss : Quantity or None
+        On the support, by section, panel, guideline, and of a guy or its anchor by the
+        truss of post, guys and end guy [kN]; None where there is none. Of a base that
+        slides, those across it.
+    support, load, push : Support, MemberLoad, Quantity or None
+        What turns a force inside the row into the member's, and the ropes' part.
+    pressing : Quantity or None
+        Force across the plate of a base that slides [kN].
     solved : tuple of LargestForce
         By section, and by the panel between posts where there is one.
     largest : LargestForce
         Larger one of them, which the check names its case by.
     """
 
-    on: SupportForce
+    action: Quantity
+    coupled: Quantity
+    by_panel: Quantity | None = None
+    guideline: Quantity | None = None
+    by_truss: Quantity | None = None
+    support: Support
+    load: MemberLoad = field(default_factory=MemberLoad)
+    push: Quantity | None = None
+    pressing: Quantity | None = None
     solved: tuple[LargestForce, ...]
     largest: LargestForce
 
     @property
-    def action(self) -> Quantity:
-        """E_k [kN]."""
-        return self.on.action
+    def by_model(self) -> list[Quantity]:
+        """Forces of the coupled calculation, whether they decide or not."""
+        forces = (self.coupled, self.by_panel, self.by_truss)
+        return [force for force in forces if force]
 
 
 def high_of(quantity: Quantity | None) -> float:

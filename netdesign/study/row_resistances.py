@@ -210,7 +210,7 @@ def _describe_bending(section: RoundSection, bent: BentBar) -> Message:
 
 def resist(resistance: Resistance, standard: Standard, force: MemberForce) -> Quantity:
     """Characteristic resistance of a member, also one that its force brings [kN]."""
-    base, pressing = resistance.dimensions, force.on.pressing
+    base, pressing = resistance.dimensions, force.pressing
     if not isinstance(base, float) or pressing is None or not pressing.value:
         return find_resistance(resistance, standard)
     friction = leaf("μ_b", base, "-", resistance.source)

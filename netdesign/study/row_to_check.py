@@ -14,9 +14,7 @@ from itertools import product
 
 from netdesign.cable.net import Net
 from netdesign.checks import Standard
-from netdesign.checks.check import AssumedPoint
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
@@ -28,11 +26,9 @@ from netdesign.solving.runner import Runner
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.splay import Guys
 from netdesign.study.guideline_load import find_solved_ground
-from netdesign.units import given_degree_from_radian
 
 _OF_LAYOUT = ("post_tilt", "uphill_anchor_distance", "downhill_anchor_distance")
 _COUNT, _SPLAY, _END = "guy_count", "guy_splay", "end_guy_angle"
-_ANGLES = ("post_tilt", _SPLAY, _END)
 _OF_STATICS = (*_OF_LAYOUT, _COUNT, _SPLAY, _END)
 
 
@@ -90,17 +86,6 @@ def read_values(row: NetRow) -> dict[str, float]:
     }
 
 
-def describe_variant(row: NetRow) -> AssumedPoint | None:
-    """What is assumed of a variant, at which it is; None of a row that is given."""
-    shown = {}
-    for key, value in read_values(row).items():
-        if key in _ANGLES:
-            shown[f"{key}_deg"] = given_degree_from_radian(value)
-        else:
-            shown[key if key == _COUNT else f"{key}_m"] = value
-    return AssumedPoint(**shown) if shown else None
-
-
 def is_layout_assumed(row: NetRow) -> bool:
     """Whether some distance or tilt of the support is assumed."""
     return any(row.find_assumed(key) is not None for key in _OF_LAYOUT)
@@ -131,13 +116,11 @@ class Basis:
 class RowToCheck(Basis):
     """One net row under one profile.
 
-    ``extremes`` are the largest forces of its solved cases; ``solver`` is None where
-    nothing beyond the solved cases is to be solved; ``floors`` are those worked out so
-    far, by layout and ranges.
+    ``solver`` is None where nothing beyond the solved cases is to be solved; ``floors``
+    are those worked out so far, by layout and ranges.
     """
 
     solved: RowEnvelope
-    extremes: Mapping[str, Extreme]
     solver: CaseSolver | None
     floors: dict[tuple[SupportLayout, Ranges], Floor | None] = field(
         default_factory=dict

@@ -25,7 +25,7 @@ from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.study.anchor_pulls import list_pulls
-from netdesign.study.case_records import LargestForce
+from netdesign.study.case_records import LargestForce, record_largest
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
 from netdesign.study.load_along_row import (
     EndShare,
@@ -38,7 +38,6 @@ from netdesign.study.member_force import (
     find_end_pull,
     find_one_way_pull,
 )
-from netdesign.study.record_envelope import record_largest
 from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
@@ -141,7 +140,7 @@ def gather_cases(
     task: RowToCheck, row: NetRow, solved: RowEnvelope, before: RowCases | None = None
 ) -> RowCases:
     """Solved cases of a variant of a row; ``before`` on another layout of its."""
-    at = replace(task, row=row, solved=solved, extremes=solved.extremes)
+    at = replace(task, row=row, solved=solved)
     width, floor = row.layout.post_spacing, _find_floor(task, row.layout)
     return RowCases(
         task=at,
@@ -181,7 +180,7 @@ def read_cases(cases: RowCases) -> RowForces:
     """Knowledge of a row by its cases, whatever guys hold its posts along the row."""
     task, floor = cases.task, cases.floor
     site, row, standard = task.site, task.row, task.standard
-    results, extremes = task.solved.results, task.extremes
+    results, extremes = task.solved.results, task.solved.extremes
     return RowForces(
         site=site,
         row=row,

@@ -26,8 +26,8 @@ from netdesign.structure.members import (
 from netdesign.study.cases import have_same_forces
 from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
+from netdesign.study.member_checks import find_ground, holds_in_ground
 from netdesign.study.records import Study
-from netdesign.study.remedies import find_ground, holds_in_ground
 from netdesign.study.row_to_check import CheckRun
 from netdesign.words.message import say
 

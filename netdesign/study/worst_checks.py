@@ -20,13 +20,11 @@ from netdesign.study.member_checks import (
     AT_SUPPORT,
     WORSE,
     MemberCheck,
-    Rated,
     find_open,
     rate_at,
 )
 from netdesign.study.member_force import PUSHED, RowForces, lifts
 from netdesign.study.row_resistances import connect, may_bend
-from netdesign.study.row_to_check import describe_variant
 from netdesign.words.message import Message
 
 
@@ -126,26 +124,24 @@ def _judge_worst(
 ) -> MemberCheck:
     """Judge a member where it is worst; ``find`` gives its resistance."""
 
-    def rate(forces: RowForces) -> Rated:
+    def rate(forces: RowForces) -> MemberCheck:
         return rate_at(forces, find(forces, resistance, width), width)
 
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
-        return replace(rate(apart[0]).write(), again=rate)
+        return replace(rate(apart[0]), again=rate)
     return replace(_take_worst(list(map(rate, apart))), again=rate)
 
 
-def _take_worst(rated: Sequence[Rated]) -> MemberCheck:
+def _take_worst(rated: Sequence[MemberCheck]) -> MemberCheck:
     """Worst of a member's checks on several variants, eased to the best of them.
 
     That is the gravest verdict, then the most used, then the most loaded one.
     """
     best = min(rated, key=lambda each: find_least(each.rating))
     least = find_least(best.rating)
-    worst = max(rated, key=lambda each: _weigh(each.rating.ease(least))).write()
-    assumed = describe_variant(worst.forces.row)
-    check = replace(worst.check.ease(least), assumed=assumed)
-    return replace(worst, check=check, best=best.forces)
+    worst = max(rated, key=lambda each: _weigh(each.rating.ease(least)))
+    return replace(worst, rated=worst.check.ease(least), best=best.forces)
 
 
 def find_least(rating: Rating) -> float:
@@ -184,7 +180,7 @@ def _rate_direction(
     width: LoadedWidth,
     open_cases: Message | None,
     forces: RowForces,
-) -> Rated:
+) -> MemberCheck:
     """Check a rope anchor's angle; beyond the limit, or of no type, check its head."""
     pull = find_pull(forces.pulls, resistance.member, width.position)
     check = None
@@ -196,7 +192,7 @@ def _rate_direction(
         check, id=check.id + AT_SUPPORT[width.position], position=width.position
     )
     return MemberCheck(
-        forces=forces, resistance=resistance, width=width, check=check, pull=pull
+        forces=forces, resistance=resistance, width=width, rated=check, pull=pull
     )
 
 
@@ -228,7 +224,7 @@ def _place_second(
             as_inside = replace(
                 member_check.check, id=within.check.id, position="intermediate"
             )
-            kept[member_check.name] = replace(member_check, check=as_inside)
+            kept[member_check.name] = replace(member_check, rated=as_inside)
         else:
             beside.append(member_check)
     return [*kept.values(), *beside, *at_end]

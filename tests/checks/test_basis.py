@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import Check, Open, OpenKind, Proof, check_member, load_standard
+from netdesign.checks import Check, Open, OpenKind, Proof, load_standard
 from netdesign.checks.geometry import check_height
 from netdesign.checks.rating import judge
 from netdesign.outcome import Verdict
 from tests.checks.entries import a_force, a_resistance, a_value
 from tests.each import each
+from tests.read_check import check_member
 
 PROFILE = load_standard("nf-p-95-304-style")
 BARE = replace(

@@ -10,7 +10,6 @@ from netdesign.checks import (
     Band,
     Standard,
     StandardValue,
-    check_member,
     load_standard,
 )
 from netdesign.checks.comparison import find_proof_factor, find_resistance
@@ -23,6 +22,7 @@ from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name_mode
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
 from tests.each import each
+from tests.read_check import check_member
 
 KN = 1e3
 ABOVE_1 = math.nextafter(1.0, 2.0)

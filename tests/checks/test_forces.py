@@ -78,38 +78,22 @@ def test_a_force_inside_the_row_comes_to_its_support():
     assert plain.value == 100.0
 
 
-@pytest.mark.parametrize(
-    ("leaves", "coupled", "guideline"),
-    [
-        # 1 / (2 cos 60) = 1; 0.6 * 0.1 * P / sin 60 of 50 and of 20 kN
-        ({"c": 0.6}, 10.0 + 3.0 / math.sin(math.pi / 3), 1.2 / math.sin(math.pi / 3)),
-        # 1.4 (0.1 P / tan 60 - T): of 50 and 2 kN, of 20 and 1 kN
-        (
-            {"w": 1.4, "T_min": 2.0, "T_min_g": 1.0},
-            10.0 + 1.4 * (5.0 / math.sqrt(3.0) - 2.0),
-            1.4 * (2.0 / math.sqrt(3.0) - 1.0),
-        ),
-    ],
-)
-def test_guideline_has_the_load_along_the_row_of_its_own_pull(
-    leaves, coupled, guideline
-):
-    """Nothing of the coupled pull on the head stands in what is "by the guideline"."""
-    given_ = {**leaves, "k": 0.1, "β": 60.0, "P": 50.0, "P_g": 20.0}
-    given_ |= {"E_s": 10.0, "E_g0": 0.0}
-    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
-    assert force.coupled.value == pytest.approx(coupled, rel=1e-14)
-    assert force.guideline.value == pytest.approx(guideline, rel=1e-14)
-    assert force.action.value == pytest.approx(coupled, rel=1e-14)
+def test_guideline_has_the_load_along_the_row_of_its_own_pull():
+    """(S18): 1.4 (0.1 * 20 / tan 60 - 1) kN, under a symbol of its own."""
+    along = (q("w", 1.4), q("k", 0.1), q("P_g", 20.0), q("β", 60.0), q("T_min_g", 1.0))
+    load = formulas.load_post(*along, mark="_g")
+    assert load.added.symbol == "A_g"
+    assert load.added.value == pytest.approx(
+        1.4 * (2.0 / math.sqrt(3.0) - 1.0), rel=1e-14
+    )
 
 
-def test_shared_anchor_of_the_guideline_has_its_own_pull():
-    """(S20): 2 * 0.6 * 0.1 * 20 / sin 30 = 4.8 kN across 3.6: 6 kN, not of 50 kN."""
-    given_ = {"n_g": 2.0, "c": 0.6, "k": 0.1, "β": 30.0, "P": 50.0, "P_g": 20.0}
-    given_ |= {"E_s": 5.0, "E_g0": 3.6}
-    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
-    assert force.guideline.value == pytest.approx(6.0, rel=1e-14)
-    assert force.coupled.value == pytest.approx(13.0, rel=1e-14)
+def test_shared_anchor_holds_both_guys_in_space():
+    """(S20): 2 * 0.6 * 0.1 * 20 / sin 30 = 4.8 kN across 3.6: 6 kN."""
+    along = (q("n_g", 2.0), q("c", 0.6), q("k", 0.1), q("P_g", 20.0), q("β", 30.0))
+    load = formulas.load_shared_anchor(*along, mark="_g")
+    force = formulas.bring_to_support("E_g", q("E_g0", 3.6), load, Support())
+    assert force.value == pytest.approx(6.0, rel=1e-14)
 
 
 def test_the_largest_force_counts_at_each_end():
@@ -144,11 +128,13 @@ def test_an_end_guy_pulls_and_presses():
 
 def test_the_head_holds_the_end_guy_whatever_tells_its_net_s_pull():
     """(S24a): 46.8 kN beside 100, 60 and 20 kN inside, times 3.2 / 4: 126.8 kN."""
-    given_ = {"E_s": 100.0, "E_p0": 60.0, "E_g0": 20.0, "b": 4.0, "f_R": 1.5, "Δl": 0.8}
-    given_ |= {"T_r": 30.0, "γ": 45.0, "e": 1.2}
-    force = formulas.calculate_force({one: q(one, x) for one, x in given_.items()})
-    found = (force.coupled, force.by_panel, force.guideline, force.action)
-    assert [one.value for one in found] == pytest.approx([126.8, 94.8, 62.8, 126.8])
+    pull = formulas.pull_at_end(q("T_r", 30.0), END)
+    push = formulas.push_by_end_guy(pull, q("γ", 45.0), q("e", 1.2))
+    found = [
+        formulas.bring_to_support("E_c", q("E_s", inside), MemberLoad(), END, push)
+        for inside in (100.0, 60.0, 20.0)
+    ]
+    assert [one.value for one in found] == pytest.approx([126.8, 94.8, 62.8])
 
 
 def test_a_base_slides_by_the_tilt_of_its_post():
@@ -168,10 +154,3 @@ def test_utilisation_of_a_design_force():
     force = q("E_k", 100.0, 90.0, 120.0)
     used = formulas.rate(force, q("γ_E", 1.5), q("R_k", 500.0), q("γ_R", 1.25))
     assert ends(used) == pytest.approx((0.3375, 0.375, 0.45), rel=1e-15)
-
-
-def test_a_force_keeps_the_support_that_it_is_on():
-    leaves = [q("E_s", 50.0), q("b", 4.0), q("f_R", 1.5), q("Δl", 0.8)]
-    found = formulas.calculate_force({one.symbol: one for one in leaves})
-    assert found.support.width.value == pytest.approx(3.2, rel=1e-15)
-    assert found.action.value == pytest.approx(40.0, rel=1e-14)

@@ -16,13 +16,13 @@ from netdesign.checks import (
     RowGeometry,
     Standard,
     check_geometry,
-    check_member,
     load_standard,
 )
 from netdesign.checks.rating import Open, OpenKind, judge, merge_open
 from netdesign.outcome import Verdict
 from netdesign.words.names import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
+from tests.read_check import check_member
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
 BARE = replace(load_standard("swiss-guideline-2007"), values=(), tables=())

@@ -10,7 +10,7 @@ from netdesign.addons.evidence.benchmark.scenes import write_site
 from netdesign.commands import report
 from netdesign.commands.report import read_own_site
 from netdesign.edge.input_files import make_printable
-from netdesign.study import side_by_side
+from netdesign.study import check_site as use_case
 from tests.each import each
 
 SITE = ("check", "site", "--accuracy", "0.1", "--jobs", "1", "--explain")
@@ -28,13 +28,13 @@ def place(tmp_path, monkeypatch):
 
 @pytest.fixture
 def judged(monkeypatch):
-    ids, real = [], side_by_side._judge_row
+    ids, real = [], use_case._judge_row
 
     def judge(job, row, *rest):
         ids.append(row.id)
         return real(job, row, *rest)
 
-    monkeypatch.setattr(side_by_side, "_judge_row", judge)
+    monkeypatch.setattr(use_case, "_judge_row", judge)
     return ids
 
 

@@ -12,7 +12,12 @@ from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
-from netdesign.study.row_to_check import CaseSolver, place_variant
+from netdesign.study.row_to_check import (
+    CaseSolver,
+    list_variants,
+    place_variant,
+    read_values,
+)
 from tests.small_site import (
     RANGES,
     RUN,
@@ -119,13 +124,10 @@ def test_statics_that_decide_are_told_by_all_cases():
     checks = index(judge(row, (0.05, 0.05)))
     decided = list_decided(checks)
     assert decided
+    corners = [(one, index(judge(one, (0.05, 0.05)))) for one in list_variants(row)]
     for key, (_, bound) in decided.items():
-        point = checks[key].assumed
-        values = {
-            "post_tilt": math.radians(point.post_tilt_deg),
-            "uphill_anchor_distance": point.uphill_anchor_distance_m,
-            "downhill_anchor_distance": point.downhill_anchor_distance_m,
-        }
+        worst, _ = max(corners, key=lambda one: one[1][key].utilisation)
+        values = read_values(worst)
         name = next(
             point.message.arguments["name"]
             for point in checks[key].open

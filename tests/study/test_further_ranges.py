@@ -13,10 +13,10 @@ from netdesign.report.page import render_html
 from netdesign.site.model import InputEcho
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer
+from netdesign.study.case_records import read_point, record_point
 from netdesign.study.cases import search_site
 from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
-from netdesign.study.record_envelope import read_point, record_point
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site

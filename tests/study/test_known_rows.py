@@ -14,13 +14,11 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.study import check_site as use_case
-from netdesign.study import side_by_side
 from netdesign.study.cases import search_site
-from netdesign.study.check_site import check_site
+from netdesign.study.check_site import check_site, name_rows
 from netdesign.study.document import write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CaseSolver
-from netdesign.study.side_by_side import name_rows
 from tests.make import find_cell, load_rows, write_rows
 from tests.small_site import RANGES, ROWS, RUN, WEAK, build_row, build_site, resist
 
@@ -52,19 +50,19 @@ def store(tmp_path, told):
 @pytest.fixture
 def judged(monkeypatch):
     """Ids of the rows that are judged, as they come."""
-    ids, real = [], side_by_side._judge_row
+    ids, real = [], use_case._judge_row
 
     def judge(job, row, *rest):
         ids.append(row.id)
         return real(job, row, *rest)
 
-    monkeypatch.setattr(side_by_side, "_judge_row", judge)
+    monkeypatch.setattr(use_case, "_judge_row", judge)
     return ids
 
 
 @pytest.fixture
 def quick_names(monkeypatch):
-    monkeypatch.setattr(side_by_side, "identify_installation", lambda: "here")
+    monkeypatch.setattr(use_case, "identify_installation", lambda: "here")
 
 
 def check(site, store, standards=STANDARDS[:1], **changes):
@@ -222,7 +220,7 @@ def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
 def test_another_code_is_not_answered_by_this_one(store, judged, monkeypatch):
     site = build_site(*ROWS)
     check(site, store)
-    monkeypatch.setattr(side_by_side, "identify_installation", lambda: "9.9+feed")
+    monkeypatch.setattr(use_case, "identify_installation", lambda: "9.9+feed")
     check(site, store)
     assert judged == ["R1", "R2"] * 2
 

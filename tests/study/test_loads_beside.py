@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from netdesign.checks import Approval, StatedValue, load_standard
 from netdesign.outcome import Verdict
 from netdesign.study.judge import judge_site
-from netdesign.study.member_force import list_maker_leaves
+from netdesign.study.member_force import find_maker_force
 from netdesign.study.scopes import Scope, list_of_scope
 from tests.grid import solve_site, wrap_results
 from tests.small_site import ROWS, RUN, STRONG, build_row, build_site, resist
@@ -88,7 +88,7 @@ def test_a_profile_may_leave_the_makers_forces_out(judge):
     without = replace(STANDARD, has_maker_floor=False)
     stated = judge(without, approval=state(foot_anchor=9e3))
     assert stated == judge(without)
-    assert not list_maker_leaves(build_row("R1"), STANDARD, "foot_anchor")
+    assert not find_maker_force(build_row("R1"), STANDARD, "foot_anchor")
 
 
 def test_every_anchor_shows_guideline_and_model(judge):

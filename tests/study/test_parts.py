@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.study.parts import list_parts
+from netdesign.study.anchor_pulls import list_parts
 from tests.make import read_tables
 
 BARE = {

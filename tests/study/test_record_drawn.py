@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.study.governing_case import record_independent
+from netdesign.study.judge import record_independent
 from netdesign.study.row_to_check import CaseSolver
 from tests.grid import build_cases
 from tests.small_site import RANGES, ROWS, RUN

@@ -11,7 +11,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.governing_case import record_model_form
+from netdesign.study.judge import record_model_form
 from netdesign.study.row_to_check import CaseSolver
 from tests.small_site import build_row
 

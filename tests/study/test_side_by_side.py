@@ -14,9 +14,8 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
-from netdesign.study import side_by_side
-from netdesign.study.check_site import check_site
-from netdesign.study.side_by_side import judge_away
+from netdesign.study import check_site as use_case
+from netdesign.study.check_site import check_site, judge_away
 from tests.small_site import RUN, WEAK, build_row, build_site, resist
 
 DRAWN = random.Random(2411)
@@ -99,7 +98,7 @@ def test_workers_make_the_same_studies_and_keep_what_they_solved(
 
 
 def test_a_row_that_kills_its_worker_is_judged_again(in_turn, pool, monkeypatch):
-    monkeypatch.setattr(side_by_side, "judge_away", die_of_one)
+    monkeypatch.setattr(use_case, "judge_away", die_of_one)
     studies, _ = in_turn
     assert check_site(SITE, STANDARDS, RUN, Runner(workers=pool)) == studies
 

@@ -12,7 +12,7 @@ from netdesign.checks.comparison import find_action_factor
 from netdesign.edge.input_files import find_resource
 from netdesign.outcome import Verdict
 from netdesign.snow.creep_law import BOUTILLIER_2004
-from netdesign.study.remedies import find_type_change
+from netdesign.study.member_checks import find_type_change
 from netdesign.study.row_to_check import Basis
 from tests.checks.given_pulls import (
     POST,

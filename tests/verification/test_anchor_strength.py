@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.checks import check_member, load_standard
+from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import PullOutTests, limit_proof_load
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
+from tests.read_check import check_member
 
 EUROCODE = load_standard("eurocode")
 ROPE = ("tendon", "rope")  # factors of a tendon that may be a rope

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from netdesign.calculation.quantity import leaf
-from netdesign.checks.forces import calculate_force
+from netdesign.checks.forces import (
+    MemberLoad,
+    bring_to_support,
+    place_end_support,
+    press_one_way,
+    pull_one_way,
+)
 from netdesign.structure.row_position import (
     EndEffectRule,
     compute_edge_width,
@@ -123,18 +129,23 @@ UNITS = {"β": "deg", "b": "m", "Δl": "m"}
 UNITS |= dict.fromkeys(("E_s", "P", "T_r", "T_min"), "kN")
 
 
+def leaves_of(**values):
+    return [leaf(x, value, UNITS.get(x, "-"), "here") for x, value in values.items()]
+
+
 @each("least", [0.0, 16.786, 400.0])
 def test_the_second_post_is_pressed_less_by_what_its_guys_hold_anyway(least):
     """R5, gap 1 m: D = 38.37 kN; w ((21.4463 * 1.0062 + D) / tan 25 - 1.0062 T_min)."""
     edge = find_edge("R5", 1.0)
     _, second, _ = list_supports(3.0, edge, 20)
-    values = {"b": 3.0, "f_R": second.end_factor, "Δl": second.end_length}
-    values |= {"s_2": second.share, "k": 0.1, "P": 214.463, "β": 25.0, "T_r": 309.422}
-    values |= {"E_s": 266.622, "w": 0.683428, "T_min": least}
-    leaves = {
-        name: leaf(name, value, UNITS.get(name, "-"), "here")
-        for name, value in values.items()
-    }
+    at = place_end_support(
+        *leaves_of(b=3.0, f_R=second.end_factor, Δl=second.end_length),
+        second=leaf("s_2", second.share, "-", "here"),
+    )
+    inside, rope = leaves_of(E_s=266.622, T_r=309.422)
+    along = leaves_of(w=0.683428, k=0.1, P=214.463, β=25.0, T_min=least)
+    push = press_one_way(pull_one_way(rope, at), at, *along)
+    found = bring_to_support("E_k", inside, MemberLoad(), at, push).value
     held = (21.4463 * 1.0062 + 38.37) / math.tan(math.radians(25.0)) - 1.0062 * least
     expected = 266.622 * 1.0062 + 0.683428 * max(held, 0.0)
-    assert calculate_force(leaves).action.value == pytest.approx(expected, abs=0.02)
+    assert found == pytest.approx(expected, abs=0.02)

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from netdesign.calculation.quantity import leaf
-from netdesign.checks.forces import calculate_force
+from netdesign.checks.forces import (
+    Support,
+    bring_to_support,
+    load_guy,
+    load_shared_anchor,
+    load_shared_anchor_in_line,
+    place_end_support,
+)
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.splay import weigh_splay
@@ -64,21 +71,26 @@ def test_no_two_guys_pull_more_than_the_formula_gives():
     assert max(seen) > 0.9
 
 
+INSIDE = Support()
+UNITS = {"E_s": "kN", "P": "kN", "β": "deg", "b": "m", "Δl": "m"}
+
+
 def leaves_of(**values):
-    units = {"E_s": "kN", "P": "kN", "β": "deg", "b": "m", "Δl": "m"}
-    return {
-        name: leaf(name, value, units.get(name, "-"), "here")
-        for name, value in values.items()
-    }
+    return [leaf(x, value, UNITS.get(x, "-"), "here") for x, value in values.items()]
 
 
-INSIDE = {"E_s": 61.0, "n_g": 2.0, "c": 0.57, "k": 0.1, "P": 83.0, "β": 24.0}
+def bring(inside, load, support=INSIDE):
+    (of_section,) = leaves_of(E_s=inside)
+    return bring_to_support("E_k", of_section, load, support).value
+
+
+OF_GUY = {"c": 0.57, "k": 0.1, "P": 83.0, "β": 24.0}
+SHARED = load_shared_anchor(*leaves_of(n_g=2.0, **OF_GUY))
 
 
 def test_inside_the_row_the_two_stand_square_to_each_other():
     across = 2.0 * 0.57 * 0.1 * 83.0 / math.sin(math.radians(24.0))
-    found = calculate_force(leaves_of(**INSIDE)).action.value
-    assert found == pytest.approx(math.hypot(61.0, across))
+    assert bring(61.0, SHARED) == pytest.approx(math.hypot(61.0, across))
 
 
 @pytest.mark.parametrize(
@@ -87,31 +99,28 @@ def test_inside_the_row_the_two_stand_square_to_each_other():
     [(0.4, (1.75 + 0.52 + 3.5) / 2), (1.9, 1.75 + 1.3 * 1.9)],
 )
 def test_at_the_end_an_anchor_has_a_guy_of_the_next_post(length, width):
-    at_end = INSIDE | {"b": 3.5, "f_R": 1.3, "Δl": length}
-    inside = calculate_force(leaves_of(**INSIDE)).action.value
-    found = calculate_force(leaves_of(**at_end)).action.value
-    assert found == pytest.approx(inside * width / 3.5)
+    at_end = place_end_support(*leaves_of(b=3.5, f_R=1.3, Δl=length), is_shared=True)
+    inside = bring(61.0, SHARED)
+    assert bring(61.0, SHARED, at_end) == pytest.approx(inside * width / 3.5)
 
 
 def test_pulls_that_are_added_as_numbers_are_those_of_both_guys():
-    of_one = {one: INSIDE[one] for one in ("E_s", "c", "k", "P", "β")}
-    guy = calculate_force(leaves_of(**of_one)).action.value
-    both = {**of_one, "n_h": 2.0}
-    assert calculate_force(leaves_of(**both)).action.value == pytest.approx(2.0 * guy)
+    guy = bring(61.0, load_guy(*leaves_of(**OF_GUY)))
+    both = load_shared_anchor_in_line(*leaves_of(n_h=2.0, **OF_GUY))
+    assert bring(61.0, both) == pytest.approx(2.0 * guy)
 
 
 def test_pulls_added_as_numbers_are_never_less_than_as_vectors():
     draw = random.Random(29)
     for _ in range(200):
+        inside = draw.uniform(0.0, 300.0)
         drawn = {
-            "E_s": draw.uniform(0.0, 300.0),
             "c": draw.uniform(0.5, 1.0),
             "k": draw.uniform(0.0, 0.3),
             "P": draw.uniform(1.0, 300.0),
             "β": draw.uniform(5.0, 60.0),
         }
-        vector, scalar = (
-            calculate_force(leaves_of(**drawn, **{guys: 2.0})).action.value
-            for guys in ("n_g", "n_h")
-        )
+        vector = bring(inside, load_shared_anchor(*leaves_of(n_g=2.0, **drawn)))
+        in_line = load_shared_anchor_in_line(*leaves_of(n_h=2.0, **drawn))
+        scalar = bring(inside, in_line)
         assert scalar >= vector - 1e-9

@@ -20,16 +20,15 @@ from netdesign.structure.members import (
     RopeForce,
     name_in_panel,
 )
+from netdesign.study.anchor_pulls import is_shared
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects
-from netdesign.study.load_along_row import find_tilt
 from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import (
     PARTS,
     MemberForce,
     RowForces,
     find_force,
-    is_shared,
 )
 from netdesign.study.row_forces import high_of
 from netdesign.study.row_to_check import RowToCheck
@@ -88,7 +87,7 @@ class CheckByCase:
         Of the whole grid, or of the search.
     widen : callable
         Load of the support over some ranges of the row, in any unit: the end effect
-        grows with the glide factor, the force along a base with the tilt of its post.
+        grows with the glide factor.
     push : Push or None
         What a rope adds to the forces.
     """
@@ -169,7 +168,7 @@ def _follows_cases(check: MemberCheck) -> bool:
     force = check.force
     if force is None or check.resistance.dimensions or check.ratio <= 0.0:
         return False
-    is_shared = force.on.load.across is not None
+    is_shared = force.load.across is not None
     if is_shared or _is_by_truss(force) or _is_post_beside(force):
         return False
     if check.is_of_end and check.check.has_open(OpenKind.UNSOLVED):
@@ -179,21 +178,21 @@ def _follows_cases(check: MemberCheck) -> bool:
 
 def _is_by_truss(force: MemberForce) -> bool:
     """The truss of post, guys and end guy has the largest force."""
-    loads = (force.on.coupled, force.on.by_panel, force.on.guideline)
-    shared = force.on.shared
+    loads = (force.coupled, force.by_panel, force.guideline)
+    shared = force.by_truss
     return shared is not None and high_of(shared) >= max(map(high_of, loads))
 
 
 def _is_post_beside(force: MemberForce) -> bool:
     """A post beside the end: what presses it is worked out together, (P11)."""
-    on, posts = force.on, (Member.POST, Member.POST_BASE)
+    posts = (Member.POST, Member.POST_BASE)
     is_post = force.largest.quantity in (*posts, *map(name_in_panel, posts))
-    return is_post and on.support.is_second and on.push is not None
+    return is_post and force.support.is_second and force.push is not None
 
 
 def _find_growth(force: MemberForce) -> float:
     """Force on the support over that inside the row, lateral load included [-]."""
-    support, lateral = force.on.support, force.on.load.lateral
+    support, lateral = force.support, force.load.lateral
     if force.largest.quantity in tuple(RopeForce):
         return high_of(force.action) / (force.largest.high_kN or 1.0)
     if support.end_factor is not None and support.width is None:  # of the mesh
@@ -206,7 +205,7 @@ def _find_growth(force: MemberForce) -> float:
 
 def _find_share(force: MemberForce) -> float:
     """Part of the section's force in the member [-]."""
-    return _read_ratio(force.on.tilt) * _read_ratio(force.on.load.share)
+    return _read_ratio(force.load.share)
 
 
 def _read_ratio(quantity: Quantity | None) -> float:
@@ -216,8 +215,8 @@ def _read_ratio(quantity: Quantity | None) -> float:
 
 def _find_added(force: MemberForce) -> float:
     """Upper end of what the load along the row adds, inside the row [kN]."""
-    added, across = force.on.load.added, force.on.load.across
-    return _read_ratio(force.on.tilt) * (high_of(added) + high_of(across))
+    added, across = force.load.added, force.load.across
+    return high_of(added) + high_of(across)
 
 
 def _find_rise(forces: RowForces, member: str) -> float:
@@ -239,8 +238,8 @@ def _compare_load(force: MemberForce, now: MemberForce) -> float:
 
     The larger growth of width and of what the end guy brings counts for both.
     """
-    growth, push = _find_growth(force) / _find_growth(now), high_of(now.on.push)
-    return max(growth, high_of(force.on.push) / push) if push else growth
+    growth, push = _find_growth(force) / _find_growth(now), high_of(now.push)
+    return max(growth, high_of(force.push) / push) if push else growth
 
 
 def _build_check(
@@ -266,7 +265,7 @@ def _build_check(
         scales={followed: scales.pop(followed), **scales},
         added=use * _find_added(force),
         rise=use * _find_rise(check.forces, check.resistance.member),
-        governing=task.extremes[followed].governing.case,
+        governing=task.solved.extremes[followed].governing.case,
         results=results,
         widen=cache(partial(_find_load, forces, check, force)),
         push=_find_push(task, check, force),
@@ -275,18 +274,18 @@ def _build_check(
 
 def _find_push(task: RowToCheck, check: MemberCheck, force: MemberForce) -> Push | None:
     """Part of the force that a rope brings; None of a member that none pulls."""
-    on, results = force.on, task.solved.results
-    if on.push is None or not on.push.high:
+    push, results = force.push, task.solved.results
+    if push is None or not push.high:
         return None
     is_foot = check.resistance.member == Member.FOOT_ANCHOR
     rope = RopeForce.LOWER_ALONG if is_foot else RopeForce.UPPER_ALONG
     pull = kilonewton_from_newton(find_extreme(rope, results).force.high)
     inside = _find_growth(force) * _find_share(force)
     ratios = {
-        record.quantity: on.push.high / pull / (inside * _widen(record, results))
+        record.quantity: push.high / pull / (inside * _widen(record, results))
         for record in force.solved
     }
-    along = on.load.along.value if on.load.along else None
+    along = force.load.along.value if force.load.along else None
     return Push(rope=rope, ratios=ratios, along=along)
 
 
@@ -296,18 +295,11 @@ def _find_load(
     now: MemberForce,
     ranges: Ranges,
 ) -> float:
-    """Load of a support over ranges in which something was moved, over that now [-].
-
-    Where a base would slide, times the tangent of its post's tilt, which is largest at
-    an end of the inclinations.
-    """
+    """Load of a support over ranges in which something was moved, over that now [-]."""
     effects = find_effects(forces.row, forces.standard, ranges)
     width = effects.find_support(check.width.position)
     moved = find_force(forces, check.resistance, width) or now
-    load, span = _compare_load(moved, now), ranges["inclination"]
-    if check.resistance.mode != "sliding":
-        return load
-    return load * find_tilt(forces.row, (span.low, span.high))
+    return _compare_load(moved, now)
 
 
 def _widen(force: LargestForce, results: Sequence[CaseResult]) -> float:

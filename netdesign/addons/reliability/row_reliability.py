@@ -41,8 +41,8 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.site.model import Site
 from netdesign.snow.heights import compare_densities
+from netdesign.study.case_records import record_point
 from netdesign.study.member_force import RowForces
-from netdesign.study.record_envelope import record_point
 from netdesign.study.records import ReliabilityRecord, VariableRecord
 from netdesign.study.row_checks import RowChecks
 from netdesign.study.row_to_check import CaseSolver, RowToCheck

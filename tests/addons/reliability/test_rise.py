@@ -8,12 +8,11 @@ import pytest
 
 from netdesign.addons.reliability.check_by_case import _find_rise
 from netdesign.checks import load_standard
-from netdesign.checks.forces import load_guy, load_post
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.structure.members import Member
 from netdesign.study.case_records import HeldSidewaysRecord
 from netdesign.study.guideline_load import find_effects
-from netdesign.study.member_force import RowForces, _list_load_leaves
+from netdesign.study.member_force import RowForces, _MemberAt
 from tests.each import each
 from tests.small_site import RANGES, build_row
 
@@ -59,12 +58,8 @@ def add(held, member):
         held=held,
         tilt=0.0,
     )
-    leaves = _list_load_leaves(forces, member, forces.effects.supports[0])
-    rise = _find_rise(forces, member)
-    if not leaves:
-        return 0.0, rise
-    load = load_guy if leaves[0].symbol == "c" else load_post
-    return load(*leaves).added.high, rise
+    at = _MemberAt(forces=forces, member=member, width=forces.effects.supports[0])
+    return at._find_load().added.high, _find_rise(forces, member)
 
 
 def grow(held, growth):

@@ -17,15 +17,15 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.heights import compare_densities
 from netdesign.structure.members import ROPE_OF, RopeForce
 from netdesign.study import worst_checks
+from netdesign.study.case_records import read_point
 from netdesign.study.cases import search_site
+from netdesign.study.check_site import name_rows
 from netdesign.study.document import read_document, write_document
 from netdesign.study.guideline_load import find_effects
 from netdesign.study.judge import judge_site
 from netdesign.study.member_force import find_force
-from netdesign.study.record_envelope import read_point
 from netdesign.study.row_to_check import CaseSolver
 from netdesign.study.scopes import find_worst
-from netdesign.study.side_by_side import name_rows
 from tests.each import each
 from tests.make import load_rows, write_site
 from tests.small_site import RUN
@@ -184,14 +184,16 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
         for one in worst_checks._judge_at(
             [known], width, task.row.resistances_at("second")
         ):
-            on = one.force.on
-            if on.push is None:
+            force = one.force
+            if force.push is None:
                 continue
             by_case = find_check_by_case(task, known, one, [one])
             if by_case is None:
                 post = one.resistance.member in ("post", "post_base")
-                unsolved = not one.force.largest.high_kN  # and not pulled in any case
-                assert post or unsolved or on.load.across or one.resistance.dimensions
+                unsolved = not force.largest.high_kN  # and not pulled in any case
+                assert (
+                    post or unsolved or force.load.across or one.resistance.dimensions
+                )
                 continue
             followed.add((task.row.id, one.resistance.member))
             factor, design = one.check.read("γ_E"), one.check.read("R_d")
@@ -199,7 +201,7 @@ def test_beside_the_end_a_check_is_followed_as_its_formula_says(judge, monkeypat
                 of_case = find_force(
                     cut_to(known, solved, case), one.resistance, one.width
                 )
-                direct = max(of_case.on.coupled.high, of_case.on.by_panel.high)
+                direct = max(of_case.coupled.high, of_case.by_panel.high)
                 used = factor * direct / design
                 assert by_case.utilisation(case) == pytest.approx(used, rel=1e-9)
                 # without the rope's unbalanced pull it would be less

@@ -19,11 +19,12 @@ from netdesign.addons.terrain.verdict_map import (
     turn_to_map,
     write_verdicts,
 )
-from netdesign.checks import check_member, load_standard
+from netdesign.checks import load_standard
 from netdesign.structure.row_position import Bore
 from tests.addons.terrain.map_files import feature
 from tests.checks.entries import a_force, a_resistance
 from tests.each import each
+from tests.read_check import check_member
 
 SLOPE = math.radians(37.0)
 PROFILE = "swiss-guideline-2007"

@@ -8,7 +8,7 @@ from netdesign.report.sections.checks import (
     list_changes,
 )
 from netdesign.report.words import Words
-from netdesign.study.remedies import CLOSE
+from netdesign.study.member_checks import CLOSE
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each
 from tests.report.build_study import build_study

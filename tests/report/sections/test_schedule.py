@@ -14,7 +14,7 @@ from netdesign.report.sections.schedule import (
     show_schedule,
 )
 from netdesign.report.words import ENGLISH, Words, show_member
-from netdesign.study.parts import PartRecord
+from netdesign.study.case_records import PartRecord
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 
