@@ -27,12 +27,11 @@ from netdesign.panel.solve import (
 from netdesign.panel.strips import Strip, build_strip
 from netdesign.structure.anchors import (
     AnchorForces,
-    Ways,
     compute_anchor_forces,
     compute_member_forces,
 )
-from netdesign.structure.head import FailedSupport, list_directions
-from netdesign.structure.layout import SupportPoints
+from netdesign.structure.head import FailedSupport, find_ways
+from netdesign.structure.layout import Point, SupportLayout, place_support
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
     Member,
@@ -80,29 +79,20 @@ class HeldPulls(NamedTuple):
 
     def explain(
         self,
-        places: Sequence[SupportPoints],
-        width: float,
+        layouts: Sequence[SupportLayout],
+        head: Point,
         chosen: slice = slice(None),
     ) -> FailedSupport:
         """Why some support cannot hold some chosen pull; there has to be one."""
         place, *state = map(int, np.argwhere(~self.is_held[..., chosen])[0])
-        failed = stand_on(places[place], width, self.moved[tuple(state)])
+        failed = stand_on(layouts[place], head, self.moved[tuple(state)])
         if isinstance(failed, FailedSupport):
             return failed
         raise ValueError("pulls that one way holds, and not the other")
 
 
-def stack_ways(places: Sequence[SupportPoints], dimensions: int) -> Ways:
-    """Ways of the members of some supports, beside arrays of so many dimensions."""
-    ways = np.array([list_directions(points) for points in places])
-    post, uphill, downhill = np.moveaxis(ways, 0, -1).reshape(
-        3, 2, -1, *[1] * dimensions
-    )
-    return (post[0], post[1]), (uphill[0], uphill[1]), (downhill[0], downhill[1])
-
-
 def hold_pulls(
-    places: Sequence[SupportPoints], width: float, pulls: Pulls
+    layouts: Sequence[SupportLayout], head: Point, pulls: Pulls
 ) -> HeldPulls:
     """Forces on supports and their members, with their bands, under some pulls.
 
@@ -111,10 +101,10 @@ def hold_pulls(
 
     Parameters
     ----------
-    places : sequence of SupportPoints
-        Geometry of the supports [m].
-    width : float
-        Width of net that each carries [m].
+    layouts : sequence of SupportLayout
+        Of the supports; all carry the same width of net.
+    head : tuple of float, shape (2,)
+        Where the net hangs, from its foot [m].
     pulls : Pulls
         Of the net on foot and head.
 
@@ -122,16 +112,17 @@ def hold_pulls(
     -----------
     tests/envelope/test_support_bands.py
     """
+    width, (x_head, y_head) = layouts[0].post_spacing, np.array(head)[:, None, None]
     with np.errstate(invalid="ignore", over="ignore"):  # of an error that is no number
         moved = np.concatenate([pulls.ends[None], pulls.ends + _MOVES * pulls.errors])
         is_finite = np.isfinite(moved * width).all(axis=-1)
         x, y, along, across = np.moveaxis(moved, -1, 0)
         of_members, is_held = compute_member_forces(
-            stack_ways(places, x.ndim),
+            find_ways(layouts, (x_head, y_head)),
             foot_pull_per_m=(x, y),
             head_pull_per_m=(along, across),
             post_spacing=width,
-            is_foot_shared=places[0].is_foot_shared,
+            is_foot_shared=layouts[0].is_foot_shared,
         )
         forces = np.stack(np.broadcast_arrays(*of_members.values()))
         values = forces[:, :, 0]
@@ -155,15 +146,15 @@ def spread_out(value: float, error: float) -> Band:
 
 
 def stand_on(
-    points: SupportPoints, width: float, ends: Sequence[float] | Floats
+    layout: SupportLayout, head: Point, ends: Floats
 ) -> AnchorForces | FailedSupport:
     """Forces on the ground under pulls (x, y) on foot and head, in one row [N/m]."""
     x, y, along, across = map(float, ends)
     return compute_anchor_forces(
-        points,
+        place_support(layout, head),
         foot_pull_per_m=(x, y),
         head_pull_per_m=(along, across),
-        post_spacing=width,
+        post_spacing=layout.post_spacing,
     )
 
 

@@ -23,26 +23,19 @@ from netdesign.envelope.rows import RowTask
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed_forces import (
     SIGNED,
+    find_case_ways,
     gather_pulls,
     name_sources,
     read_signed,
-    spread_ends,
 )
-from netdesign.numerics.arrays import Floats, Mask, measure_length
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.search import surrogate
 from netdesign.search.maxima import Maxima, SearchSettings, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
 from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
-from netdesign.structure.head import resolve_loose
-from netdesign.structure.layout import (
-    SupportLayout,
-)
-from netdesign.structure.members import (
-    GUYS,
-    Member,
-    RopeForce,
-    name_in_panel,
-)
+from netdesign.structure.head import share_between_guys
+from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
 
 # Members that each of the forces of `_measure` loads; the last one of a shared anchor.
 _LIFTED = (
@@ -123,13 +116,12 @@ def _measure(layouts: Sequence[SupportLayout], results: Sequence[CaseResult]) ->
     there. Shape: cases, forces.
     """
     pulls = gather_pulls(results, layouts[0].post_spacing)
-    ends = spread_ends(layouts, results)
+    post, *guys = find_case_ways(layouts, results)
     x, y = pulls.head
-    uphill, downhill = resolve_loose(pulls.head, ends.head, ends.uphill, ends.downhill)
-    post = measure_length(ends.base[0] - ends.head[0], ends.base[1] - ends.head[1])
+    uphill, downhill = share_between_guys(pulls.head, *guys)
     forces = [
         y / np.where((x == 0.0) & (y == 0.0), 1.0, np.hypot(x, y)) + 0.0 * uphill,
-        y * post / ends.head[1],
+        y / -post[1],
         downhill,
         uphill,
     ]

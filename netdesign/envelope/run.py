@@ -30,7 +30,7 @@ from netdesign.solving.solve import CaseEnd, Settings, describe_case
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import NetPart
 from netdesign.words.message import Message
 
@@ -153,8 +153,7 @@ class CaseResult:
         if self.solution is None:
             return self
         panel = self.panel if isinstance(self.panel, PanelForces) else None
-        places = [place_support(layout, self.solution.head_point)]
-        held = _hold(places, layout.post_spacing, self.solution, panel)
+        held = _hold([layout], self.solution, panel)
         if not held.is_held.all():
             raise ValueError("a case that another layout holds")
         forces = _list_forces(held, self.solution, panel).take(0)
@@ -164,9 +163,8 @@ class CaseResult:
         """The case with what its section brings to the ground on a layout."""
         if self.solution is None:
             return self
-        points = place_support(layout, self.solution.head_point)
         ends = _read_ends(self.solution)
-        anchors = stand_on(points, layout.post_spacing, ends)
+        anchors = stand_on(layout, self.solution.head_point, ends)
         held = None if isinstance(anchors, FailedSupport) else anchors
         return replace(self, anchors=held)
 
@@ -235,20 +233,19 @@ def _bound_tension(state: SolvedState) -> Band:
 
 def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
     """Forces on all layouts; what fails on one fails, but for the panel."""
-    width = task.layouts[0].post_spacing
-    places = [place_support(layout, state.head_point) for layout in task.layouts]
+    layouts, head = task.layouts, state.head_point
     found = _resolve_panel(task, state)
     panel = found if isinstance(found, PanelForces) else None
-    held = _hold(places, width, state, panel)
+    held = _hold(layouts, state, panel)
     if not held.is_held[:1, :, :1].all():
-        return _fail_support(task, held.explain(places, width, slice(1)))
+        return _fail_support(task, held.explain(layouts, head, slice(1)))
     if panel and not held.is_held[0].all():
-        failed = held.explain(places, width)
+        failed = held.explain(layouts, head)
         found = FailedPanel(outcome=failed.outcome, reason=failed.reason)
-        panel, held = None, _hold(places, width, state, None)
+        panel, held = None, _hold(layouts, state, None)
     if not held.is_held.all():
-        return _fail_support(task, held.explain(places, width))
-    anchors = stand_on(places[0], width, _read_ends(state))
+        return _fail_support(task, held.explain(layouts, head))
+    anchors = stand_on(layouts[0], head, _read_ends(state))
     if isinstance(anchors, FailedSupport):
         return _fail_support(task, anchors)
     forces = _list_forces(held, state, panel)
@@ -264,10 +261,7 @@ def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
 
 
 def _hold(
-    places: Sequence[SupportPoints],
-    width: float,
-    state: SolvedState,
-    panel: PanelForces | None,
+    layouts: Sequence[SupportLayout], state: SolvedState, panel: PanelForces | None
 ) -> HeldPulls:
     """Supports under the pulls of the section, then under those of each panel."""
     own = (state.foot.error, state.foot.error, state.head.error, state.head.error)
@@ -275,7 +269,7 @@ def _hold(
     if panel:
         pairs = zip(pulls, panel.pulls, strict=True)
         pulls = Pulls(*(np.concatenate(pair) for pair in pairs))
-    return hold_pulls(places, width, pulls)
+    return hold_pulls(layouts, state.head_point, pulls)
 
 
 def _list_forces(

@@ -10,7 +10,6 @@ signed forces bound the members. Theory: structure/THEORY.md, eq. (S2).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,38 +17,21 @@ import numpy as np
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
-from netdesign.structure.head import Vector, resolve_signed
-from netdesign.structure.layout import SupportLayout, locate_base
+from netdesign.structure.head import Vector, Ways, find_ways, resolve_signed
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, name_in_panel
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ends:
-    """Points of supports, x and y of shape (layouts, cases, 1) each [m]."""
-
-    head: Vector[Floats]
-    base: Vector[Floats]
-    uphill: Vector[Floats]
-    downhill: Vector[Floats]
-
-
-def spread_ends(
+def find_case_ways(
     layouts: Sequence[SupportLayout], results: Sequence[CaseResult]
-) -> Ends:
-    """Points of each layout under the heads of some solved cases."""
+) -> Ways:
+    """Unit vectors along members of each layout in some solved cases.
+
+    Shape of each component: layouts, cases, 1.
+    """
     states = [result.solution for result in results if result.solution]
     x, y = np.array([state.head_point for state in states]).T
-    bases = np.array([locate_base(layout, x, y) for layout in layouts])[..., None]
-    ground = np.zeros_like(bases)
-    uphill, downhill = np.array(
-        [(one.uphill_anchor_distance, one.downhill_anchor_distance) for one in layouts]
-    ).T[..., None, None]
-    return Ends(
-        head=(x[:, None] + ground, y[:, None] + ground),
-        base=(bases, ground),
-        uphill=(ground - uphill, ground),
-        downhill=(bases + downhill, ground),
-    )
+    return find_ways(layouts, (x[:, None], y[:, None]))
 
 
 class CasePulls(NamedTuple):
@@ -136,23 +118,23 @@ def _read_solved(
     results: Sequence[CaseResult], layouts: Sequence[SupportLayout]
 ) -> Floats:
     """Forces and errors of solved cases, shape (2, cases, ``SIGNED``) [N]."""
-    width, ends = layouts[0].post_spacing, spread_ends(layouts, results)
+    width, ways = layouts[0].post_spacing, find_case_ways(layouts, results)
     pulls = gather_pulls(results, width)
-    forces = _find_signed(pulls.head, pulls.feet, ends).max(axis=1)
+    forces = _find_signed(pulls.head, pulls.feet, ways).max(axis=1)
     has_panel = np.array([isinstance(x.panel, PanelForces) for x in results])
     by_panel = pulls.head_errors[:, 1:].max(axis=1, initial=0.0)
     of_panel = np.where(has_panel, forces[..., 1:].max(axis=-1, initial=-np.inf), 0.0)
     read = [
         (forces[..., 0], of_panel),
         (
-            _find_errors(pulls.foot_errors[:, 0], pulls.head_errors[:, 0], ends),
-            has_panel * _find_errors(by_panel, by_panel, ends),
+            _find_errors(pulls.foot_errors[:, 0], pulls.head_errors[:, 0], ways),
+            has_panel * _find_errors(by_panel, by_panel, ways),
         ),
     ]
     return np.array([np.concatenate(pair).T for pair in read])
 
 
-def _find_errors(foot: Floats, head: Floats, ends: Ends) -> Floats:
+def _find_errors(foot: Floats, head: Floats, ways: Ways) -> Floats:
     """Errors of signed forces from those of foot and head on the worst support [N].
 
     They are linear in these: what an error of each component causes is added, as in
@@ -162,21 +144,20 @@ def _find_errors(foot: Floats, head: Floats, ends: Ends) -> Floats:
     across, along, at_foot = np.array(
         [(head, none, none), (none, head, none), (none, none, foot)]
     ).swapaxes(1, 2)
-    caused = _find_signed((across, along), at_foot, ends)
+    caused = _find_signed((across, along), at_foot, ways)
     return np.asarray(np.abs(caused).sum(axis=-1).max(axis=1))
 
 
-def _find_signed(pull: Vector[Floats], foot: Floats, ends: Ends) -> Floats:
+def _find_signed(pull: Vector[Floats], foot: Floats, ways: Ways) -> Floats:
     """Signed forces by pulls on the head and forces on the foot anchor [N].
 
     Shape: forces of a section, layouts, cases, pulls of each.
     """
+    post, *guys = ways
     (post_up, uphill), (post_down, downhill) = (
-        resolve_signed(pull, ends.head, ends.base, anchor)
-        for anchor in (ends.uphill, ends.downhill)
+        resolve_signed(pull, post, guy) for guy in guys
     )
-    reach = np.hypot(ends.head[0] - ends.base[0], ends.head[1] - ends.base[1])
-    across = ends.head[1] / reach
+    across = -post[1]
     forces = {
         _NET: foot + 0.0 * uphill,
         _SHARED: foot + uphill,

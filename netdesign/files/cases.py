@@ -26,7 +26,7 @@ from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import Point, SupportPoints, place_support
+from netdesign.structure.layout import Point, SupportLayout, place_support
 from netdesign.structure.members import SOLVED_MEMBERS, name_in_panel
 from netdesign.study.case_records import (
     record_largest,
@@ -215,8 +215,9 @@ def write_support(
         return written
     written["plain"] = _write_forces(result, result.anchors, SOLVED_MEMBERS)
     if result.solution and isinstance(result.panel, PanelForces):
-        points = place_support(support.layout, result.solution.head_point)
-        written["panel"] = _write_panel(result, result.panel, points)
+        head = result.solution.head_point
+        points = place_support(support.layout, head)
+        written["panel"] = _write_panel(result, result.panel, support.layout, head)
         angle = support.end_guy_angle
         end = compute_end_forces(result.panel.solution, points, angle or 0.0)
         if isinstance(end, EndForces):
@@ -250,10 +251,10 @@ def _write_forces(
 
 
 def _write_panel(
-    result: CaseResult, panel: PanelForces, points: SupportPoints
+    result: CaseResult, panel: PanelForces, layout: SupportLayout, head: Point
 ) -> dict[str, Any]:
     """Forces of the first panel, without anchors in mid-panel."""
-    solved, anchors = panel.solution, stand_on(points, panel.width, panel.pulls.ends[0])
+    solved, anchors = panel.solution, stand_on(layout, head, panel.pulls.ends[0])
     if isinstance(anchors, FailedSupport):
         raise ValueError("forces on a support that does not stand")
     members = [name_in_panel(member) for member in SOLVED_MEMBERS]

@@ -28,13 +28,9 @@ from netdesign.guideline.load_model import (
 from netdesign.numerics.arrays import Floats, Ints, measure_length
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
-from netdesign.structure.anchors import (
-    Ways,
-    compute_member_forces,
-    measure_pull,
-)
-from netdesign.structure.head import Vector, find_direction
-from netdesign.structure.layout import SupportLayout, locate_base
+from netdesign.structure.anchors import compute_member_forces, measure_pull
+from netdesign.structure.head import find_ways
+from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.message import Message, say
 
@@ -191,33 +187,6 @@ def find_floors(
     ]
 
 
-def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
-    """Unit vectors from some post heads along their members, on each layout.
-
-    Parameters
-    ----------
-    layouts : sequence of SupportLayout, shape (m,)
-        Of the supports.
-    heads : tuple of ndarray, shape (2, n)
-        Where each net hangs, from its foot [m].
-
-    Returns
-    -------
-    tuple of tuple of ndarray, shape (3, 2, m, 1, 1, n)
-        [-].
-    """
-    bases = np.array([locate_base(layout, *heads) for layout in layouts])[:, None, None]
-    ground = 0.0 * bases
-    uphill, downhill = np.array(
-        [(x.uphill_anchor_distance, x.downhill_anchor_distance) for x in layouts]
-    ).T[:, :, None, None, None]
-    return (
-        find_direction(heads, (bases, ground)),
-        find_direction(heads, (ground - uphill, ground)),
-        find_direction(heads, (bases + downhill, ground)),
-    )
-
-
 def _take_floor(
     scan: _Scan, layout: int, points: Floats, largest: Floats, own: Ints, tried: Tried
 ) -> Floor:
@@ -317,9 +286,9 @@ class _Scan:
             _, pull = find_pulls(self.model, net, snow, glide)
         except ModelError:
             raise self._find_failed(points) from None
-        spacing = net.layout.post_spacing
+        spacing, (x_head, y_head) = net.layout.post_spacing, place_head(net)
         of_members, is_held = compute_member_forces(
-            find_ways(self.layouts, place_head(net)),
+            find_ways(self.layouts, (x_head[None, None], y_head[None, None])),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
             post_spacing=spacing,

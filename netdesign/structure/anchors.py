@@ -23,6 +23,7 @@ from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
     Vector,
+    Ways,
     compute_head_forces,
     hold_head,
 )
@@ -211,10 +212,6 @@ class AnchorForces:
             out_of_ground=self.post_base.y,
             is_foot_shared=self.is_foot_shared,
         )
-
-
-# Unit vectors from the head along post, uphill and downhill guy, of many supports.
-Ways = tuple[Vector[Floats], Vector[Floats], Vector[Floats]]
 
 
 def compute_member_forces(

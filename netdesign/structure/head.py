@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Generic, TypeAlias
 
+import numpy as np
+
 from netdesign.numerics.arrays import (
+    Floats,
     Number,
     Truth,
     as_mask,
@@ -18,7 +22,12 @@ from netdesign.numerics.arrays import (
     take_larger,
 )
 from netdesign.outcome import Outcome, require_within
-from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.layout import (
+    Point,
+    SupportLayout,
+    SupportPoints,
+    locate_base,
+)
 from netdesign.words.message import Message, say
 
 # A guy nearer to the post's line than this holds nothing sideways. Choice of this
@@ -26,6 +35,8 @@ from netdesign.words.message import Message, say
 MIN_GUY_ANGLE = math.radians(1.0)
 
 Vector: TypeAlias = tuple[Number, Number]
+# Unit vectors from the head along post, uphill and downhill guy, of many supports.
+Ways: TypeAlias = tuple[Vector[Floats], Vector[Floats], Vector[Floats]]
 _SIZES = (
     *("post_compression", "post_tension"),
     *("uphill_guy_tension", "downhill_guy_tension"),
@@ -195,43 +206,26 @@ def _hold_without_post(
 
     Those of the two alone; where one of them would have to push, of each with the post.
     """
-    up, down = _share_between_guys(pull, *guys)
+    up, down = share_between_guys(pull, *guys)
     hold, none = (up >= 0.0) & (down >= 0.0), 0.0 * up
     by_up, by_down = (choose(pair.can_pull, pair.tension, none) for pair in pairs)
     return choose(hold, up, by_up), choose(hold, down, by_down)
 
 
-def _share_between_guys(
+def share_between_guys(
     pull: Vector[Number], uphill: Vector[Number], downhill: Vector[Number]
-) -> tuple[Number, Number]:
-    """Tensions of two guys that hold a pull alone, signs allowed; (S4b).
-
-    Where both lie along one line each may have all of it.
-    """
-    sine, size = cross(uphill, downhill), measure_length(*pull)
-    is_one_line = abs(sine) < math.sin(MIN_GUY_ANGLE)
-    divisor = sine + is_one_line
-    up, down = -cross(pull, downhill) / divisor, cross(pull, uphill) / divisor
-    return choose(is_one_line, size, up), choose(is_one_line, size, down)
-
-
-def resolve_loose(
-    pull: Vector[Number],
-    head: Vector[Number],
-    uphill_anchor: Vector[Number],
-    downhill_anchor: Vector[Number],
 ) -> Vector[Number]:
     """Find what both guys would need to hold a pull without their post, signs allowed.
 
-    No guy of a lifted head carries more, beside what `resolve_signed` gives. Theory:
-    structure/THEORY.md, eq. (S4b).
+    No guy of a lifted head carries more, beside what `resolve_signed` gives. Where both
+    lie along one line each may have all of it. Theory: structure/THEORY.md, eq. (S4b).
 
     Parameters
     ----------
     pull : tuple of float or ndarray, shape (2,)
         Force of the net on the head, (x, y) [N].
-    head, uphill_anchor, downhill_anchor : tuple of float or ndarray, shape (2,)
-        Points of the support, or of many [m].
+    uphill, downhill : tuple of float or ndarray, shape (2,)
+        Unit vectors from the head to the anchors.
 
     Returns
     -------
@@ -242,17 +236,15 @@ def resolve_loose(
     -----------
     tests/envelope/test_lift.py
     """
-    uphill, downhill = (
-        find_direction(head, end) for end in (uphill_anchor, downhill_anchor)
-    )
-    return _share_between_guys(pull, uphill, downhill)
+    sine, size = cross(uphill, downhill), measure_length(*pull)
+    is_one_line = abs(sine) < math.sin(MIN_GUY_ANGLE)
+    divisor = sine + is_one_line
+    up, down = -cross(pull, downhill) / divisor, cross(pull, uphill) / divisor
+    return choose(is_one_line, size, up), choose(is_one_line, size, down)
 
 
 def resolve_signed(
-    pull: Vector[Number],
-    head: Vector[Number],
-    post_base: Vector[Number],
-    anchor: Vector[Number],
+    pull: Vector[Number], post: Vector[Number], guy: Vector[Number]
 ) -> Vector[Number]:
     """Find what post and one guy would need to hold a pull, signs allowed.
 
@@ -264,8 +256,8 @@ def resolve_signed(
     ----------
     pull : tuple of float or ndarray, shape (2,)
         Force of the net on the head, (x, y) [N].
-    head, post_base, anchor : tuple of float or ndarray, shape (2,)
-        Points of the support, or of many [m].
+    post, guy : tuple of float or ndarray, shape (2,)
+        Unit vectors from the head to post base and anchor.
 
     Returns
     -------
@@ -277,7 +269,6 @@ def resolve_signed(
     -----------
     tests/envelope/test_signed.py
     """
-    post, guy = find_direction(head, post_base), find_direction(head, anchor)
     pair = _resolve(pull, post, guy)
     compression, tension = pair.signed_compression, pair.tension
     return (
@@ -355,6 +346,33 @@ def list_directions(points: SupportPoints) -> tuple[Point, Point, Point]:
     ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
     post, uphill, downhill = (find_direction(points.head, end) for end in ends)
     return post, uphill, downhill
+
+
+def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
+    """Unit vectors from some heads along their members, on each layout.
+
+    Parameters
+    ----------
+    layouts : sequence of SupportLayout, shape (m,)
+        Of the supports.
+    heads : tuple of ndarray, shape (2, ..)
+        Where each net hangs, from its foot [m].
+
+    Returns
+    -------
+    tuple of tuple of ndarray, shape (3, 2, m, ..)
+        [-].
+    """
+    bases = np.array([locate_base(layout, *heads) for layout in layouts])
+    ground = np.zeros_like(bases)
+    uphill, downhill = np.array(
+        [(x.uphill_anchor_distance, x.downhill_anchor_distance) for x in layouts]
+    ).T.reshape(2, -1, *[1] * heads[0].ndim)
+    return (
+        find_direction(heads, (bases, ground)),
+        find_direction(heads, (ground - uphill, ground)),
+        find_direction(heads, (bases + downhill, ground)),
+    )
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:

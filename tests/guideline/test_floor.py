@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.guideline.floor import SCAN_STEP, NetRanges, find_floors, find_ways
+from netdesign.guideline.floor import SCAN_STEP, NetRanges, find_floors
 from netdesign.guideline.load_cases import (
     NetGeometry,
     find_glide_factor,
@@ -21,6 +21,7 @@ from netdesign.guideline.load_cases import (
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.anchors import compute_member_forces
+from netdesign.structure.head import find_ways
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
 from netdesign.words.catalogue import render
@@ -139,7 +140,7 @@ def solve_dense(ranges, altitude, counts, at_ends=2):
     for case in list_load_cases(MODEL, net, altitude):
         _, pull = find_pulls(MODEL, net, case, least + share * (largest - least))
         forces, is_held = compute_member_forces(
-            find_ways([net.layout], place_head(net)),
+            find_ways([net.layout], tuple(x[None, None] for x in place_head(net))),
             foot_pull_per_m=pull.foot,
             head_pull_per_m=pull.head,
             post_spacing=net.layout.post_spacing,

@@ -11,6 +11,7 @@ from netdesign.structure.head import (
     MIN_GUY_ANGLE,
     HeadForces,
     compute_head_forces,
+    find_direction,
     hold_head,
     resolve_signed,
 )
@@ -226,7 +227,9 @@ def test_signed_post_and_guy_hold_a_pull_of_any_direction(seed):
     draw = random.Random(seed)
     head, anchor = (draw.uniform(-1.0, 1.0), 3.0), (draw.uniform(2.0, 5.0), 0.1)
     pull = (draw.uniform(-9e3, 9e3), draw.uniform(-9e3, 9e3))
-    compression, tension = resolve_signed(pull, head, (0.0, 0.0), anchor)
+    compression, tension = resolve_signed(
+        pull, find_direction(head, (0.0, 0.0)), find_direction(head, anchor)
+    )
     reach = math.dist(head, anchor), math.dist(head, (0.0, 0.0))
     for axis in (0, 1):
         to_anchor = (anchor[axis] - head[axis]) / reach[0]
