@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 import tomllib
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
-from netdesign.outcome import require_one_of
 from netdesign.words.message import Message, say
 
 
@@ -65,21 +64,9 @@ def find_bond_span(ground: str = "") -> tuple[float, float]:
 SPIRAL = "1x"  # how the name of a spiral rope's construction begins
 
 
-def find_rope_factor(construction: str) -> Datum:
-    """Factor K of the breaking force of a rope [-]."""
-    constructions = load_catalogue()["rope"]["construction"]
-    value = pick("rope construction", construction, constructions)
-    if construction.startswith(SPIRAL):
-        source = say("resistance_source.spiral")
-        return Datum(value=value, status="assumed", source=source)
-    return quote("rope", value)
-
-
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
-    table = load_catalogue()["termination"]
-    losses = {name: loss for name, loss in table.items() if isinstance(loss, float)}
-    return quote("termination", pick("termination", kind, losses))
+    return quote("termination", load_catalogue()["termination"][kind])
 
 
 def find_loop_efficiency() -> Datum:
@@ -89,8 +76,7 @@ def find_loop_efficiency() -> Datum:
 
 def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
-    factors = load_catalogue()["buckling"]["curve"]
-    return quote("buckling", pick("buckling curve", curve, factors))
+    return quote("buckling", load_catalogue()["buckling"]["curve"][curve])
 
 
 def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> float:
@@ -106,18 +92,6 @@ def interpolate(places: Sequence[float], values: Sequence[float], at: float) -> 
     end = max(bisect_left(places, at), 1)
     share = (at - places[end - 1]) / (places[end] - places[end - 1])
     return float(values[end - 1] + share * (values[end] - values[end - 1]))
-
-
-def pick(what: str, name: str, table: Mapping[str, Any]) -> Any:
-    """Entry of a table by its name.
-
-    Raises
-    ------
-    ModelError
-        With the names that it has.
-    """
-    require_one_of(what, name, tuple(table))
-    return table[name]
 
 
 def compute_tube(diameter: float, wall: float) -> dict[str, float]:
@@ -316,12 +290,6 @@ def make_hollow_bar(bar: dict[str, Any], family: dict[str, Any]) -> Fitting:
     return _quote(values, family)
 
 
-def list_constructions_of(strands: Iterable[str]) -> list[str]:
-    """Constructions of the catalogue with these strands, whatever their core."""
-    constructions = load_catalogue()["rope"]["construction"]
-    return [rope for rope in constructions if rope.partition("-")[0] in strands]
-
-
 def make_rope(construction: str, diameter: float, grades: list[float]) -> Fitting:
     """Values of a wire rope that has one of these grades; THEORY.md, (R4) without ends.
 
@@ -334,14 +302,14 @@ def make_rope(construction: str, diameter: float, grades: list[float]) -> Fittin
     grades : list of float
         Strengths of wires [N/mm2].
     """
-    breaking = find_rope_factor(construction)
-    force = breaking.value * diameter**2
+    force = load_catalogue()["rope"]["construction"][construction] * diameter**2
     values = {
         "rope_diameter": _span(diameter, 1e-3),
         "grade": (min(grades) * 1e6, max(grades) * 1e6),
         "breaking_force": (force * min(grades), force * max(grades)),
     }
-    return values, breaking.source
+    table = "spiral" if construction.startswith(SPIRAL) else "rope"
+    return values, say(f"resistance_source.{table}")
 
 
 def _span(value: Any, unit: float = 1.0) -> Span:

@@ -92,9 +92,6 @@ def limit_proof_load(proof: float, ultimate: float) -> float:
 _LEAST = math.radians(0.5)  # between a plane and the slope
 _PLANES = 400  # tried at once
 _NARROWINGS = 3  # each to two steps of the one before
-MOST_COHESION = 500e3  # [Pa]
-# Below the least that a list may give: it is the design value, too.
-LEAST_FRICTION, MOST_FRICTION = math.radians(0.1), math.radians(50.0)
 WATER = 10e3  # unit weight [N/m3]
 
 
@@ -118,13 +115,6 @@ class Soil:
     friction: float
     weight: float
     is_drained: bool = False
-
-    def __post_init__(self) -> None:
-        """Refuse what no ground has."""
-        require_within("cohesion", self.cohesion, 0.0, MOST_COHESION, "Pa")
-        name = "friction angle of the ground"
-        require_within(name, self.friction, LEAST_FRICTION, MOST_FRICTION, "rad")
-        require_positive("unit weight", self.weight, "N/m3")
 
     def reduce(self, on_cohesion: float, on_friction: float) -> Soil:
         """Design strength.

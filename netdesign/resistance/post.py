@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.outcome import require_positive, require_within
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BucklingResistance:
@@ -55,17 +53,7 @@ def compute_buckling_resistance(
     BucklingResistance
         Characteristic [N]. Sections of class 1 to 3 only: no local buckling.
 
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
     """
-    require_positive("area", area, "m2")
-    require_positive("second moment of area", second_moment, "m4")
-    require_positive("buckling length", length, "m")
-    require_within("yield strength", yield_strength, 1e8, 1e9, "Pa")
-    require_positive("modulus", modulus, "Pa")
-    require_within("imperfection factor", imperfection, 0.0, 1.0)
     critical = math.pi**2 * modulus * second_moment / length**2
     slenderness = math.sqrt(area * yield_strength / critical)
     shape = 0.5 * (1.0 + imperfection * (slenderness - 0.2) + slenderness**2)
@@ -109,17 +97,6 @@ class PostSection:
     at_foot: float
     assumed: tuple[str, ...] = ()
 
-    def __post_init__(self) -> None:
-        """Refuse impossible numbers."""
-        require_within("post width", self.width, 0.01, 1.0, "m")
-        require_positive("buckling length", self.length, "m")
-        require_positive("section modulus", self.modulus, "m3")
-        require_positive("yield strength", self.strength, "Pa")
-        require_positive("critical load", self.critical, "N")
-        require_positive("buckling resistance", self.buckling, "N")
-        for eccentricity in (self.at_head, self.at_foot):
-            require_within("eccentricity", eccentricity, 0.0, 1.0, "m")
-
     @property
     def moment_resistance(self) -> float:
         """W f_y [N m]."""
@@ -144,14 +121,7 @@ def compute_post_moment(
     -------
     float
         p l^2 / 8 [N m].
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
     """
-    require_positive("snow pressure", pressure, "Pa")
-    require_within("efficiency factor", efficiency, 0.1, 50.0)
     return efficiency * pressure * section.width * section.length**2 / 8.0
 
 
@@ -176,14 +146,7 @@ def compute_bent_post_resistance(
     float or None
         R_k: over the partial factor it is the design resistance [N]. None where the
         moment alone is too much.
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
     """
-    require_within("design moment", moment, 0.0, math.inf, "N m")
-    require_within("partial factor", partial_factor, 0.1, 10.0)
     over = partial_factor / section.moment_resistance
     used = over * moment
     if used >= 1.0:

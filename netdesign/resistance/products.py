@@ -16,7 +16,6 @@ from typing import Any
 from netdesign.resistance.catalogue import (
     Product,
     join,
-    list_constructions_of,
     load_catalogue,
     load_products,
     make_bar,
@@ -33,21 +32,6 @@ _DECIMAL = r"(\d+(?:\.\d+)?)"
 _END = r"(?:(?= ?mm(?!\w))|(?![\w/]|\.\d))"
 _NUMBER = rf"(?<![\w./]){_DECIMAL}{_END}"
 _SIZES = rf"(?<![\w./]){_DECIMAL} ?[x/*] ?{_DECIMAL}(?: ?[x/*] ?{_DECIMAL})?{_END}"
-# What may stand between a bar's name and its diameter.
-_BETWEEN = r"(?:[ \-:.,@]|stab|anker|bar|barre|tige|nagel|pfahl|b ?500(?: ?[abc])?)*"
-_MANY = r"^[2-9] ?(?=[a-wyz@])|(?<![\w.])[2-9] ?(?:x|stk|stuck|pcs|nos)\.? ?(?=[a-z@])"
-_MANY += r"|(?<!\w)(?:double|doppel|twin|jumele)"
-_LENGTH_OR_FORCE = r"(?<!\w)l ?= ?\d+(?:\.\d+)?(?: ?m)?(?!\w)"
-_LENGTH_OR_FORCE += r"|(?<![\w.])\d+(?:\.\d+)? ?(?:m|ml|kn|kpa|mpa|kg)(?!\w)"
-_HOLE = r"(?<![a-z])(?:bohr|bore|drill|hole|forage|trou|perfor|krone|bit)[a-z]*"
-_HOLE_SIZE = rf"{_HOLE}[ :=@\-]*\d+(?:\.\d+)?(?: ?mm)?(?!\w)"
-_HOLE_SIZE += rf"|(?<![\w./])\d+(?:\.\d+)? ?(?:mm)? ?{_HOLE}(?![a-z]|[ :=@\-]*\d)"
-_DIAMETER_WORD = r"(?<![a-z])(?:diametre|diam|dia|durchmesser|dm|d)[ .=:]*(?=\d)"
-_HOLLOW_BAR = (
-    r"(?<![a-z0-9])(?:([rt]) ?(\d\d)(?:([lns])|(?:-(?=\d{3})|/)(\d{2,4}))?"
-    r"|(?:titan|ischebeck)[ -]*(?:titan[ -]*)?(\d{2,3} ?[/x-] ?\d{2,3}))(?![a-z0-9])"
-)
-_STRANDS = r"(?<![\w.])(\d ?x ?\d{1,2} ?(?:ws|s|w|m)?)(?!\w)"
 
 
 def find_product(name: str) -> Product | None:
@@ -61,7 +45,7 @@ def find_product(name: str) -> Product | None:
     True
     """
     text = _simplify(name)
-    if re.search(_MANY, text):
+    if re.search(load_products()["text"]["several"], text):
         return None
     finders = (
         _find_beam,
@@ -102,9 +86,14 @@ def _simplify(name: str) -> str:
     text = re.sub("[×✕]", "x", re.sub("[–—‐‑]", "-", text)).replace("_", " ")
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     text = re.sub(r" ?[ø⌀∅] ?=? ?", " @", text)
-    text = re.sub(_LENGTH_OR_FORCE, " ", re.sub(_DIAMETER_WORD, "@", text))
+    patterns = load_products()["text"]
+    text = re.sub(patterns["diameter"], "@", text)
+    text = re.sub(patterns["length_or_force"], " ", text)
     text = re.sub(r"(?<=[a-z]{3})(?=\d)", " ", text)
-    text = re.sub(_HOLE_SIZE, " ", text)
+    hole, size = patterns["hole"], r"\d+(?:\.\d+)?"
+    after = rf"{hole}[ :=@\-]*{size}(?: ?mm)?(?!\w)"
+    before = rf"(?<![\w./]){size} ?(?:mm)? ?{hole}(?![a-z]|[ :=@\-]*\d)"
+    text = re.sub(f"{after}|{before}", " ", text)
     return " ".join(text.split())
 
 
@@ -192,7 +181,8 @@ def _find_diameter(
 ) -> float | None:
     """Diameter that follows a bar's name, else the one that is marked as such."""
     before, after = text[: match.start()], text[match.end() :]
-    direct = re.match(_BETWEEN + _DECIMAL + _END, after)
+    between = load_products()["text"]["between"]
+    direct = re.match(between + _DECIMAL + _END, after)
     if may_precede and direct is None:
         direct = re.search(rf"(?<![\w./]){_DECIMAL} ?$", before)
     if direct is not None:
@@ -219,7 +209,7 @@ def _find_hollow_bar(text: str) -> Product | None:
     table = load_products()["hollow"]
     is_said = _has_word(table["word"], text)
     bars: set[tuple[str, str]] = set()
-    for match in re.finditer(_HOLLOW_BAR, text):
+    for match in re.finditer(table["pattern"], text):
         letter, size, mark, number, titan = match.groups()
         if titan:
             bars.add(("TITAN", re.sub(" ?[/x-] ?", "/", titan)))
@@ -240,7 +230,7 @@ def _find_rope(text: str) -> Product | None:
     table = load_products()["rope"]
     strands = {
         match[1]: table["strands"][match[1].replace(" ", "")]
-        for match in re.finditer(_STRANDS, text)
+        for match in re.finditer(table["pattern"], text)
         if match[1].replace(" ", "") in table["strands"]
     }
     is_said = _has_word(table["word"], text)
@@ -256,11 +246,13 @@ def _find_rope(text: str) -> Product | None:
     if diameter is None:
         return None
     names = meant or set(chain.from_iterable(table["strands"].values()))
+    ropes = load_catalogue()["rope"]["construction"]
+    ropes = [rope for rope in ropes if rope.partition("-")[0] in names]
     numbers = {float(match[1]) for match in re.finditer(r"(?<!\d)(\d{4})(?!\d)", rest)}
     grades = [float(grade) for grade in load_catalogue()["rope"]["grade"]["values"]]
     fitting = [
         make_rope(rope, diameter, [g for g in grades if g in numbers] or grades)
-        for rope in _keep_cores(list_constructions_of(names), rest, table["cores"])
+        for rope in _keep_cores(ropes, rest, table["cores"])
     ]
     return join(f"{written.replace(' ', '')} {diameter:g} mm", "rope", fitting)
 

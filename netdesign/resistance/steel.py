@@ -1,4 +1,4 @@
-"""Steel of anchors and guys: bars, wire ropes, rope ends, links, and loss by corrosion.
+"""Steel of anchors and guys: bars, links of a chain, and loss by corrosion.
 
 The weakest link between a rope and its anchor bears the force.
 """
@@ -13,7 +13,6 @@ from netdesign.resistance.catalogue import (
     Datum,
     interpolate,
     load_catalogue,
-    pick,
     quote,
 )
 from netdesign.words.message import say
@@ -176,39 +175,6 @@ def find_least_tube(ground_lever: float) -> float:
     return math.pi * ground_lever / END_MOMENT
 
 
-def compute_rope_resistance(
-    *, diameter: float, grade: float, breaking_factor: float, termination: float
-) -> float:
-    """Breaking force of a wire rope with its ends; resistance/THEORY.md, eq. (R4).
-
-    Parameters
-    ----------
-    diameter : float
-        Nominal [m].
-    grade : float
-        Strength R_r of the wires [Pa].
-    breaking_factor : float
-        K of the construction [-].
-    termination : float
-        Loss factor k_e of the weaker end [-].
-
-    Returns
-    -------
-    float
-        K d^2 R_r k_e [N].
-
-    Raises
-    ------
-    ModelError
-        If a number is out of its range.
-    """
-    require_within("rope diameter", diameter, 0.004, 0.1, "m")
-    require_within("rope grade", grade, 1e9, 2.5e9, "Pa")
-    require_within("breaking factor", breaking_factor, 0.1, 0.7)
-    require_within("termination factor", termination, 0.1, 1.0)
-    return breaking_factor * diameter**2 * grade * termination
-
-
 SHACKLE = "shackle"
 
 
@@ -355,17 +321,16 @@ def find_loss(soil: str, years: int) -> Datum:
     Raises
     ------
     ModelError
-        If the table has no such ground, or ends before.
+        If the table ends before.
 
     Verified by
     -----------
     tests/verification/test_corrosion.py
     """
     table = load_catalogue()["corrosion"]
-    losses = pick("ground class", soil, table["loss_mm"])
     if not 0 <= years <= table["years"][-1]:
         raise ModelError(say("corrosion.beyond", years=years, most=table["years"][-1]))
-    loss = interpolate([0, *table["years"]], [0.0, *losses], years)
+    loss = interpolate([0, *table["years"]], [0.0, *table["loss_mm"][soil]], years)
     return quote("corrosion", loss)
 
 

@@ -100,15 +100,6 @@ def test_ground_of_the_least_friction_has_a_design_strength():
     assert 0.0 < lift(soil, 0.6).value < math.inf
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [{"cohesion": -1.0}, {"friction": 0.0}, {"friction": 1.2}, {"weight": math.nan}],
-)
-def test_ground_that_none_is_refused(wrong):
-    with pytest.raises(ModelError):
-        Soil(**{"cohesion": 4e3, "friction": 0.5, "weight": 19e3} | wrong)
-
-
 @pytest.mark.parametrize("wrong", [{"depth": 0.0}, {"width": -1.0}])
 def test_wedge_without_size_is_refused(wrong):
     with pytest.raises(ModelError):
