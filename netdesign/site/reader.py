@@ -94,7 +94,7 @@ def read_site(
     workbook, replaced = replace_cells(cells, instead)
     if not answers:
         workbook, changed = change_values(workbook, change)
-    workbook = doubt_results(workbook)
+    workbook = doubt_results(workbook, [change.cell for change in replaced])
     findings = [*workbook.remarks]
     if answers:
         note = say("map.used", file=answers.file)

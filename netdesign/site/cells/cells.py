@@ -6,9 +6,10 @@ Its limits of size are far above any real site, far below a bomb.
 from __future__ import annotations
 
 import math
+import re
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from io import BytesIO
@@ -18,8 +19,7 @@ from netdesign.outcome import SiteDataError
 from netdesign.site.cells.findings import Finding, Severity, refuse_file
 from netdesign.site.cells.numbers import (
     DecimalMark,
-    compute_formula,
-    parse_number,
+    compute_constant,
     split_unit,
 )
 from netdesign.words.message import Message, say
@@ -189,35 +189,29 @@ class Workbook:
         return Finding(file=self.file, sheet=sheet, rule=rule, accepted=accepted)
 
 
-def doubt_results(workbook: Workbook) -> Workbook:
+def doubt_results(workbook: Workbook, changed: Collection[str] = ()) -> Workbook:
     """Mark the formulas of a workbook whose stored results may be old.
 
-    A result is held against what the formula gives, by the results that are stored of
-    the cells it names. Where that cannot be found, a workbook that is calculated by
-    hand is in doubt.
-    """
-    places = {
-        sheet.name.casefold(): {cell.address: cell for cell in sheet.cells}
-        for sheet in workbook.sheets
-    }
+    These are formulas of numbers alone that give another number, formulas that name a
+    changed cell, and all others of a workbook that is calculated by hand.
 
-    def find(sheet: str, place: str) -> object:
-        of_sheet = places.get(sheet.casefold())
-        if of_sheet is None:
-            return None
-        value = of_sheet[place].value if place in of_sheet else 0.0
-        if not isinstance(value, str):
-            return value
-        number = parse_number(value, of_sheet[place].decimal_mark)
-        return number if isinstance(number, float) else value
+    Parameters
+    ----------
+    workbook : Workbook
+        As read, with the changes.
+    changed : collection of str
+        Places of cells that a what-if has changed: ``Rows!C8``.
+    """
+    addresses = "|".join(place.rpartition("!")[2] for place in changed)
+    changed_address = re.compile(rf"(?<![A-Z])({addresses})(?!\d)")
 
     def mark(cell: Cell) -> Cell:
         if not cell.formula or cell.doubt or not isinstance(cell.value, int | float):
             return cell
-        number = compute_formula(
-            cell.formula, lambda sheet, place: find(sheet or cell.sheet, place)
-        )
+        number = compute_constant(cell.formula)
         if number is None:
+            if changed and changed_address.search(cell.formula.replace("$", "")):
+                return replace(cell, doubt=say("cell.names_changed"))
             return replace(cell, doubt=_BY_HAND) if workbook.is_by_hand else cell
         if math.isclose(number, cell.value, rel_tol=1e-6, abs_tol=1e-9):
             return cell

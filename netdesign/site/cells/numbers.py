@@ -7,7 +7,6 @@ import math
 import operator
 import re
 import unicodedata
-from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
@@ -291,100 +290,36 @@ def is_moment(text: str) -> bool:
     return True
 
 
-_ONE = r"\$?[A-Z]{1,3}\$?[1-9]\d{0,6}"
-_REFERENCE = re.compile(
-    rf"(?:(?:'((?:[^']|'')+)'|([^\W\d][\w.]*))!)?({_ONE}(?::{_ONE})?)(?![\w(.!])"
-)
-_LONGEST_FORMULA, _MOST_SUMMED = 300, 1000
+_LONGEST_FORMULA = 300
 _OPERATORS = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
-    ast.Pow: operator.pow,
-}
-_FUNCTIONS: dict[str, Callable[..., float]] = {
-    "SUM": lambda *numbers: math.fsum(numbers),
-    "AVERAGE": lambda *numbers: math.fsum(numbers) / len(numbers),
-    "PI": lambda: math.pi,
-    "ROUND": lambda number, digits=0.0: _round_half_up(number, digits),
-    **{"MIN": min, "MAX": max, "ABS": abs, "SQRT": math.sqrt},
-    **{"COS": math.cos, "SIN": math.sin, "TAN": math.tan, "ATAN": math.atan},
-    **{"RADIANS": math.radians, "DEGREES": math.degrees},
 }
 
 
-def _round_half_up(number: float, digits: float) -> float:
-    """Round as a spreadsheet does: a half goes away from zero."""
-    scale = 10.0 ** int(digits)
-    return math.copysign(math.floor(abs(number) * scale + 0.5 + 1e-9), number) / scale
+def compute_constant(formula: str) -> float | None:
+    """Result of a formula that sums and multiplies numbers; None of any other.
 
-
-def compute_formula(formula: str, find: Callable[[str, str], object]) -> float | None:
-    """Compute the number of a formula; None where it is more than plain arithmetic.
-
-    Parameters
-    ----------
-    formula : str
-        As an xlsx file stores it: ``=B2*COS(RADIANS(Rows!C2))``.
-    find : callable
-        Content of a cell, by its sheet ("" for the same) and its address.
+    >>> compute_constant("=2*(3+4)"), compute_constant("=B2/4")
+    (14.0, None)
     """
-    text = formula.removeprefix("=")
-    if len(text) > _LONGEST_FORMULA or '"' in text or re.search(r"-[^-+*/(]*\^", text):
-        return None  # a spreadsheet takes -2^2 for 4
-    cells: dict[str, Sequence[object]] = {}
-
-    def name(match: re.Match[str]) -> str:
-        sheet = (match[1] or match[2] or "").replace("''", "'")
-        key = f"cell_{len(cells)}"
-        cells[key] = [find(sheet, place) for place in _list_places(match[3])]
-        return key
-
+    text = formula.removeprefix("=").strip()
+    if len(text) > _LONGEST_FORMULA:
+        return None
     with suppress(ArithmeticError, LookupError, SyntaxError, TypeError, ValueError):
-        plain = _REFERENCE.sub(name, text).replace("^", "**").replace("%", "/100")
-        (number,) = _evaluate(ast.parse(plain.strip(), mode="eval").body, cells)
-        return float(number) if math.isfinite(number) else None
+        return _evaluate(ast.parse(text, mode="eval").body)
     return None
 
 
-def _list_places(text: str) -> list[str]:
-    """Addresses of a cell or of a range within a column; other ranges are an error."""
-    from openpyxl.utils import get_column_letter  # slow to import
-    from openpyxl.worksheet.cell_range import CellRange
-
-    span = CellRange(text)
-    if span.size["columns"] > 1 or span.size["rows"] > _MOST_SUMMED:
-        raise ValueError(text)
-    column = get_column_letter(span.min_col)
-    return [f"{column}{row}" for row in range(span.min_row, span.max_row + 1)]
-
-
-def _evaluate(node: ast.AST, cells: dict[str, Sequence[object]]) -> list[float]:
-    """Numbers of a part of a formula: a single number, or all of a range."""
+def _evaluate(node: ast.AST) -> float:
     match node:
         case ast.Constant(value=int() | float() as number):
-            return [float(number)]
-        case ast.Name(id=key):
-            contents = cells[key]
-            if not all(isinstance(content, int | float) for content in contents):
-                raise TypeError(key)
-            return [
-                float(content)
-                for content in contents
-                if isinstance(content, int | float)
-            ]
-        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
-            (number,) = _evaluate(operand, cells)
-            return [-number if isinstance(sign, ast.USub) else number]
+            return float(number)
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_evaluate(operand)
         case ast.BinOp(left=left, op=sign, right=right):
-            (first,), (second,) = _evaluate(left, cells), _evaluate(right, cells)
-            return [_OPERATORS[type(sign)](first, second)]
-        case ast.Call(func=ast.Name(id=key), args=arguments, keywords=[]):
-            numbers = [
-                number
-                for argument in arguments
-                for number in _evaluate(argument, cells)
-            ]
-            return [_FUNCTIONS[key](*numbers)]
+            result: float = _OPERATORS[type(sign)](_evaluate(left), _evaluate(right))
+            return result
     raise TypeError(node)
