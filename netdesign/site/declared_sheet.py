@@ -19,6 +19,7 @@ from netdesign.site.cells.cells import (
     Cell,
     Sheet,
     Workbook,
+    group_by_row,
     split_address,
 )
 from netdesign.site.cells.findings import Finding
@@ -72,7 +73,8 @@ def replace_cells(
         already: a what-if that changes nothing would be the site as built.
     """
     findings: list[Finding] = []
-    values: list[tuple[str, Cell, object]] = []
+    changed: dict[str, list[Cell]] = {}
+    replaced: list[ReplacedCell] = []
     # two sheets of one name are refused where they are read; here the first counts
     sheets = {sheet.name.casefold(): sheet for sheet in reversed(workbook.sheets)}
     for place, text in instead.items():
@@ -89,49 +91,21 @@ def replace_cells(
         if cell.text == text:
             accepted = say("what_if.another_text")
             findings.append(cell.finding(say("what_if.same"), accepted))
-        values.append((sheet.name, cell, text))
+        changed.setdefault(sheet.name, []).append(cell.retype(text))
+        replaced.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
     if findings:
         raise SiteDataError(findings)
-    return put_values(workbook, values)
+    now = []
+    for sheet in workbook.sheets:
+        cells = [*sheet.cells, *changed.get(sheet.name, ())]
+        now.append(replace(sheet, rows=group_by_row(cells)))
+    return replace(workbook, sheets=tuple(now)), tuple(replaced)
 
 
 def find_cell(sheet: Sheet, address: str) -> Cell:
     """Cell of a sheet at an address such as ``C14``."""
     column, row = split_address(address)
     return sheet.cell(row, column)
-
-
-def put_values(
-    workbook: Workbook, values: Iterable[tuple[str, Cell, object]]
-) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
-    """Workbook with other values in some cells, and what was there.
-
-    Parameters
-    ----------
-    workbook : Workbook
-        As read.
-    values : iterable of str, Cell and object
-        Name of the sheet, the cell, which may stand elsewhere in the sheet that an
-        office's list makes, and its new value. The display format of the old is gone.
-    """
-    sheets, replaced = list(workbook.sheets), []
-    numbers = {
-        sheet.name: number for number, sheet in reversed(list(enumerate(sheets)))
-    }
-    for name, cell, value in values:
-        plain = replace(
-            cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
-        )
-        now = replace(plain, value=value, formula="")
-        if now.text == cell.text:  # the row as built, beside others
-            continue
-        rows = {y: dict(line) for y, line in sheets[numbers[name]].rows.items()}
-        places = [(y, x) for y, line in rows.items() for x in line if line[x] == cell]
-        for y, x in places or [(cell.row, cell.column)]:
-            rows.setdefault(y, {})[x] = now
-        sheets[numbers[name]] = replace(sheets[numbers[name]], rows=rows)
-        replaced.append(ReplacedCell(cell=cell.place, was=cell.text, now=now.text))
-    return replace(workbook, sheets=tuple(sheets)), tuple(replaced)
 
 
 # Checks of geometry that may be proven elsewhere. An impossible slope and a net below

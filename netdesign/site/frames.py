@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from typing import Any
@@ -21,11 +21,10 @@ from netdesign.site.columns.office import (
     load_plan,
     name_measure,
 )
-from netdesign.site.declared_sheet import put_values
 from netdesign.site.model import ReplacedCell
-from netdesign.site.office.sheets import find_office_tables
-from netdesign.site.readings import Row
-from netdesign.words.message import say
+from netdesign.site.office.sheets import OfficeTables
+from netdesign.site.readings import Row, read_cell
+from netdesign.words.message import Message, say
 
 Frames = Mapping[str, Any]
 Change = Mapping[str, Mapping[str, object]]
@@ -169,21 +168,25 @@ def _build_cell(sheet: str, place: tuple[int, int], value: object, named: str) -
     )
 
 
+_Values = dict[tuple[str, str, str], object]  # by table, id and key
+
+
 def change_values(
-    workbook: Workbook, change: Change, *, is_list: bool = False
-) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
-    """Workbook with other values of some net rows: a what-if.
+    tables: OfficeTables, change: Change, file: str, findings: list[Finding]
+) -> tuple[OfficeTables, tuple[ReplacedCell, ...]]:
+    """Tables with other values of some net rows: a what-if.
 
     Parameters
     ----------
-    workbook : Workbook
+    tables : OfficeTables
         As read.
     change : mapping of str to mapping of str to object
         Values by id of the net row and key of the column, in the column's unit. A
         column of the row's net type is changed for every row of that type.
-    is_list : bool
-        The workbook is what an office's list makes: its sheets have the names of the
-        template and cells of the list. They get the columns that the list has not.
+    file : str
+        Name of the workbook.
+    findings : list of Finding
+        Appended to: what is wrong with a value.
 
     Raises
     ------
@@ -191,81 +194,66 @@ def change_values(
         Of a row or a column that is not there, of two values for one cell, and of a
         net type that rows have which are not changed likewise.
     """
-    if not change:
-        return workbook, ()
-    if is_list:
-        keys = {key for values in change.values() for key in values}
-        sheets = tuple(_add_columns(sheet, keys) for sheet in workbook.sheets)
-        workbook = replace(workbook, sheets=sheets)
-    lines, nets = _read_lines(workbook)
+    lines, replaced = dict(tables.lines), list[ReplacedCell]()
+    for (name, line_id, key), value in _place_values(lines, change, file).items():
+        table = tables.tables[name]
+        assert table is not None  # a line of it has this id
+        blank = NamedCell(
+            file=file,
+            sheet=table.sheet.name,
+            row=0,
+            column=0,
+            named=f"{line_id}, {key}",
+        )
+        changed = []
+        for line in lines[name]:
+            was = line[key].cell or blank
+            now = was.retype(_read_plain(value))
+            if line["id"].word == line_id and now.text != was.text:
+                unit = table.find_unit(line[key].field)
+                reading = read_cell(now, line[key].field, unit, findings)
+                line = {**line, key: reading}
+                entry = ReplacedCell(cell=now.place, was=was.text, now=now.text)
+                replaced.append(entry)
+            changed.append(line)
+        lines[name] = changed
+    return replace(tables, lines=lines), tuple(replaced)
+
+
+def _place_values(
+    lines: Mapping[str, Sequence[Row]], change: Change, file: str
+) -> _Values:
+    """Values by the table, the line and the column that they change."""
+    rows = {line["id"].word: line for line in lines["rows"]}
+    nets = {line["id"].word: line for line in lines["net_types"]}
     findings: list[Finding] = []
-    by_place: dict[str, tuple[Cell, object, str]] = {}
-    for name, values in change.items():
-        if name not in lines:
-            fault = workbook.finding(say("frames.no_row"))
-            accepted = say("accepted.words", words=tuple(lines))
-            findings.append(replace(fault, text=name, accepted=accepted))
+    values: _Values = {}
+
+    def refuse(text: str, rule: Message, accepted: Message | str = "") -> None:
+        findings.append(Finding(file=file, text=text, rule=rule, accepted=accepted))
+
+    for name, of_row in change.items():
+        if name not in rows:
+            accepted = say("accepted.words", words=tuple(rows))
+            refuse(name, say("frames.no_row"), accepted)
             continue
-        for key, value in values.items():
-            table, cell = _find_cell(lines[name], nets, key)
-            if cell is None:
-                fault = workbook.finding(say("frames.no_column"))
-                findings.append(replace(fault, text=f"{name}: {key}"))
-                continue
-            sharing = tuple(
-                row_id
-                for row_id, line in lines.items()
-                if key not in change.get(row_id, {})
-                and (shared := _find_cell(line, nets, key)[1])
-                and shared.place == cell.place
-            )
-            sheet = load_plan(table).name_in("en") if is_list else cell.sheet
-            if sharing or by_place.get(cell.place, (cell, value))[1] != value:
-                rule = say("frames.shared", key=key, rows=sharing or (name,))
-                findings.append(cell.finding(rule))
-            by_place[cell.place] = (cell, value, sheet)
+        net = rows[name]["net_type"].word
+        for key, value in of_row.items():
+            place, sharing = ("rows", name, key), []
+            if key not in rows[name]:
+                place = ("net_types", net, key)
+                sharing = [
+                    row_id
+                    for row_id, line in rows.items()
+                    if line["net_type"].word == net
+                    and key not in change.get(row_id, {})
+                ]
+            if key == "id" or key not in {**rows[name], **nets.get(net, {})}:
+                refuse(f"{name}: {key}", say("frames.no_column"))
+            elif sharing or values.get(place, value) != value:
+                rule = say("frames.shared", key=key, rows=tuple(sharing) or (name,))
+                refuse(f"{name}: {key}", rule)
+            values[place] = value
     if findings:
         raise SiteDataError(findings)
-    changed = (
-        (sheet, cell, _read_plain(value)) for cell, value, sheet in by_place.values()
-    )
-    return put_values(workbook, changed)
-
-
-def _add_columns(sheet: Sheet, keys: Collection[str]) -> Sheet:
-    """Sheet of rows or net types with the columns of some keys, empty if not there."""
-    table = next(
-        (name for name in _CHANGED if load_plan(name).name_in("en") == sheet.name), ""
-    )
-    head = min(sheet.rows)
-    headings = {normalise(cell.text.partition("[")[0]) for cell in sheet.row(head)}
-    rows, number = dict(sheet.rows), max(map(max, sheet.rows.values()))
-    for column in load_columns(table) if table else ():
-        if column.field.key in keys and column.field.names.isdisjoint(headings):
-            number += 1
-            heading = _build_cell(
-                sheet.name, (head, number), _write_heading(column), sheet.name
-            )
-            rows[head] = {**rows[head], number: replace(heading, file=sheet.file)}
-    return replace(sheet, rows=rows)
-
-
-_CHANGED = ("rows", "net_types")
-
-
-def _read_lines(workbook: Workbook) -> tuple[dict[str, Row], dict[str, Row]]:
-    """Lines of the net rows and of the net types, by their ids."""
-    unused: list[Finding] = []
-    tables = find_office_tables(workbook, unused).lines
-    return (
-        {line["id"].word: line for line in tables["rows"]},
-        {line["id"].word: line for line in tables["net_types"]},
-    )
-
-
-def _find_cell(line: Row, nets: Mapping[str, Row], key: str) -> tuple[str, Cell | None]:
-    """Cell of a net row, or of its net type, with its table; None without a column."""
-    table, reading = "rows", line.get(key)
-    if reading is None and "net_type" in line:
-        table, reading = "net_types", nets.get(line["net_type"].word, {}).get(key)
-    return table, reading.cell if reading and key != "id" else None
+    return values

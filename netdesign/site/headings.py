@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from netdesign.site.cells.cells import Cell, Sheet, name_column
 from netdesign.site.cells.findings import Finding, quote
@@ -29,7 +30,6 @@ from netdesign.words.message import say
 
 _HEADING_ROWS = 20  # from the first filled one: a title block may stand above them
 _LEAST_KNOWN = 2  # headings, to be a row of them
-_UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
@@ -37,14 +37,43 @@ _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 class Column:
     """Place of a field and the unit of its numbers.
 
-    The unit is empty for words and ids, and None where a finding refused it.
+    Attributes
+    ----------
+    number : int
+        Of the column in its sheet.
+    unit : str or None
+        Empty for words and ids; None where a finding refused it.
+    measure : str
+        Which of several quantities the unit cell names: ``vertical``.
     """
 
     number: int
     unit: str | None
+    measure: str = ""
 
 
-Titles = Sequence[tuple[Cell, Field | None]]
+class Title(NamedTuple):
+    """A heading: the field that it is taken for, and what is said of its unit.
+
+    Attributes
+    ----------
+    cell : Cell
+        Of the heading.
+    field : Field or None
+        None of a column that is not read.
+    unit : str or None
+        As it is said; None where the heading and the row below it differ.
+    measure : str
+        As of `Column`.
+    unit_cell : Cell or None
+        Where the unit stands, if not in the heading.
+    """
+
+    cell: Cell
+    field: Field | None
+    unit: str | None = ""
+    measure: str = ""
+    unit_cell: Cell | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,31 +84,39 @@ class Table:
     ----------
     sheet, plan
         As read, and what it should hold.
-    titles : sequence of Cell and Field
-        Its headings with the field that each is taken for, or None.
+    titles : sequence of Title
+        Its headings.
     heading_row, first_data_row : int
         The row that names the fields; the first below headings and units.
-    units_row : int or None
-        A row of units below the headings.
     columns : mapping of str to Column
         By field key; absent headings are absent.
     rows : tuple of int
         Numbers of the lines that hold something.
+    words : mapping of str to str
+        Answers to words of its cells, by their texts.
+    answered_in : str
+        File of the answers.
     """
 
     sheet: Sheet
     plan: SheetPlan
     columns: Mapping[str, Column]
-    titles: Titles = ()
+    titles: Sequence[Title] = ()
     heading_row: int = 0
-    units_row: int | None = None
     first_data_row: int = 1
     rows: tuple[int, ...] = ()
+    words: Mapping[str, str] = field(default_factory=dict)
+    answered_in: str = ""
 
     def cell(self, row: int, key: str) -> Cell | None:
         """Cell of a field in a row; None without such a heading."""
         column = self.columns.get(key)
         return self.sheet.cell(row, column.number) if column else None
+
+    def find_unit(self, field: Field) -> str:
+        """Unit of a field's numbers; its own where the sheet has no such column."""
+        column = self.columns.get(field.key)
+        return (column.unit if column else field.unit) or ""
 
     def list_filled(self, column: int) -> list[Cell]:
         """Filled cells of a column below its heading."""
@@ -105,40 +142,36 @@ def find_headings(
     Returns
     -------
     Table or None
-        Without its lines; None if there is no row of headings, which is a finding.
+        Without its columns and lines; None if there is no row of headings, which is a
+        finding.
     """
     row, count = find_best_row(sheet, plan, _list_first_rows(sheet))
     if count < _LEAST_KNOWN:
-        wanted = tuple(quote_title(field) for field in plan.fields[:3])
+        wanted = tuple(quote_title(column) for column in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
         findings.append(sheet.finding(say("heading.no_row"), accepted))
         return None
-    titles = [(cell, plan.find(str(cell.value))) for cell in sheet.row(row)]
-    units_row = _find_units_row(sheet, titles, row, findings)
+    headings = [(cell, plan.find(str(cell.value))) for cell in sheet.row(row)]
+    units_row = _find_units_row(sheet, headings, row)
     merged_to = [
         merged.max_row
         for merged in sheet.merged
         if merged.min_row <= row <= merged.max_row and not sheet.rows.get(row + 1)
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
-    first_data_row += _is_numbering(sheet.row(first_data_row))
+    first_data_row += is_numbering(sheet.row(first_data_row))
     while _continues_headings(sheet.row(first_data_row)):
         first_data_row += 1
-    table = Table(
+    return Table(
         sheet=sheet,
         plan=plan,
-        titles=titles,
+        titles=[
+            _read_title(sheet, *heading, units_row, findings) for heading in headings
+        ],
         heading_row=row,
-        units_row=units_row,
         first_data_row=first_data_row,
         columns={},
     )
-    return replace(table, columns=_find_columns(table, findings))
-
-
-def count_headings(sheet: Sheet, plan: SheetPlan) -> int:
-    """Largest number of headings of a plan in one row of a sheet, whatever its name."""
-    return find_best_row(sheet, plan, _list_first_rows(sheet))[1]
 
 
 def find_best_row(
@@ -162,37 +195,22 @@ def _list_first_rows(sheet: Sheet) -> range:
 
 
 def _find_units_row(
-    sheet: Sheet, titles: Titles, heading_row: int, findings: list[Finding]
+    sheet: Sheet, headings: Sequence[tuple[Cell, Field | None]], heading_row: int
 ) -> int | None:
-    """Row below the headings if it holds units; other texts in it are findings.
+    """Row below the headings if more than half of its cells are units.
 
     An unknown unit does not make it a line of the table: that would hold a number.
     """
-    by_column = {cell.column: (cell, field) for cell, field in titles}
+    fields = {cell.column: field for cell, field in headings if field}
     below = sheet.row(heading_row + 1)
-    cells = [
-        (cell, field)
-        for cell in (() if _is_numbering(below) else below)
-        if (field := by_column.get(cell.column, (None, None))[1])
-    ]
-    measured = [(cell, field) for cell, field in cells if field.units]
-    unmeasured = [pair for pair in cells if pair not in measured]
-    unit_count = sum(is_unit(*pair) for pair in measured)
-    strangers = [cell for cell, field in unmeasured if not is_unit(cell, field)]
-    has_units_above = any(
-        find_heading_unit(by_column[cell.column][0]) for cell, _ in measured
-    )
-    is_row = 2 * unit_count > len(measured) or not (strangers or has_units_above)
-    if not measured or not is_row or any(is_number(*pair) for pair in cells):
-        return None
-    for cell in strangers:
-        if normalise(str(cell.value)) not in _UNITS_WORDS:
-            rule = say("heading.in_units_row")
-            findings.append(cell.finding(rule, say("heading.units_or_empty")))
-    return heading_row + 1
+    cells = [(cell, fields[cell.column]) for cell in below if cell.column in fields]
+    measured = [pair for pair in cells if pair[1].units]
+    is_row = 2 * sum(is_unit(*pair) for pair in measured) > len(measured)
+    has_numbers = is_numbering(below) or any(is_number(*pair) for pair in cells)
+    return heading_row + 1 if measured and is_row and not has_numbers else None
 
 
-def _is_numbering(cells: tuple[Cell, ...]) -> bool:
+def is_numbering(cells: tuple[Cell, ...]) -> bool:
     """A row numbers the columns: (1), (2), (3) and so on."""
     numbers = [str(cell.value).strip(" ()") for cell in cells]
     return len(cells) >= _LEAST_NUMBERED and numbers == [
@@ -206,10 +224,15 @@ def _continues_headings(cells: tuple[Cell, ...]) -> bool:
     return first in list_texts("unit", "empty")
 
 
-def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
+def find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
+    """Columns of a table by its titles; what is wrong with these goes to ``findings``.
+
+    Those are missing, unknown, unclear or duplicated headings, and units.
+    """
     columns: dict[str, Column] = {}
     unknown: list[Cell] = []
-    for cell, field in table.titles:
+    for title in table.titles:
+        cell, field = title.cell, title.field
         if field is None:
             unknown.append(cell)
         elif field.key in columns:
@@ -217,8 +240,10 @@ def _find_columns(table: Table, findings: list[Finding]) -> dict[str, Column]:
             rule = say("heading.twice", name=field.name, column=first)
             findings.append(cell.finding(rule, say("heading.one_column")))
         else:
-            unit = _find_unit(table, cell, field, findings)
-            columns[field.key] = Column(number=cell.column, unit=unit)
+            unit = _settle_unit(table, title, field, findings)
+            columns[field.key] = Column(
+                number=cell.column, unit=unit, measure=title.measure
+            )
     missing = [field for field in table.plan.fields if field.key not in columns]
     judged = [_judge_unknown(cell, missing) for cell in unknown]
     findings.extend(finding for finding, _ in judged)
@@ -243,33 +268,49 @@ def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | N
     return cell.finding(say("heading.unknown"), severity="note"), None
 
 
-def _find_unit(
-    table: Table, heading: Cell, field: Field, findings: list[Finding]
-) -> str | None:
-    """Take the unit of a column from its heading, or from the row of units."""
-    cell, text = heading, str(heading.value)
+def _read_title(
+    sheet: Sheet,
+    cell: Cell,
+    field: Field | None,
+    units_row: int | None,
+    findings: list[Finding],
+) -> Title:
+    """Heading with its unit, from its brackets or from the row of units."""
+    if field is None:
+        return Title(cell, None)
+    text = str(cell.value)
     own, full_name = split_heading(text)[0], normalise(text)
     is_name = own != full_name in field.names  # brackets and all
-    unit = "" if is_name else find_heading_unit(heading)
+    unit, measure = ("", "") if is_name else find_heading_unit(cell)
+    below = sheet.cell(units_row, cell.column) if units_row else None
+    if below is None or below.is_blank or not field.units:
+        return Title(cell, field, unit, measure)
+    unit_below, measure_below = read_unit(below)
+    if unit not in ("", unit_below):
+        rule = say("heading.other_unit", heading=quote(cell.text))
+        findings.append(below.finding(rule, say("accepted.one_unit")))
+        return Title(cell, field, None)
+    return Title(cell, field, unit_below, measure_below or measure, below)
+
+
+def _settle_unit(
+    table: Table, title: Title, field: Field, findings: list[Finding]
+) -> str | None:
+    """Unit of a column, as its title says it, or as all of its cells do."""
+    cell, unit = title.cell, title.unit
+    if unit is None:
+        return None
     if not field.units:
         if unit in KNOWN_UNITS and unit != "-":  # a number of another field
             rule = say("heading.unit_not_wanted", unit=unit, name=field.name)
-            findings.append(heading.finding(rule, field.name))
+            findings.append(cell.finding(rule, field.name))
         return ""
-    column = heading.column
-    below = table.sheet.cell(table.units_row, column) if table.units_row else None
-    if below is not None and not below.is_blank:
-        unit_below, _ = read_unit(below)
-        if unit not in ("", unit_below):
-            rule = say("heading.other_unit", heading=quote(cell.text))
-            findings.append(below.finding(rule, say("accepted.one_unit")))
-            return None
-        unit, cell = unit_below, below
     if not unit and "-" in field.units:
         return "-"
     if unit in field.units:
         return unit
-    if not unit and (own := find_own_unit(table.list_filled(column), field)):
+    if not unit and (own := find_own_unit(table.list_filled(cell.column), field)):
         return own
-    findings.append(cell.finding(*explain_unit(unit, field), field.name))
+    place = title.unit_cell or cell
+    findings.append(place.finding(*explain_unit(unit, field), field.name))
     return None

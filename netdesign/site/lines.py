@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Workbook
-from netdesign.site.cells.findings import Finding, add_nearest, quote, shorten
+from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.headings import Table
 from netdesign.site.model import Project
 from netdesign.site.office.project import SiteRanges
@@ -17,7 +17,6 @@ TYPES = ("anchor_types", "ropes", "posts")
 Types = Mapping[str, Mapping[str, Row]]  # lines of the types, by table and id
 
 ALL_ROWS = ("all", "alle", "toutes")  # in place of an id, of every net row
-_MOST_PLACES = 5  # named in one finding
 _ENDS = 2  # of a row
 
 
@@ -41,9 +40,6 @@ class Lines:
         Of sheet Snow, by net row, from the ground up.
     types : mapping of str to mapping of str to Row
         Anchors, ropes and posts with what follows from their lines, by table and id.
-    absent, unreadable : collection of str
-        Tables of types that the workbook does not have, under whatever name; and those,
-        too, whose ids cannot be read.
     ranges : SiteRanges
         That its rows share.
     further : mapping of str to Table or None
@@ -62,8 +58,6 @@ class Lines:
     ends: Mapping[str, Row]
     snow: Mapping[str, Sequence[Row]]
     types: Types
-    absent: Sequence[str]
-    unreadable: Sequence[str]
     ranges: SiteRanges
     further: Mapping[str, Table | None]
     typed: Mapping[str, Sequence[Row]]
@@ -146,44 +140,10 @@ def refuse_unknown_ids(
 def refuse_unknown_types(line: Row, lines: Lines, findings: list[Finding]) -> None:
     """Refuse types of a net row, or of its end, that their sheet does not have."""
     for sheet, types in lines.types.items():
-        if sheet in lines.unreadable:
-            continue
         places = {name: type_line["id"].place for name, type_line in types.items()}
-        for reading in list_references([line], sheet):
-            refuse_unknown_ids([reading], places, findings, "nets.id_or_empty")
-
-
-def list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
-    """Cells that name an id of a sheet."""
-    return [
-        reading
-        for row in rows
-        for reading in row.values()
-        if reading.field.refers_to == sheet and reading.word
-    ]
-
-
-def refuse_missing_sheets(lines: Lines, findings: list[Finding]) -> None:
-    """One finding for a type sheet that is not there, not one for each of its ids."""
-    for name in lines.absent:
-        references = list_references([*lines.rows, *lines.ends.values()], name)
-        if not references:
-            continue
-        sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
-        ids = [
-            quote(text)
-            for text in dict.fromkeys(reading.word for reading in references)
-        ]
-        rule = say(
-            "nets.lacks_sheet",
-            sheet=sheet,
-            count=len(ids),
-            ids=shorten(ids, _MOST_PLACES),
-            nets=lines.table.sheet.name if lines.table else "",
-        )
-        places = shorten([reading.place for reading in references], _MOST_PLACES)
-        accepted = say("nets.sheet_or_empty", sheet=sheet, places=places)
-        findings.append(Finding(file=lines.workbook.file, rule=rule, accepted=accepted))
+        for reading in line.values():
+            if reading.field.refers_to == sheet:
+                refuse_unknown_ids([reading], places, findings, "nets.id_or_empty")
 
 
 Neighbours = Mapping[str, tuple[str, ...]]  # rows into which each row's nets go on

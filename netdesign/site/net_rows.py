@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
@@ -20,8 +20,6 @@ from netdesign.site.lines import (
     find_neighbour_cell,
     find_neighbours,
     index_lines,
-    list_references,
-    refuse_missing_sheets,
     refuse_unknown_types,
 )
 from netdesign.site.model import (
@@ -88,7 +86,6 @@ def build_net_rows(lines: Lines, findings: list[Finding]) -> tuple[NetRow, ...]:
         _build_net_row(_resolve_gap(row, beside), lines, findings) for row in lines.rows
     ]
     built = _separate_unlike(built, beside, lines, findings)
-    refuse_missing_sheets(lines, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -193,7 +190,7 @@ def _build_net_row(line: Row, lines: Lines, findings: list[Finding]) -> NetRow |
     for cells in (line, end):
         refuse_unknown_types(cells, lines, findings)
     is_refused = any(finding.severity == "error" for finding in findings[count_before:])
-    if is_refused or _is_faulty((line, end), lines.unreadable):
+    if is_refused or _is_faulty((line, end)):
         return None
     if thickness is None or ground is None:
         return None
@@ -226,11 +223,9 @@ def _round_net_height(
     return replace(height, value=thickness, derivation=how)
 
 
-def _is_faulty(lines: Sequence[Row], unreadable: Iterable[str]) -> bool:
-    """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
-    readings = (reading for cells in lines for reading in cells.values())
-    return any(reading.state == "faulty" for reading in readings) or any(
-        list_references(lines, sheet) for sheet in unreadable
+def _is_faulty(lines: Sequence[Row]) -> bool:
+    return any(
+        reading.state == "faulty" for cells in lines for reading in cells.values()
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -24,10 +24,9 @@ from netdesign.site.columns.all_tables import (
     QUIET_SHEETS,
     load_old_plans,
 )
-from netdesign.site.columns.office import is_heading, load_plan
+from netdesign.site.columns.office import is_heading
 from netdesign.site.declared_sheet import read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
-from netdesign.site.headings import count_headings
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
@@ -38,16 +37,12 @@ from netdesign.site.model import NetRow, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
 from netdesign.site.office.join import read_office
 from netdesign.site.office.library import read_library
-from netdesign.site.office.sheets import is_old, is_read
+from netdesign.site.office.sheets import find_office_tables, is_old, is_read
 from netdesign.site.plausible import ask_about_numbers
 from netdesign.site.snow_sheets import check_layers
 from netdesign.site.support_types import list_catalogue
-from netdesign.site.titles import list_meant
 from netdesign.site.type_lines import read_links
 from netdesign.words.message import say
-
-# Headings of sheet Rows, at least, on a sheet that holds net rows.
-_LEAST_KNOWN = 4
 
 
 def read_site(
@@ -92,20 +87,19 @@ def read_site(
     else:
         cells = read_cells(path, text_format)
     workbook, replaced = replace_cells(cells, instead)
-    if not answers:
-        workbook, changed = change_values(workbook, change)
     workbook = doubt_results(workbook, [change.cell for change in replaced])
     findings = [*workbook.remarks]
     if answers:
         note = say("map.used", file=answers.file)
         findings.append(note_file(workbook.file, note))
-        workbook = join_list(workbook, answers, findings)
-        workbook, changed = change_values(workbook, change, is_list=True)
+        workbook, tables = join_list(workbook, answers, findings)
     else:
-        findings.extend(_refuse_rows_elsewhere(path, workbook, text_format))
+        elsewhere = ("net_types",) if net_types else ()
+        tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
+    tables, changed = change_values(tables, change, workbook.file, findings)
     replaced += changed
     library = read_library(net_types, text_format, findings) if net_types else None
-    lines = read_office(workbook, findings, library)
+    lines = read_office(workbook, tables, findings, library)
     site = _build_site(lines, replaced, findings)
     if answers:
         site = replace(site, map_file=answers.file, map_sha256=answers.sha256)
@@ -120,9 +114,10 @@ def read_frames(frames: Frames, change: Change = MappingProxyType({})) -> Site:
     SiteDataError
         With all findings, if any of them is an error.
     """
-    workbook, replaced = change_values(build_workbook(frames), change)
-    findings: list[Finding] = []
-    return _build_site(read_office(workbook, findings), replaced, findings)
+    workbook, findings = build_workbook(frames), list[Finding]()
+    tables = find_office_tables(workbook, findings)
+    tables, replaced = change_values(tables, change, workbook.file, findings)
+    return _build_site(read_office(workbook, tables, findings), replaced, findings)
 
 
 def _build_site(
@@ -191,27 +186,6 @@ def _widen_density(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
         max(interval.high for interval in spans),
     )
     return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
-
-
-def _refuse_rows_elsewhere(
-    path: Path, workbook: Workbook, text_format: TextFormat
-) -> Iterator[Finding]:
-    """Sheets with net rows under another name: half a site must not vanish.
-
-    They are read only where a workbook holds sheets that have no part in a check.
-    """
-    plan = load_plan("rows")
-    names = {*workbook.unread} - {*workbook.hidden, *QUIET_SHEETS}
-    if not names or not list_meant(workbook, plan):
-        return
-    try:
-        unread = read_workbook(path, names.__contains__, is_heading, text_format)
-    except SiteDataError:  # what has no part in the check may be damaged
-        return
-    for sheet in unread.sheets:
-        if sheet.name in names and count_headings(sheet, plan) >= _LEAST_KNOWN:
-            accepted = say("table.copy_accepted", name=plan.title)
-            yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:

@@ -338,8 +338,6 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
         if unit in ("-", "%"):
             return _shift(number, 2) if unit == "%" else number
         shown = _name_number(100 * number, "%")
-    elif cell.is_thousandth:
-        shown = _name_number(number / 1000, cell.shown_unit)
     elif not cell.shown_unit or normalise_unit(cell.shown_unit) == unit:
         return number
     rule = say("cell.format_ambiguous", shown=shown, number=number)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 
-from netdesign.site.cells.cells import Cell, Sheet, Workbook
+from netdesign.site.cells.cells import Cell, Workbook
 from netdesign.site.cells.findings import Finding
-from netdesign.site.columns.all_tables import IGNORE
+from netdesign.site.columns.all_tables import IGNORE, load_file
 from netdesign.site.columns.fields import Field, SheetPlan, find_item, normalise
-from netdesign.site.headings import Table, find_headings
+from netdesign.site.headings import Table, find_columns, find_headings
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -45,16 +45,20 @@ def find_table(
     """
     sheets = list_meant(workbook, plan)
     if not sheets:
-        findings.extend(_judge_missing(workbook, plan))
+        findings.extend(judge_missing(workbook, plan))
         return None
     for double in sheets[1:]:
         rule = say("table.second_sheet", name=plan.title, first=sheets[0].name)
         findings.append(double.finding(rule))
     table = find_headings(sheets[0], plan, findings)
-    if table is None:
-        return None
+    return complete_table(table, findings) if table else None
+
+
+def complete_table(table: Table, findings: list[Finding]) -> Table:
+    """Table with its columns and lines; what is wrong with them goes to findings."""
+    table = replace(table, columns=find_columns(table, findings))
     table = replace(table, rows=find_data_rows(table, findings))
-    _inspect_layout(table, findings)
+    inspect_layout(table, findings)
     return table
 
 
@@ -82,18 +86,18 @@ def _read_field(
     cell = table.sheet.cell(row, column.number)
     if column.unit is None:  # a finding already
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
-    return read_answered(table.sheet, cell, field, column.unit, findings)
+    return _read_answered(table, cell, field, column.unit, findings)
 
 
-def read_answered(
-    sheet: Sheet, cell: Cell, field: Field, unit: str, findings: list[Finding]
+def _read_answered(
+    table: Table, cell: Cell, field: Field, unit: str, findings: list[Finding]
 ) -> Reading:
     """Read one cell; a word of an office's list as it is answered in its map."""
-    answers = {normalise(text): word for text, word in sheet.words.items()}
+    answers = {normalise(text): word for text, word in table.words.items()}
     answer = answers.get(normalise(cell.text), "") if field.kind == "word" else ""
     if not answer or cell.is_blank:
         return read_cell(cell, field, unit, findings)
-    file = sheet.answered_in
+    file = table.answered_in
     if answer == IGNORE:
         rule = say("heading.word_ignored", file=file)
         findings.append(cell.finding(rule, severity="note"))
@@ -107,7 +111,7 @@ def read_answered(
     return replace(reading, text=cell.text, cell=cell)
 
 
-def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
+def judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet whose name seems misspelt; else the lack of the sheet."""
     near = list_near(workbook, plan)
     wanted = say("finding.in_quotes", text=plan.title)
@@ -124,7 +128,7 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     return [workbook.finding(rule, accepted)]
 
 
-def _inspect_layout(table: Table, findings: list[Finding]) -> None:
+def inspect_layout(table: Table, findings: list[Finding]) -> None:
     """Refuse merged cells in the table; note what a reader does not see."""
     sheet = table.sheet
     read = [column.number for column in table.columns.values()]
@@ -137,8 +141,6 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
             cell = sheet.cell(merged.min_row, merged.min_col)
             rule = say("table.merged", range=merged.coord)
             findings.append(cell.finding(rule, say("accepted.single_cells")))
-    if sheet.is_hidden:
-        findings.append(sheet.finding(say("table.hidden_sheet"), severity="note"))
     first = (sheet.row(row)[0] for row in table.rows if row in sheet.hidden_rows)
     rule = say("table.hidden_row")
     findings.extend(cell.finding(rule, severity="note") for cell in first)
@@ -149,50 +151,28 @@ def _inspect_layout(table: Table, findings: list[Finding]) -> None:
     )
     accepted = say("accepted.undoubted")
     findings.extend(cell.finding(cell.doubt, accepted) for cell in cells if cell.doubt)
-    rule = say("table.hidden_column")
-    headings = (sheet.cell(table.heading_row, number) for number in read)
-    findings.extend(
-        cell.finding(rule, severity="note")
-        for cell in headings
-        if cell.column in sheet.hidden_columns
-    )
-    findings.extend(_refuse_items_above(table))
     _judge_columns_without_heading(table, findings)
 
 
 _NOT_ASKED = ("project", "declared", "Winter", "Monitoring", "Uncertainty")
 
 
-def _refuse_items_above(table: Table) -> Iterator[Finding]:
-    """Refuse items that stand above the headings of their table."""
-    for row in range(1, table.heading_row):
-        cells = table.sheet.row(row)
-        if len(cells) > 1 and find_item(str(cells[0].value), table.plan.items):
-            rule = say("table.above_headings")
-            yield cells[0].finding(rule, say("table.below_headings"))
-
-
 def _judge_columns_without_heading(table: Table, findings: list[Finding]) -> None:
     judged = {column.number for column in table.columns.values()}
     judged |= {cell.column for cell in table.sheet.row(table.heading_row)}
+    # a delimiter too many: what stands here may belong to the left of it
+    is_shifted = table.sheet.is_delimited or bool(table.plan.items)
     for row in table.rows:
-        for column, cell in table.sheet.rows[row].items():
-            if column in judged or cell.is_blank:
+        for cell in table.sheet.row(row):
+            if cell.column in judged:
                 continue
-            judged.add(column)
-            cover = table.sheet.find_merged(table.heading_row, column)
-            first = (cover.min_row, cover.min_col) if cover else ()
-            if cover and first != (table.heading_row, column):
-                rule = say("table.below_merged", range=cover.coord)
-                findings.append(cell.finding(rule, say("table.heading_each")))
-            elif table.sheet.is_delimited or (table.plan.items and table.titles):
-                # a delimiter too many: what stands here may belong to the left of it
+            judged.add(cell.column)
+            if is_shifted:
                 rule = say("table.no_heading")
                 findings.append(cell.finding(rule, say("table.as_many_cells")))
             else:
-                findings.append(
-                    cell.finding(say("table.no_heading_unread"), severity="note")
-                )
+                rule = say("table.no_heading_unread")
+                findings.append(cell.finding(rule, severity="note"))
 
 
 def match_item(
@@ -207,128 +187,70 @@ def match_item(
     return field
 
 
-# Words that mark a single text below a table as a note, not as the start of a line.
-_NOTE_WORD = (
-    r"(notes?|nota|nb|n\.b|remarks?|remarques?|sources?|anm|anmerkung|bemerkung|hinweis"
-    r"|quelle|osservazion[ei])\b"
-)
-_NOTE = re.compile(_NOTE_WORD, re.IGNORECASE)
-_MARKED_NOTE = re.compile(rf"\*|{_NOTE_WORD}\s*[.:]", re.IGNORECASE)
-_NOTE_WORDS = 4
 _CUTS = (";", ",", "\t", "|")  # one of them may be the delimiter of a line
-_TOTAL = re.compile(
-    r"(sous-?\s?)?(total|totaux|somme)\b|sub-?total|(zwischen)?summe\b|gesamt"
-    r"|(sub)?total[ei]\b|somma\b|sums?\b",
-    re.IGNORECASE,
-)
-_SECTION = re.compile(
-    r"(secteur|zone|lot|tronçon|versant|couloir|sector|section|area|abschnitt|sektor"
-    r"|zone|los|hang|settore|zona|lotto|tratto|versante)\b",
-    re.IGNORECASE,
-)
+_NOTE_WORDS = 4  # of a single text, which begins no line
 _LINE_OVER_SUM = 4  # numbers of a line, at least, for each of a sum
-_WIDE = 3  # columns of a merged cell that heads a part of a table
+
+
+@cache
+def _load_words(kind: str) -> re.Pattern[str]:
+    """Words with which a line begins that holds no data: ``part``, ``total``."""
+    words = map(re.escape, load_file("heading_words")["lines"][kind])
+    return re.compile(rf"({'|'.join(words)})\b", re.IGNORECASE)
 
 
 def find_data_rows(table: Table, findings: list[Finding]) -> tuple[int, ...]:
-    """Rows of a table that hold data.
+    """Rows of a table that hold data; every other filled line is a note.
 
     Parameters
     ----------
     table : Table
         The sheet with its headings.
     findings : list of Finding
-        Appended to: every filled line that is not read.
+        Appended to.
 
     Returns
     -------
     tuple of int
         Ascending numbers of rows.
     """
-    sheet, plan, first_row = table.sheet, table.plan, table.first_data_row
-    # no line of a table of items may be taken for a note: its value would be lost
-    width = 0 if plan.items else len(table.columns)
-    filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
-    while filled and _is_note(sheet.row(filled[-1]), width):
-        cell = sheet.row(filled.pop())[0]
-        findings.append(cell.finding(say("table.note_below"), severity="note"))
-    passed = {
-        row: rule for row in filled if (rule := _find_skip_rule(table, row, filled))
-    }
-    for row, rule in passed.items():
-        cell = sheet.row(row)[0]
-        findings.append(cell.finding(rule, severity="note"))
-    return tuple(row for row in filled if row not in passed)
+    sheet, rows = table.sheet, []
+    for row in (row for row in sorted(sheet.rows) if row >= table.first_data_row):
+        cells = sheet.row(row)
+        rule = _find_skip_rule(table, cells) if cells else None
+        if rule:
+            findings.append(cells[0].finding(rule, severity="note"))
+        elif cells:
+            rows.append(row)
+    return tuple(rows)
 
 
-def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
-    """A row holds a note: a single text of so many words that it begins no line.
-
-    A text that another delimiter would cut into a line of the table of ``width``
-    columns is that line; without a width only a text marked as a note is one.
-    """
-    if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
-        return False
-    text = cells[0].value.strip()
-    if _MARKED_NOTE.match(text):
-        return True
-    parts = 1 + max(text.count(mark) for mark in _CUTS)
-    if not width or (parts > 1 and 2 * parts >= width):
-        return False
-    return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
-
-
-def _find_skip_rule(table: Table, row: int, rows: list[int]) -> Message | None:
+def _find_skip_rule(table: Table, cells: tuple[Cell, ...]) -> Message | None:
     """Reason why a line holds no data; None of a line of the table."""
-    cells = table.sheet.row(row)
-    if _repeats_headings(table, cells):
-        return say("table.headings_again")
-    if _is_part(table.sheet, table.plan, cells, rows):
-        return say("table.part")
-    if _is_total(table, row):
+    if not isinstance(cells[0].value, str) or cells[0].formula:
+        return None
+    text = cells[0].value.strip()
+    if len(cells) == 1 and _is_note(table, text):
+        return say("table.note")
+    numbers = {column.number for column in table.columns.values()}
+    filled = sum(cell.column in numbers for cell in cells)
+    is_short = _LINE_OVER_SUM * (filled - 1) <= len(table.columns)
+    if is_short and _load_words("total").match(text):
         return say("table.total")
-    return None
+    headings = {title.cell.column: normalise(title.cell.text) for title in table.titles}
+    is_again = all(headings.get(x.column) == normalise(x.text) for x in cells)
+    return say("table.headings_again") if is_again and len(cells) > 1 else None
 
 
-def _repeats_headings(table: Table, cells: tuple[Cell, ...]) -> bool:
-    above = table.sheet.rows.get(table.heading_row, {})
-    return len(cells) > 1 and all(
-        cell.column in above
-        and normalise(cell.text) == normalise(above[cell.column].text)
-        for cell in cells
-    )
+def _is_note(table: Table, text: str) -> bool:
+    """A line of a single text is a note, or the name of a part of the table.
 
-
-def _is_part(
-    sheet: Sheet, plan: SheetPlan, cells: tuple[Cell, ...], rows: list[int]
-) -> bool:
-    """A line heads a part of the table: one text, merged wide or named as a part."""
-    if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
+    It has so many words that it begins no line, or begins with a word of a note. No
+    line of items is a note without such a word: its value would be lost.
+    """
+    if text.startswith("*") or _load_words("note").match(text):
+        return True
+    parts = 1 + max(text.count(mark) for mark in _CUTS)  # by another delimiter
+    if table.plan.items or (parts > 1 and 2 * parts >= len(table.columns)):
         return False
-    cell, text = cells[0], cells[0].value.strip()
-    if find_item(text, plan.items):
-        return False
-    merged = sheet.find_merged(cell.row, cell.column)
-    size = merged.size if merged else {"rows": 1, "columns": 1}
-    is_merged = size["rows"] == 1 and size["columns"] >= _WIDE
-    if is_merged or plan.items:
-        return is_merged
-    match = _SECTION.match(text)
-    if match is None:
-        return False
-    word = match[0].casefold()  # perhaps that of the ids of this table
-    lines = (sheet.row(row) for row in rows)
-    return not any(
-        len(line) > 1 and str(line[0].value).casefold().startswith(word)
-        for line in lines
-    )
-
-
-def _is_total(table: Table, row: int) -> bool:
-    """A line sums up others: named so, with a quarter of what a line holds at most."""
-    first = table.sheet.row(row)[0]
-    if not isinstance(first.value, str) or not _TOTAL.match(first.value.strip()):
-        return False
-    columns = [column.number for column in table.columns.values()]
-    filled = sum(not table.sheet.cell(row, column).is_blank for column in columns)
-    return _LINE_OVER_SUM * (filled - 1) <= len(columns)
+    return bool(_load_words("part").match(text)) or len(text.split()) >= _NOTE_WORDS

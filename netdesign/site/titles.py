@@ -19,6 +19,7 @@ from netdesign.site.columns.fields import (
     normalise_unit,
     split_heading,
 )
+from netdesign.site.columns.office import list_choices
 from netdesign.words.message import Message, say
 
 # Least likeness to a missing heading or sheet that makes a name a misspelling of it.
@@ -35,29 +36,36 @@ def name_map(site_file: Path) -> Path:
     return site_file.with_name(f"{site_file.stem}.map.toml")
 
 
-def find_heading_unit(cell: Cell) -> str:
-    """Unit in the brackets of a heading; empty where there is none."""
-    return split_heading(str(cell.value))[1]
+_IN_BRACKETS = re.compile(r"[\[(](.*)[\])]")
+
+
+def find_heading_unit(cell: Cell) -> tuple[str, str]:
+    """Unit in the brackets of a heading, and what it measures; empty without them."""
+    return _split_measure(split_heading(str(cell.value))[1])
+
+
+def read_unit(cell: Cell) -> tuple[str, str]:
+    """Unit in a cell of its own, and what it measures: "m" and "vertical"."""
+    text = str(cell.value).strip()
+    bracketed = _IN_BRACKETS.fullmatch(text)
+    return _split_measure(normalise_unit(bracketed[1] if bracketed else text))
+
+
+def _split_measure(unit: str) -> tuple[str, str]:
+    return list_choices().get(normalise(unit), (unit, ""))
 
 
 def is_unit(cell: Cell, field: Field) -> bool:
     """A cell holds a unit; a 1 is a unit only where the field may have none."""
-    unit, in_brackets = read_unit(cell)
+    unit, _ = read_unit(cell)
     is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
-    return in_brackets or is_known
+    return is_known or _IN_BRACKETS.fullmatch(str(cell.value).strip()) is not None
 
 
 def is_number(cell: Cell, field: Field) -> bool:
     """A cell holds a number, and no unit."""
     number = parse_number(cell.value, cell.decimal_mark)
     return not isinstance(number, Refusal) and not is_unit(cell, field)
-
-
-def read_unit(cell: Cell) -> tuple[str, bool]:
-    """Read a unit in a cell of its own, and whether it stands in brackets."""
-    text = str(cell.value).strip()
-    bracketed = re.fullmatch(r"[\[(](.*)[\])]", text)
-    return normalise_unit(bracketed[1] if bracketed else text), bracketed is not None
 
 
 def find_own_unit(cells: list[Cell], field: Field) -> str:

@@ -34,32 +34,6 @@ def test_an_unknown_unit_does_not_spoil_its_row(book, seed):
     assert (finding.text, finding.cell[1:]) == (word, "2")
 
 
-def test_a_missing_sheet_is_one_finding_with_the_ids_that_need_it(book):
-    lines = book["Rows"][1:]
-    book["Rows"] += [[f"R{k}", *lines[0][1:]] for k in range(3, 15)]
-    del book["Anchors"]
-    (finding,) = book.refuse()
-    assert (finding.sheet, finding.cell) == ("", "")
-    assert str(finding.rule).startswith('lacks the sheet "Anchors": ')
-    assert "Rows!H2" in str(finding.accepted)
-
-
-@pytest.mark.parametrize(
-    ("spoil", "rule"),
-    [
-        (lambda _: [["some", "words"]], "has no row of headings"),
-        (
-            lambda sheet: [["what", *sheet[0][1:]], *sheet[1:]],
-            'lacks the heading "anchor type"',
-        ),
-    ],
-)
-def test_ids_of_a_sheet_that_cannot_be_read_are_not_told_one_by_one(book, spoil, rule):
-    book["Anchors"] = spoil(book["Anchors"])
-    findings = [one for one in book.refuse() if one.severity == "error"]
-    assert [str(one.rule) for one in findings] == [rule]
-
-
 @pytest.mark.parametrize("seed", [4, 7, 11])
 def test_a_refused_number_is_told_alone(seed):
     """Beside it nothing is asked for, and no column of its line counts as empty."""

@@ -70,14 +70,12 @@ def test_unknown_columns_sheets_and_hidden_rows_are_noted(book):
 
     def hide(workbook):
         workbook["Rows"].row_dimensions[3].hidden = True
-        workbook["Anchors"].sheet_state = "hidden"
 
     notes = "\n".join(map(str, book.read(hide).notes))
     assert 'Rows › K1: "remark" is no known heading' in notes
     assert 'Rows › L2: "7" has no heading above it' in notes
     assert "Letters: the sheet has no part in the check" in notes
     assert 'Rows › A3: "R2" is in a hidden row' in notes
-    assert "Anchors: the sheet is hidden" in notes
 
 
 # What is refused: one fault, one finding
@@ -248,18 +246,6 @@ def test_merged_cells_are_refused_below_the_headings_only(book):
 def test_a_line_that_may_be_a_net_row_is_never_passed_over(book, line):
     book["Rows"].insert(2, line)
     assert {one.cell[1:] for one in book.refuse()} == {"3"}
-
-
-def test_net_rows_on_a_sheet_of_another_name_are_refused_until_it_is_hidden(book):
-    """Half a site must not vanish."""
-    book["Rows north"] = [list(line) for line in book["Rows"]]
-    (finding,) = book.refuse()
-    assert (finding.sheet, finding.rule.key) == ("Rows north", "table.net_rows")
-
-    def hide(workbook):
-        workbook["Rows north"].sheet_state = "hidden"
-
-    assert len(book.read(hide).rows) == 2
 
 
 # Ranges in cells

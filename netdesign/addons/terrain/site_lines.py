@@ -79,7 +79,7 @@ def read_typed_sheets(path: Path) -> TypedSheets:
     tables = {
         table: [_show_line(table, line) for line in lines[table]] for table in _TAKEN
     }
-    measure = office.measures.get(("net_types", "slack")) or "slack"
+    measure = office.find_measure("net_types", "slack") or "slack"
     return TypedSheets(tables=tables, measure=measure)
 
 

@@ -11,7 +11,7 @@ import zipfile
 import zlib
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import TYPE_CHECKING
 
@@ -63,7 +63,6 @@ class Cell:
     formula: str = ""
     is_error: bool = False
     is_percent: bool = False  # the cell's format shows hundredfold
-    is_thousandth: bool = False  # the cell's format shows a thousandth
     shown_unit: str = ""  # what the cell's format shows beside the number
     decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
     doubt: Message | None = None  # about what it holds: struck out, a stale result
@@ -97,6 +96,11 @@ class Cell:
             return split_unit(self.value)[1]
         return "%" if self.is_percent else self.shown_unit
 
+    def retype(self, value: object) -> Cell:
+        """Cell as if another value were typed there, without its display format."""
+        plain = replace(self, is_error=False, is_percent=False, shown_unit="")
+        return replace(plain, value=value, formula="")
+
     def finding(
         self,
         rule: Message,
@@ -127,11 +131,7 @@ class Sheet:
     rows: Mapping[int, Mapping[int, Cell]]
     merged: tuple[CellRange, ...] = ()
     hidden_rows: frozenset[int] = frozenset()
-    hidden_columns: frozenset[int] = frozenset()
-    is_hidden: bool = False
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
-    words: Mapping[str, str] = field(default_factory=dict)  # answers, by text
-    answered_in: str = ""  # the file of the answers
 
     def cell(self, row: int, column: int) -> Cell:
         """Cell at a place, blank where nothing is filled in."""
@@ -147,11 +147,6 @@ class Sheet:
         """Cells of one row that hold more than spaces, from left to right."""
         cells = self.rows.get(number, {}).values()
         return tuple(cell for cell in cells if not cell.is_blank)
-
-    def find_merged(self, row: int, column: int) -> CellRange | None:
-        """Merged range that a cell belongs to, if there is one."""
-        place = f"{name_column(column)}{row}"
-        return next((cells for cells in self.merged if place in cells), None)
 
     def finding(
         self,
@@ -178,7 +173,6 @@ class Workbook:
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...] = ()
     sha256: str = ""
-    hidden: frozenset[str] = frozenset()  # unread sheets that are hidden
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
     is_by_hand: bool = False  # formulas are calculated only on request
 
@@ -267,7 +261,6 @@ MAX_ENTRIES = 500
 # Elements and attributes of all parts: each costs a parser hundreds of bytes, so the
 # size of a part does not bound its memory. 1000 filled rows of 30 columns have 250,000.
 MAX_MARKS = 300_000
-MAX_RATIO = 200.0
 MAX_ROWS = 2000
 # Of more the study is larger than `report` and `verify` read (``edge/json_text.py``).
 MAX_NET_ROWS = 1000
@@ -293,7 +286,6 @@ DAMAGE = (
     zlib.error,
 )
 
-_RATIO_COUNTS_ABOVE = 2**20  # small parts may be as regular as they like
 _CHUNK = 2**16
 
 
@@ -353,8 +345,6 @@ def _expand(
             marks += chunk.count(b"<") + chunk.count(b"=")
             if size > allowed:
                 raise _refuse_expansion(file)
-    if size > _RATIO_COUNTS_ABOVE and size > MAX_RATIO * entry.compress_size:
-        raise _refuse_expansion(file)
     return size, marks
 
 
@@ -365,7 +355,6 @@ def _refuse_expansion(file: str) -> SiteDataError:
         say(
             "book.expansion_limits",
             size=MAX_EXPANDED_BYTES / 2**20,
-            ratio=MAX_RATIO,
             marks=MAX_MARKS,
         ),
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import math
 import operator
 import re
 import unicodedata
@@ -127,8 +126,6 @@ _PIECE = re.compile(
     r"|[_*].|\[[^\]]*\]|(?P<digits>General|E[+-]|[0-9#?.,/@])",
     re.DOTALL,
 )
-_SECTION = re.compile(r'(?:"[^"]*"|\\.|\[[^\]]*\]|[^;"\\\[]|.)*?(?:;|$)', re.DOTALL)
-_THOUSANDS = re.compile(r"[0#?],+(?![0#?,])")  # a comma behind the digits divides
 _NUMBER = re.compile(r"\d[\d.,'’\s\u00a0\u202f/]*(?:E[+-]?\d+)?")
 _BLANKS = " \u00a0\u202f[]()+-.,"
 _UNIT_SIGNS = "%°'′″"
@@ -139,38 +136,13 @@ def show_percent(number_format: str) -> bool:
     return "%" in _keep_signs(number_format)
 
 
-def show_thousands(number_format: str) -> bool:
-    """Whether a format divides by 1000, as a comma behind the digits does."""
-    return bool(_THOUSANDS.search(_keep_signs(number_format)))
+def find_format_unit(number_format: str) -> str:
+    """Unit, currency or other word that a format of xlsx shows behind a number.
 
-
-def find_format_unit(number_format: str, value: float) -> str:
-    """Unit, currency or other word that a format of xlsx shows beside a number.
-
-    Parameters
-    ----------
-    number_format : str
-        As the file has it: ``0.0" m"``, ``#,##0\\ [$€-407];...``.
-    value : float
-        Its sign chooses among the sections of the format.
-
-    Returns
-    -------
-    str
-        As it is shown; empty where there is none.
-
-    >>> find_format_unit('0.0" m"', 3.5)
+    >>> find_format_unit('0.0" m"')
     'm'
     """
-    return find_text_unit(_PIECE.sub(_show, _choose_section(number_format, value)))
-
-
-def find_text_unit(shown: str) -> str:
-    """Unit or word that stands behind a number as it is shown, or its currency.
-
-    >>> find_text_unit("3,50 m")
-    'm'
-    """
+    shown = _PIECE.sub(_show, number_format.partition(";")[0])
     number = _NUMBER.search(shown)
     if number is None:
         return ""
@@ -191,14 +163,6 @@ def _show(piece: re.Match[str]) -> str:
 def _keep_signs(number_format: str) -> str:
     """Signs of a format that control how digits are shown, without its texts."""
     return _PIECE.sub(lambda piece: piece["digits"] or " ", number_format)
-
-
-def _choose_section(number_format: str, value: float) -> str:
-    """Section of a format for a positive, negative or zero number, else its first."""
-    matches = _SECTION.finditer(number_format)
-    sections = [match[0].removesuffix(";") for match in matches if match[0]] or [""]
-    place = 0 if value > 0 else 1 if value < 0 else 2
-    return sections[place] if place < min(len(sections), 3) else sections[0]
 
 
 _TYPED = r"[+-]?(?:[\d.,'’\s\u00a0\u202f\u2009]*\d)"

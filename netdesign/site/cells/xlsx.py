@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from netdesign.outcome import ContentError, NetDesignError
 from netdesign.site.cells.cells import (
-    MAX_COLUMNS,
     MAX_ROWS,
     Cell,
     Sheet,
@@ -29,7 +28,6 @@ from netdesign.site.cells.numbers import (
     DecimalMark,
     find_format_unit,
     show_percent,
-    show_thousands,
 )
 from netdesign.words.message import say
 
@@ -110,9 +108,6 @@ def read_xlsx(
         unread=tuple(
             stored.title for stored in worksheets if not is_wanted(stored.title)
         ),
-        hidden=frozenset(
-            stored.title for stored in worksheets if stored.sheet_state != "visible"
-        ),
         is_by_hand=reader.wb.calculation.calcMode == "manual",
     )
 
@@ -146,8 +141,6 @@ def _read_sheet(
         rows=group_by_row(cells.values()),
         merged=tuple(layout.merged),
         hidden_rows=frozenset(layout.hidden_rows),
-        hidden_columns=frozenset(layout.hidden_columns),
-        is_hidden=stored.sheet_state != "visible",
     )
 
 
@@ -164,8 +157,7 @@ def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) ->
         formula=formula,
         is_error=cell.data_type == "e",
         is_percent=show_percent(shown),
-        is_thousandth=show_thousands(shown),
-        shown_unit=find_format_unit(shown, cell.value) if shown else "",
+        shown_unit=find_format_unit(shown),
         decimal_mark=decimal_mark,
         doubt=_STRUCK if _is_struck(cell) else None,
     )
@@ -181,7 +173,6 @@ class _Layout:
     last_row: int = 0
     merged: list[CellRange] = field(default_factory=list)
     hidden_rows: set[int] = field(default_factory=set)
-    hidden_columns: set[int] = field(default_factory=set)
     formulas: dict[tuple[int, int], str] = field(default_factory=dict)
 
 
@@ -194,7 +185,7 @@ def _is_struck(cell: Any) -> bool:
 
 
 def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
-    """Last filled row, merged ranges, hidden rows and columns, formulas of a sheet.
+    """Last filled row, merged ranges, hidden rows, formulas of a sheet.
 
     openpyxl gives merged ranges only in its other mode, which makes an object
     of every merged cell: a few bytes of XML would exhaust the memory.
@@ -210,9 +201,6 @@ def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
             tag = element.tag.rpartition("}")[2]
             if tag == "mergeCell":
                 layout.merged.append(CellRange(element.get("ref", "")))
-            elif tag == "col" and _is_true(element.get("hidden")):
-                first, last = int(element.get("min", 1)), int(element.get("max", 1))
-                layout.hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
             elif tag == "row":
                 row = _follow_row(element, row)
                 layout.formulas |= _list_formulas(element, row, shared)

@@ -25,7 +25,6 @@ from netdesign.site.cells.cells import (
 from netdesign.site.cells.findings import refuse_file
 from netdesign.site.columns.all_tables import (
     IGNORE,
-    SHEETS,
     UNANSWERED,
     has_no_part,
     is_allowable,
@@ -38,7 +37,6 @@ from netdesign.site.lists.join import (
     find_list_unit,
     find_units,
     list_below,
-    list_lacking,
     name_headings,
 )
 from netdesign.site.lists.list_map import (
@@ -145,25 +143,10 @@ def write_list_map(
 
 
 def is_own_list(path: Path, text_format: TextFormat) -> bool:
-    """A workbook is an office's own: it lacks sheets or most headings of a template."""
+    """A workbook is an office's own: it lacks sheet Rows or Net types."""
     sheets = read_list(path, text_format).sheets
-    for plan in map(load_plan, ("rows", "net_types")):
-        if not any(plan.matches(sheet.name) for sheet in sheets):
-            return True
-    cells = (cell for sheet in sheets for cell in sheet.row(find_heading_line(sheet)))
-    names = [split_heading(str(cell.value))[0] for cell in cells]
-    count = sum(name in _list_template_names() for name in names)
-    return 2 * count < len(names)
-
-
-def _list_template_names() -> frozenset[str]:
-    return frozenset(
-        normalise(names[0])
-        for plan in (*SHEETS, *map(load_plan, GROUPS))
-        for field in plan.fields
-        for names in field.headings.values()
-        if names
-    )
+    plans = map(load_plan, ("rows", "net_types"))
+    return not all(any(plan.matches(sheet.name) for sheet in sheets) for plan in plans)
 
 
 def find_heading_line(sheet: Sheet) -> int:
@@ -230,12 +213,6 @@ def _write_table(
             shown = f"  # {comment}" if comment else ""
             lines.append(f"{_quote(key)} = {_quote(answer)}{shown}")
             missing += is_unanswered(answer)
-    answers = (read_answer(heading.answer, table.becomes) for heading in guesses)
-    targets = [answer.target for answer in answers]
-    own = {target.place for target in targets if target is not None}
-    for target in list_lacking(table.becomes, own):
-        about = render(say("list_map.lacks", column=target.label(language)), language)
-        lines.append(f"# {about}")
     return [*lines, ""], missing
 
 

@@ -1,8 +1,8 @@
-"""Joins sheets of a list to those of the input workbook; cells keep their places."""
+"""Joins sheets of a list to tables of the input workbook; cells keep their places."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
@@ -13,9 +13,18 @@ from netdesign.site.columns.fields import (
     normalise,
     split_heading,
 )
-from netdesign.site.columns.office import load_columns, load_plan
+from netdesign.site.columns.office import TABLES, load_plan
+from netdesign.site.headings import (
+    Column,
+    Table,
+    Title,
+    find_columns,
+    is_numbering,
+)
 from netdesign.site.lists.list_map import ListMap, ListTable
-from netdesign.site.lists.targets import GROUPS, Target, list_targets, read_answer
+from netdesign.site.lists.targets import GROUPS, Target, read_answer
+from netdesign.site.office.sheets import OfficeTables, read_tables
+from netdesign.site.tables import complete_table, inspect_layout, judge_missing
 from netdesign.site.titles import (
     find_heading_unit,
     is_unit,
@@ -25,9 +34,11 @@ from netdesign.site.titles import (
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
-
-# Columns of a built sheet by number: heading, and cells by line of the list.
-Columns = dict[int, tuple[str, Mapping[int, Cell]]]
+_ANCHOR_COLUMNS = {
+    key: Column(number=number, unit="")
+    for number, key in enumerate(("id", "kind", "ground"), 1)
+}
+_NEEDED = ("rows", "net_types")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +48,7 @@ class MappedSheet:
     Attributes
     ----------
     sheet : Sheet
-        As read.
+        Cells of the columns that are read, also of those that every line has alike.
     table : ListTable
         What becomes of it.
     columns : mapping of int to tuple of Target and str
@@ -67,8 +78,8 @@ class MappedSheet:
 
 def join_list(
     workbook: Workbook, answers: ListMap, findings: list[Finding]
-) -> Workbook:
-    """Build the input workbook from an office's list.
+) -> tuple[Workbook, OfficeTables]:
+    """Tables of the input workbook from an office's list, and the list without these.
 
     Every cell keeps its place in the list. Rows whose net is the same by all its
     columns share a net type. Anchor types that only the rows name get a line each.
@@ -80,7 +91,8 @@ def join_list(
     answers : ListMap
         Answers to all headings of the list.
     findings : list of Finding
-        Appended to: answers that do not fit the list.
+        Appended to: answers that do not fit the list, and what is wrong with its
+        tables.
     """
     sheets = {sheet.name: sheet for sheet in workbook.sheets}
     mapped: list[MappedSheet] = []
@@ -90,25 +102,59 @@ def join_list(
             findings.append(Finding(file=answers.file, sheet=name, rule=rule))
         elif table.becomes:
             mapped.append(map_sheet(sheets[name], table, answers.file, findings))
-    built = [
-        _make_sheet(source, table)
-        for source in mapped
-        for table in GROUPS[source.table.becomes]
-    ]
-    if not any(source.table.becomes == "anchor_types" for source in mapped):
-        built += map(_name_anchors, mapped)
+    tables: dict[str, Table | None] = dict.fromkeys(TABLES)
+    for source in mapped:
+        for name, made in _make_tables(source, findings).items():
+            if first := tables[name]:
+                title, of_first = load_plan(name).title, first.sheet.name
+                rule = say("table.second_sheet", name=title, first=of_first)
+                findings.append(made.sheet.finding(rule))
+            tables[name] = first or made
+    if tables["anchor_types"] is None:
+        tables["anchor_types"] = _name_anchors(mapped)
     read = {source.sheet.name for source in mapped}
-    return replace(
-        workbook,
-        sheets=tuple(filter(None, built)),
-        unread=tuple(name for name in sheets if name not in read),
-    )
+    unread = tuple(name for name in sheets if name not in read)
+    rest = replace(workbook, sheets=(), unread=unread)
+    for name in _NEEDED:
+        if tables[name] is None:
+            findings.extend(judge_missing(rest, load_plan(name)))
+    return rest, read_tables(tables, findings)
 
 
 def map_sheet(
     sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
 ) -> MappedSheet:
     """Columns of a sheet by its answers; a heading without an answer is a finding."""
+    head = table.headings_in_line
+    units = find_units(sheet, head)
+    columns = _find_targets(sheet, table, file, findings)
+    lines = list_below(sheet, head)[1 if units else 0 :]
+    if lines and is_numbering(sheet.row(lines[0])):
+        lines = lines[1:]
+    rows = {
+        line: {n: cell for n, cell in sheet.rows.get(line, {}).items() if n in columns}
+        for line in (head, *lines)
+    }
+    for number, (name, text) in enumerate(table.always.items(), _find_last(sheet) + 1):
+        target = read_answer(name, table.becomes).target
+        if target is not None:
+            columns[number] = target, target.field.unit
+            for line in lines:
+                rows[line][number] = replace(sheet.cell(line, number), value=text)
+    merged = tuple(cells for cells in sheet.merged if cells.min_row > head)
+    return MappedSheet(
+        sheet=replace(sheet, rows=rows, merged=merged),
+        table=table,
+        columns=columns,
+        lines=tuple(lines),
+        file=file,
+    )
+
+
+def _find_targets(
+    sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
+) -> dict[int, tuple[Target, str]]:
+    """What the columns of a sheet become, with the unit of their numbers."""
     units = find_units(sheet, table.headings_in_line)
     asked = {normalise(heading): heading for heading in table.headings}
     columns: dict[int, tuple[Target, str]] = {}
@@ -131,10 +177,13 @@ def map_sheet(
     for heading in asked.values():
         rule = say("list_map.no_heading", heading=quote(heading))
         findings.append(sheet.finding(rule, say("list_map.again")))
-    lines = list_below(sheet, table.headings_in_line)[1 if units else 0 :]
-    return MappedSheet(
-        sheet=sheet, table=table, columns=columns, lines=tuple(lines), file=file
-    )
+    return columns
+
+
+def _find_last(sheet: Sheet) -> int:
+    """Number of the last column that holds something."""
+    widths = (max(row, default=0) for row in sheet.rows.values())
+    return max((*widths, *(cells.max_col for cells in sheet.merged)), default=0)
 
 
 def name_headings(sheet: Sheet, line: int) -> list[tuple[str, Cell]]:
@@ -157,7 +206,7 @@ def list_below(sheet: Sheet, line: int) -> list[int]:
 
 def find_list_unit(cell: Cell, units: Mapping[int, str]) -> str:
     """Unit that a list gives for a column; empty without a known unit."""
-    unit = find_heading_unit(cell) or units.get(cell.column, "")
+    unit = find_heading_unit(cell)[0] or units.get(cell.column, "")
     return unit if unit in KNOWN_UNITS else ""
 
 
@@ -171,65 +220,71 @@ def find_units(sheet: Sheet, line: int) -> Mapping[int, str]:
     return {cell.column: read_unit(cell)[0] for cell in cells}
 
 
-def _make_sheet(mapped: MappedSheet, table: str) -> Sheet | None:
-    """Sheet of the input workbook that a sheet of a list makes."""
-    columns: Columns = {
-        number: (target.heading(unit), mapped.cells(number))
+def _make_tables(mapped: MappedSheet, findings: list[Finding]) -> dict[str, Table]:
+    """Tables of the input workbook that a sheet of a list makes."""
+    if mapped.table.becomes != "rows":
+        (name,) = GROUPS[mapped.table.becomes]
+        titles = _list_titles(mapped, name)
+        return {name: complete_table(_make_table(mapped, name, titles), findings)}
+    own = mapped.find("rows", "net_type")
+    number = own or _find_last(mapped.sheet) + 1
+    rows = {line: dict(cells) for line, cells in mapped.sheet.rows.items()}
+    for line, cell in _name_nets(mapped, own).items():
+        rows[line][number] = cell
+    mapped = replace(mapped, sheet=replace(mapped.sheet, rows=rows))
+    heading = mapped.sheet.cell(mapped.table.headings_in_line, number)
+    titles = [*_list_titles(mapped, "rows")]
+    if not own:
+        titles.append(Title(heading, _find_field("rows", "net_type")))
+    tables = {"rows": complete_table(_make_table(mapped, "rows", titles), findings)}
+    of_net = _list_titles(mapped, "net_types")
+    if of_net:
+        titles = [*of_net, Title(heading, _find_field("net_types", "id"))]
+        nets = _make_table(mapped, "net_types", titles)
+        nets = replace(nets, columns=find_columns(nets, findings))
+        lines = _list_different(nets, tables["rows"].rows)
+        tables["net_types"] = replace(nets, rows=lines)
+        inspect_layout(tables["net_types"], findings)
+    return tables
+
+
+def _find_field(table: str, key: str) -> Field:
+    return next(field for field in load_plan(table).fields if field.key == key)
+
+
+def _list_titles(mapped: MappedSheet, table: str) -> list[Title]:
+    """Headings of a sheet that become columns of a table."""
+    head = mapped.table.headings_in_line
+    return [
+        Title(
+            cell=mapped.sheet.cell(head, number),
+            field=_find_field(table, target.key),
+            unit=target.unit(unit),
+            measure=target.measure,
+        )
         for number, (target, unit) in mapped.columns.items()
         if target.table == table
-    }
-    if table == "net_types" and mapped.table.becomes == "rows" and not columns:
-        return None
-    widths = [max(row, default=0) for row in mapped.sheet.rows.values()]
-    last = max((*widths, *(cells.max_col for cells in mapped.sheet.merged)), default=0)
-    for number, (name, text) in enumerate(mapped.table.always.items(), last + 1):
-        target = read_answer(name, mapped.table.becomes).target
-        if target is not None and target.table == table:
-            cells = mapped.cells(number).items()
-            filled = {line: replace(cell, value=text) for line, cell in cells}
-            columns[number] = target.heading(target.field.unit), filled
-    lines: Sequence[int] = mapped.lines
-    if mapped.table.becomes == "rows":
-        key = "net_type" if table == "rows" else "id"
-        own = mapped.find(table, key)
-        names = _name_nets(mapped)
-        behind = last + len(mapped.table.always) + 1
-        columns[own or behind] = _name_column(table, key), names
-        lines = lines if table == "rows" else _list_different(columns, names)
-    return _build(mapped, table, columns, lines)
+    ]
 
 
-def _name_column(table: str, key: str) -> str:
-    fields = load_plan(table).fields
-    return next(field.label_in("en") for field in fields if field.key == key)
-
-
-def _build(
-    mapped: MappedSheet, table: str, columns: Columns, lines: Collection[int]
-) -> Sheet:
-    """Sheet with headings of the input workbook, in the list's line."""
+def _make_table(mapped: MappedSheet, table: str, titles: Sequence[Title]) -> Table:
+    """Table of a sheet, without its columns and lines."""
     head = mapped.table.headings_in_line
-    headings = {
-        number: replace(mapped.sheet.cell(head, number), value=heading)
-        for number, (heading, _) in columns.items()
-    }
-    below = {
-        line: {n: cells[line] for n, (_, cells) in columns.items() if line in cells}
-        for line in lines
-    }
-    return replace(
-        mapped.sheet,
-        name=load_plan(table).name_in("en"),
-        rows={head: headings, **below},
-        merged=tuple(cells for cells in mapped.sheet.merged if cells.min_row > head),
+    return Table(
+        sheet=mapped.sheet,
+        plan=load_plan(table),
+        titles=titles,
+        heading_row=head,
+        first_data_row=min(mapped.lines, default=head + 1),
+        columns={},
         words=mapped.table.words,
         answered_in=mapped.file,
     )
 
 
-def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
+def _name_nets(mapped: MappedSheet, own: int | None) -> dict[int, Cell]:
     """Name of the net of each line: as typed, or made of the height of the net."""
-    own, slope = (mapped.find("rows", key) for key in ("net_type", "slope_angle"))
+    slope = mapped.find("rows", "slope_angle")
     typed = mapped.cells(own) if own else {}
     names = {line: cell for line, cell in typed.items() if not cell.is_blank}
     height = mapped.find("net_types", "net_height")
@@ -241,66 +296,40 @@ def _name_nets(mapped: MappedSheet) -> dict[int, Cell]:
         values = tuple(mapped.sheet.cell(line, n).text.strip() for n in nets)
         # a line of sums and an empty line have no net whose height could be missing
         is_sum = not slope or mapped.sheet.cell(line, slope).is_blank
-        if line in names:
-            continue
-        if cell.is_blank and is_sum:
-            names[line] = cell
+        if line in names or (cell.is_blank and is_sum):
             continue
         name = name_net_type(cell.text.strip(), values, named)
         names[line] = replace(cell, value=name, formula="")
     return names
 
 
-def _list_different(columns: Columns, names: Mapping[int, Cell]) -> list[int]:
+def _list_different(nets: Table, lines: Sequence[int]) -> tuple[int, ...]:
     """First line of each net, of the lines with equal cells of the net."""
     first: dict[tuple[str, ...], int] = {}
-    for line in sorted(names):
-        if not names[line].is_blank:
-            cells = (cells[line] for _, cells in columns.values())
+    for line in lines:
+        cells = [nets.sheet.cell(line, x.number) for x in nets.columns.values()]
+        if not nets.sheet.cell(line, nets.columns["id"].number).is_blank:
             first.setdefault(tuple(cell.text.strip() for cell in cells), line)
-    return list(first.values())
+    return tuple(first.values())
 
 
-def _name_anchors(mapped: MappedSheet) -> Sheet | None:
-    """Sheet of the anchor types that the rows name; None where they name none."""
-    numbers = [number for key in _ANCHORS if (number := mapped.find("rows", key))]
-    cells = (mapped.sheet.cell(line, n) for line in mapped.lines for n in numbers)
+def _name_anchors(mapped: Sequence[MappedSheet]) -> Table | None:
+    """Anchor types that the rows name; None where they name none."""
     first: dict[str, Cell] = {}
-    for cell in cells:
-        if not cell.is_blank:
-            first.setdefault(" ".join(cell.text.split()).casefold(), cell)
+    for source in mapped:
+        numbers = [n for key in _ANCHORS if (n := source.find("rows", key))]
+        for cell in (source.sheet.cell(y, n) for y in source.lines for n in numbers):
+            if not cell.is_blank:
+                first.setdefault(" ".join(cell.text.split()).casefold(), cell)
     if not first:
         return None
-    columns: Columns = {
-        number: (_name_column("anchor_types", key), {})
-        for number, key in enumerate(("id", "kind", "ground"), 1)
-    }
-    sheet = _build(mapped, "anchor_types", columns, ())
-    head = mapped.table.headings_in_line
-    below = {n: {1: cell} for n, cell in enumerate(first.values(), head + 1)}
-    return replace(sheet, rows={**sheet.rows, **below}, merged=())
-
-
-def list_lacking(becomes: str, own: Collection[tuple[str, str]]) -> list[Target]:
-    """Columns that the input workbook needs, and that a sheet lacks.
-
-    Parameters
-    ----------
-    becomes : str
-        Table that the sheet becomes.
-    own : collection of tuple of str
-        Table and key of the columns that it has.
-    """
-    needed = {
-        (table, column.field.key)
-        for table in GROUPS[becomes]
-        for column in load_columns(table)
-        if column.need == "yes"
-    }
-    if ("net_types", "net_height") in own:
-        needed.discard(("rows", "net_type"))
-    elif ("rows", "net_type") in own:
-        needed.discard(("net_types", "net_height"))
-    lacking = needed.difference(own)
-    targets = {target.place: target for target in reversed(list_targets(becomes))}
-    return [target for name, target in reversed(targets.items()) if name in lacking]
+    plan = load_plan("anchor_types")
+    rows = {number: {1: cell} for number, cell in enumerate(first.values(), 1)}
+    return Table(
+        sheet=Sheet(
+            file=next(iter(first.values())).file, name=plan.name_in("en"), rows=rows
+        ),
+        plan=plan,
+        columns=_ANCHOR_COLUMNS,
+        rows=tuple(rows),
+    )

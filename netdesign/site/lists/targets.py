@@ -82,6 +82,12 @@ class Target:
         """Whether a unit, or its absence, fits the numbers of the column."""
         return not unit or unit in (self.field.units or ("-",))
 
+    def unit(self, typed: str) -> str:
+        """Unit of the numbers, that of the measure where a list has none."""
+        return typed or (
+            self.measure_in("en").partition(" ")[0] if self.measure else ""
+        )
+
     def heading(self, unit: str) -> str:
         """Heading of the column in the input workbook."""
         bracket = self.measure_in("en", unit) if self.measure else unit

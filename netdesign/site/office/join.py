@@ -9,7 +9,6 @@ from netdesign.site.cells.cells import Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import FURTHER
 from netdesign.site.columns.office import load_plan
-from netdesign.site.headings import Table
 from netdesign.site.lines import (
     TYPES,
     Lines,
@@ -20,7 +19,7 @@ from netdesign.site.lines import (
 from netdesign.site.office.library import Library, add_lines
 from netdesign.site.office.project import build_project, build_ranges, read_lines
 from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
-from netdesign.site.office.sheets import OfficeTables, find_office_tables
+from netdesign.site.office.sheets import OfficeTables
 from netdesign.site.office.types import (
     complete_anchors,
     join_anchors,
@@ -38,21 +37,24 @@ from netdesign.words.message import say
 
 
 def read_office(
-    workbook: Workbook, findings: list[Finding], library: Library | None = None
+    workbook: Workbook,
+    tables: OfficeTables,
+    findings: list[Finding],
+    library: Library | None = None,
 ) -> Lines:
-    """Read all sheets and join them to lines of a site; faults go to ``findings``.
+    """Join all tables to lines of a site; faults go to ``findings``.
 
     Parameters
     ----------
     workbook : Workbook
         As read.
+    tables : OfficeTables
+        Of the workbook.
     findings : list of Finding
         Appended to.
     library : Library, optional
         Net types and parts of another workbook.
     """
-    elsewhere = ("net_types",) if library else ()
-    tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
     typed = _read_typed(tables, findings)
     by_key = dict(tables.tables)
     if library:
@@ -71,11 +73,11 @@ def read_office(
 def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
     """Lines by table, each number as what its unit cell says that it measures."""
     lines = {key: list(rows) for key, rows in tables.lines.items()}
-    measure = tables.measures.get(("net_types", "slack"), "")
+    measure = tables.find_measure("net_types", "slack")
     lines["net_types"] = [
         measure_slack(net, measure, findings) for net in lines["net_types"]
     ]
-    measure = tables.measures.get(("layers", "thickness"), "")
+    measure = tables.find_measure("layers", "thickness")
     lines["layers"] = measure_layers(lines.get("layers", ()), measure, findings)
     lines["links"] = measure_links(lines["links"])
     return lines
@@ -127,8 +129,6 @@ def _join(
         ends={row["id"].word: end for row, end in zip(rows, ends, strict=True)},
         snow=layers,
         types=types,
-        absent=[key for key in TYPES if not by_key[key] and key not in tables.unread],
-        unreadable=[key for key in TYPES if not _has_ids(by_key[key])],
         ranges=build_ranges(project),
         further={plan.name: find_table(workbook, plan, findings) for plan in FURTHER},
         typed=typed,
@@ -152,10 +152,6 @@ def _join_types(
     }
 
 
-def _has_ids(table: Table | None) -> bool:
-    return table is not None and "id" in table.columns
-
-
 def _join_net_types(
     tables: OfficeTables,
     typed: Mapping[str, Sequence[Row]],
@@ -166,7 +162,7 @@ def _join_net_types(
     nets = _index(typed["net_types"], findings)
     places = {name: net["id"].place for name, net in nets.items()}
     refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
-    measure = tables.measures.get(("rows", "snow"), "")
+    measure = tables.find_measure("rows", "snow")
     return join_rows(typed["rows"], nets, project, measure, findings)
 
 

@@ -16,8 +16,15 @@ from netdesign.site.columns.fields import Field, normalise_unit
 from netdesign.site.columns.office import load_plan
 from netdesign.site.headings import Table
 from netdesign.site.model import InputEcho, Project
-from netdesign.site.readings import Reading, Row, explain_unit, read_nothing, refuse
-from netdesign.site.tables import match_item, read_answered
+from netdesign.site.readings import (
+    Reading,
+    Row,
+    explain_unit,
+    read_cell,
+    read_nothing,
+    refuse,
+)
+from netdesign.site.tables import match_item
 from netdesign.words.message import say
 
 _DOCUMENTS = ("snow_document", "glide_document", "ground_document")
@@ -78,7 +85,7 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
         by_key[field.key] = (
             read_nothing(field, None)
             if cell is None
-            else _read_value(table, cell, field, line["unit"], findings)
+            else _read_value(cell, field, line["unit"], findings)
         )
     items = load_plan("project").items
     return {
@@ -87,14 +94,14 @@ def read_lines(table: Table | None, lines: list[Row], findings: list[Finding]) -
 
 
 def _read_value(
-    table: Table, cell: Cell, field: Field, typed: Reading, findings: list[Finding]
+    cell: Cell, field: Field, typed: Reading, findings: list[Finding]
 ) -> Reading:
     unit = normalise_unit(typed.word.strip(" []()")) if field.units else ""
     unit = unit or field.unit
     if unit not in field.units and field.units:
         refuse(typed, *explain_unit(unit, field), findings)
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
-    return read_answered(table.sheet, cell, field, unit, findings)
+    return read_cell(cell, field, unit, findings)
 
 
 def build_project(lines: Row) -> tuple[Project, Mapping[str, str]]:

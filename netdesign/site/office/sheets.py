@@ -2,44 +2,46 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.site.cells.cells import Cell, Sheet, Workbook
+from netdesign.site.cells.cells import Sheet, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import FURTHER, load_old_plans
-from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.office import (
     PARTS,
     TABLES,
-    list_choices,
-    list_texts,
     load_plan,
 )
 from netdesign.site.headings import Table, find_best_row
 from netdesign.site.readings import Row
 from netdesign.site.tables import find_table, read_rows
-from netdesign.site.titles import list_meant
 
-_FIRST_ROWS = 25  # in which headings and their units stand
-_IN_BRACKETS = re.compile(r"(.*[\[(])([^\[\]()]*)([\])]\s*)", re.DOTALL)
 SHEETS_ALONE = tuple(table for table in TABLES if table not in PARTS)
 _LEAST_OLD = 4  # headings of a sheet Nets
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OfficeTables:
-    """Tables of the workbook by their name in `office.toml`, and their lines.
-
-    ``measures`` has what the unit cell of a column says it measures, by table and key;
-    empty where it says none.
-    """
+    """Tables of the workbook by their name in `office.toml`, and their lines."""
 
     tables: Mapping[str, Table | None]
     lines: Mapping[str, Sequence[Row]]
-    measures: Mapping[tuple[str, str], str]
-    unread: frozenset[str] = frozenset()  # tables whose sheet is there without headings
+
+    def find_measure(self, name: str, key: str) -> str:
+        """What the unit cell of a column says it measures; empty where it says none."""
+        table = self.tables.get(name)
+        column = table.columns.get(key) if table else None
+        return column.measure if column else ""
+
+
+def read_tables(
+    tables: Mapping[str, Table | None], findings: list[Finding]
+) -> OfficeTables:
+    """Tables with their lines, whose faults go to ``findings``."""
+    lines = {name: read_rows(table, findings) for name, table in tables.items()}
+    return OfficeTables(tables=tables, lines=lines)
 
 
 def is_read(name: str) -> bool:
@@ -94,63 +96,17 @@ def find_office_tables(
         Tables that are looked for beside those of sheet Parts, and those that need not
         be there.
     """
-    settled = [_settle_units(sheet) for sheet in workbook.sheets]
-    named = {sheet.name: measures for sheet, measures in settled}
-    plain = replace(workbook, sheets=tuple(sheet for sheet, _ in settled))
     plans = {
         name: replace(load_plan(name), required=False)
         if name in elsewhere
         else load_plan(name)
         for name in alone
     }
-    tables = {name: find_table(plain, plan, findings) for name, plan in plans.items()}
-    tables |= _find_parts(plain, findings)
-    return OfficeTables(
-        tables=tables,
-        unread=frozenset(
-            name
-            for name, plan in plans.items()
-            if not tables[name] and list_meant(plain, plan)
-        ),
-        lines={name: read_rows(table, findings) for name, table in tables.items()},
-        measures={
-            (name, key): named[table.sheet.name].get(column.number, "")
-            for name, table in tables.items()
-            if table
-            for key, column in table.columns.items()
-        },
-    )
-
-
-def _settle_units(sheet: Sheet) -> tuple[Sheet, Mapping[int, str]]:
-    """Sheet whose unit cells hold units alone, and the measures by column."""
-    measures: dict[int, str] = {}
-    rows = dict(sheet.rows)
-    for number in range(1, _FIRST_ROWS + 1):
-        cells = sheet.row(number)
-        label = normalise(str(cells[0].value)) if cells else ""
-        is_units = label in list_texts("unit")
-        changed = {
-            cell.column: plain
-            for cell in cells
-            if (plain := _settle(cell, measures, is_unit=is_units))
-        }
-        if changed:
-            rows[number] = {**rows[number], **changed}
-    return replace(sheet, rows=rows), measures
-
-
-def _settle(cell: Cell, measures: dict[int, str], *, is_unit: bool) -> Cell | None:
-    """Cell with its unit alone; None where its text names no measure."""
-    if not isinstance(cell.value, str):
-        return None
-    match = _IN_BRACKETS.fullmatch(cell.value)
-    before, text, behind = match.groups() if match else ("", cell.value, "")
-    choice = list_choices().get(normalise(text)) if match or is_unit else None
-    if choice is None:
-        return None
-    measures[cell.column] = choice[1]
-    return replace(cell, value=f"{before}{choice[0]}{behind}")
+    tables = {
+        name: find_table(workbook, plan, findings) for name, plan in plans.items()
+    }
+    tables |= _find_parts(workbook, findings)
+    return read_tables(tables, findings)
 
 
 def _find_parts(
