@@ -89,17 +89,26 @@ class ShownCheck:
     steps: dict[str, int]
 
 
-def read_checks(sheet: Worksheet) -> list[ShownCheck]:
-    """Checks in their order; below the line of each are those of its steps."""
+def read_checks(content: bytes, name: str = "Checks") -> list[ShownCheck]:
+    """Checks in their order, with the lines of the steps that they read."""
+    sheet = read_workbook(content)[name]
+    live = read_workbook(content, formulas=True)[name]
     checks: list[ShownCheck] = []
     for line, cells in enumerate(sheet.iter_rows(min_row=5, values_only=True), 5):
-        row, name, verdict, first, *_ = cells
+        row, check, verdict, first, *_ = cells
         if row:
             told = sheet[f"B{line + 1}"].value
-            texts = (row, name, verdict, told or "", cells[10] or "")
+            texts = (row, check, verdict, told or "", cells[10] or "")
             checks.append(ShownCheck(line, *texts, cells[6:9], {}))
         elif first:
             checks[-1].steps[first] = line
+    for shown in checks:
+        lines = [shown.line, *shown.steps.values()]
+        for line in lines:  # it grows: cells that a formula reads stand above
+            formulas = " ".join(x.value for x in live[line] if x.data_type == "f")
+            read = {int(number) for number in re.findall(r"\b[GHI](\d+)\b", formulas)}
+            lines += sorted(read - {*lines})
+        shown.steps.update({sheet[f"D{line}"].value: line for line in lines[1:]})
     return checks
 
 

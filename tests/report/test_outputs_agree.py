@@ -28,8 +28,13 @@ def page():
 
 
 @pytest.fixture(scope="module")
-def book():
-    return read_workbook(render_workbook(STUDY))
+def content():
+    return render_workbook(STUDY)
+
+
+@pytest.fixture(scope="module")
+def book(content):
+    return read_workbook(content)
 
 
 def show(key, value):
@@ -62,9 +67,9 @@ def read_step(book, check, symbol):
     return book["Checks"][f"H{line}"].value if line else "-"
 
 
-def test_checks_agree(page, book):
+def test_checks_agree(page, book, content):
     """Each line of a member is one of its checks, with the numbers of the workbook."""
-    sheet = {(one.row, one.name): one for one in read_checks(book["Checks"])}
+    sheet = {(one.row, one.name): one for one in read_checks(content)}
     for number, row in enumerate(STUDY.rows):
         shown = 0
         for cells, checks in list_lines(page, number):

@@ -1,12 +1,13 @@
-"""Sheet of checks: each a block whose numbers follow from the block's own cells.
+"""Sheet of checks: each a block whose numbers follow from cells of its net row.
 
-A verdict is the study's text. A number typed here changes numbers of one block,
-never a verdict: no cell can make an unearned pass.
+A step stands in the first check that rests on it, and is read there by all others. A
+verdict is the study's text: no number typed here can make an unearned pass.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -36,7 +37,7 @@ from netdesign.report.words import (
     show_unit,
 )
 from netdesign.report.workbook.writer import Book, count_lines
-from netdesign.study.records import Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message
 
 FIRST_LINE = 4  # of the first check, zero-based; the headings are one above
@@ -62,10 +63,16 @@ _TYPED = "#2A4B6B"  # colour of numbers that a reader may type over
 
 # Cell of each number by symbol and end; an end without a cell is as the value.
 Cells = dict[tuple[str, int], str]
+# Cells of the steps of a net row, each by all that decides what stands in them.
+_Written = dict[tuple[object, ...], Cells]
+_Shown = tuple[str, float | str]  # formula, "" of a number that is given, and result
 
 
-def add_check_sheet(book: Book, study: Study) -> None:
-    """Sheet "Checks": a line of each check, and folded below it those of its steps."""
+def add_check_sheet(book: Book, study: Study) -> list[int]:
+    """Sheet "Checks": a line of each check, and folded below it those of its steps.
+
+    Returns the first line of each net row, zero-based.
+    """
     words, widths = book.words, tuple(_WIDTHS.values())
     sheet = book.add_sheet("checks", words("heading.checks"), is_wide=False)
     sheet.outline_settings(symbols_below=False)
@@ -78,19 +85,10 @@ def add_check_sheet(book: Book, study: Study) -> None:
     book.write_head(sheet, FIRST_LINE - 1, heads, widths)
     for place, width in enumerate(widths):
         sheet.set_column(place, place, width)
-    line = FIRST_LINE
+    line, first_lines = FIRST_LINE, []
     for row in study.rows:
-        shown: set[Message | None] = {None}
-        for check in row.checks:
-            reason = _tell_reason(check, words)
-            is_hidden = check.verdict is Verdict.PASS or check.reason in shown
-            shown.add(check.reason)
-            cells = _write_steps(book, sheet, line + _ABOVE_STEPS, check)
-            _write_check(book, sheet, line, row.id, check)
-            _write_reason(book, sheet, line + 1, reason, is_hidden=is_hidden)
-            _write_forces(book, sheet, line, check, cells)
-            _write_used(book, sheet, line, check, cells)
-            line += count_block(check)
+        first_lines.append(line)
+        line = _write_row(book, sheet, line, row)
     if line == FIRST_LINE:
         sheet.write_string(line, 0, words("heading.no_check"), book.text())
     last, verdict = max(line - 1, FIRST_LINE), _PLACES["verdict"]
@@ -99,14 +97,28 @@ def add_check_sheet(book: Book, study: Study) -> None:
     sheet.print_area(0, 0, max(line - 1, last), len(_WIDTHS) - 1)
     sheet.freeze_panes(FIRST_LINE, _PLACES["symbol"])
     sheet.repeat_rows(FIRST_LINE - 1)
+    return first_lines
 
 
 _ABOVE_STEPS = 2  # lines of a check: its numbers, its reason
 
 
-def count_block(check: Check) -> int:
-    """Lines of a check: its numbers, its reason, its steps."""
-    return _ABOVE_STEPS + len(check.steps)
+def _write_row(book: Book, sheet: Any, line: int, row: RowStudy) -> int:
+    """Checks of a net row from a line on; the next free line."""
+    shown: set[Message | None] = {None}
+    written: _Written = {}
+    for check in row.checks:
+        reason = _tell_reason(check, book.words)
+        is_hidden = check.verdict is Verdict.PASS or check.reason in shown
+        shown.add(check.reason)
+        first = line + _ABOVE_STEPS
+        cells, after = _write_steps(book, sheet, first, check, written)
+        _write_check(book, sheet, line, row.id, check)
+        _write_reason(book, sheet, line + 1, reason, is_hidden=is_hidden)
+        _write_forces(book, sheet, line, check, cells)
+        _write_used(book, sheet, line, check, cells)
+        line = after
+    return line
 
 
 def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> None:
@@ -193,29 +205,55 @@ def _write_used(book: Book, sheet: Any, line: int, check: Check, cells: Cells) -
             sheet.write(*place, shown, form)
 
 
-def _write_steps(book: Book, sheet: Any, first: int, check: Check) -> Cells:
-    """Lines of the steps; what is worked out is a formula of the lines above it."""
+def _write_steps(
+    book: Book, sheet: Any, line: int, check: Check, written: _Written
+) -> tuple[Cells, int]:
+    """Lines of the steps that no check above has; cells of all, the next free line."""
     cells: Cells = {}
-    for line, step in enumerate(check.steps, first):
-        _write_texts(book, sheet, line, step)
-        look = {} if step.formula else {"font_color": _TYPED}
-        number_format = _FORMATS.get(step.unit, "General")
-        form = book.format(align="right", num_format=number_format, **look)
-        is_infinite = check.is_unbounded and step.symbol == "μ"
-        none = UNBOUNDED if is_infinite else MISSING
-        is_live = step.formula and not _is_refused(step, check)
-        own = [end for end in _ENDS if _has_end(step, end, cells)]
-        for end in own:
-            place, number = (line, _PLACES[_ENDS[end]]), step.ends[end + 1]
-            shown = none if number is None else number
-            if is_live:
-                formula = _write_formula(step, end, cells, none)
-                sheet.write_formula(*place, formula, form, shown)
-            else:
-                sheet.write(*place, shown, form)
-        letters = {end: chr(ord("A") + _PLACES[_ENDS[end]]) for end in own}
-        cells |= {(step.symbol, end): f"{letters[end]}{line + 1}" for end in own}
+    for step in check.steps:
+        read = list_operands(step.formula, 0) if step.formula else ()
+        none = UNBOUNDED if check.is_unbounded and step.symbol == "μ" else MISSING
+        key = (step, none, *(cells[place] for place in read))
+        if key not in written:
+            _write_texts(book, sheet, line, step)
+            is_live = bool(step.formula) and not _is_refused(step, check)
+            ends = _list_ends(step, cells, none, is_live=is_live)
+            written[key] = _write_ends(book, sheet, line, step, ends)
+            line += 1
+        cells |= written[key]
+    return cells, line
+
+
+def _write_ends(
+    book: Book, sheet: Any, line: int, step: Step, shown: Mapping[int, _Shown]
+) -> Cells:
+    """Numbers of a step, those that are worked out as formulas; their cells."""
+    look = {} if step.formula else {"font_color": _TYPED}
+    number_format = _FORMATS.get(step.unit, "General")
+    form = book.format(align="right", num_format=number_format, **look)
+    cells: Cells = {}
+    for end, (formula, value) in shown.items():
+        place = _PLACES[_ENDS[end]]
+        if formula:
+            sheet.write_formula(line, place, formula, form, value)
+        else:
+            sheet.write(line, place, value, form)
+        cells[step.symbol, end] = f"{chr(ord('A') + place)}{line + 1}"
     return cells
+
+
+def _list_ends(
+    step: Step, cells: Cells, none: str, *, is_live: bool
+) -> dict[int, _Shown]:
+    """Formula and number of each end of a step; ``none`` where there is no number."""
+    return {
+        end: (
+            _write_formula(step, end, cells, none) if is_live else "",
+            none if number is None else number,
+        )
+        for end, number in zip(_ENDS, step.ends, strict=True)
+        if _has_end(step, end, cells)
+    }
 
 
 def _find(cells: Cells, symbol: str, end: int) -> str:

@@ -42,9 +42,7 @@ from netdesign.report.sections.whole import list_properties
 from netdesign.report.what_if import build_what_if, mark_title, name_kind, title_pages
 from netdesign.report.words import MISSING, Words, show_text
 from netdesign.report.workbook.check_sheet import (
-    FIRST_LINE,
     add_check_sheet,
-    count_block,
 )
 from netdesign.report.workbook.sheet_writer import SheetWriter, add_page_sheet
 from netdesign.report.workbook.writer import (
@@ -80,7 +78,6 @@ def add_decision_sheet(book: Book, study: Study, *, is_verified: bool) -> None:
     book.write_wide(sheet, (1, 0), running or MISSING, widths)
     _write_overall(book, sheet, study, widths)
     line = book.write_table(sheet, table, _HEAD_ROW - 1, widths)
-    _link_rows(book, sheet, study)
     last = _HEAD_ROW + max(len(study.rows), 1)
     book.colour_verdicts(sheet, (2, 1, last, 1))
     sheet.autofilter(_HEAD_ROW, 0, last, len(table.columns) - 1)
@@ -116,15 +113,6 @@ def _write_overall(
     if study.rows:
         scopes = describe_study_scopes(study, book.words)
         book.write_wide(sheet, (3, 0), scopes, widths)
-
-
-def _link_rows(book: Book, sheet: Any, study: Study) -> None:
-    """Lead from each net row to its first check."""
-    line = FIRST_LINE
-    for number, row in enumerate(study.rows, _HEAD_ROW + 1):
-        target = book.refer("checks", f"A{line + 1}")
-        book.link(sheet, (number, 0), target, show_text(row.id))
-        line += sum(count_block(check) for check in row.checks)
 
 
 def _list_signing(study: Study, words: Words) -> Iterator[Block]:
@@ -187,12 +175,12 @@ def _add_sheets(book: Book, study: Study, *, is_verified: bool) -> None:
     words = book.words
     add_decision_sheet(book, study, is_verified=is_verified)
     _add_part(book, "schedule", show_schedule(study, words).blocks)
-    add_check_sheet(book, study)
+    first_lines = add_check_sheet(book, study)
     above = (build_what_if(study, words),) if study.what_if else ()
     add_page_sheet(book, "inputs", [*above, build_inputs(study, words)])
     _add_part(book, "profile", show_profile(study, words).blocks)
     _add_notes(book, study)
-    _link_sheets(book)
+    _link_sheets(book, study, first_lines)
 
 
 def _add_part(book: Book, name: str, blocks: Sequence[Block]) -> None:
@@ -227,11 +215,17 @@ def _add_notes(book: Book, study: Study) -> None:
     )
 
 
-def _link_sheets(book: Book) -> None:
-    """Lead from the first sheet to every other sheet, above its table."""
+def _link_sheets(book: Book, study: Study, first_lines: Sequence[int]) -> None:
+    """Lead from the first sheet to every other sheet, and from a net row to its checks.
+
+    ``first_lines`` are those of the net rows on the sheet of checks.
+    """
     sheet = book.workbook.get_worksheet_by_name(book.name("decision"))
     line = _HEAD_ROW - 1
     for (first, last), name in zip(_LINKS, SHEETS[1:], strict=True):
         if last > first:
             sheet.merge_range(line, first, line, last, "")
         book.link(sheet, (line, first), book.refer(name, "A1"), book.name(name))
+    for number, (row, to) in enumerate(zip(study.rows, first_lines, strict=True)):
+        target, place = book.refer("checks", f"A{to + 1}"), _HEAD_ROW + 1 + number
+        book.link(sheet, (place, 0), target, show_text(row.id))
