@@ -13,7 +13,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Literal
 
-from netdesign.cable.sag import find_sag
+from netdesign.cable.net import find_sag
 from netdesign.edge.input_files import find_resource
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.words.message import Message, say

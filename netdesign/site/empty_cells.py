@@ -23,8 +23,7 @@ from netdesign.site.office.project import SHARED
 from netdesign.site.readings import Reading, Row
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.heights import find_model_code_density
-from netdesign.snow.snowpack import Layer, compute_mean_density
+from netdesign.snow.snowpack import Layer, compute_mean_density, find_model_code_density
 
 Snow = tuple[float, tuple[Layer, ...], GroundLaw]  # thickness [m], layers, ground
 _SEVERE = {

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from netdesign.cable.sag import find_slack
+from netdesign.cable.net import find_slack
 from tests.each import each
 
 SAGS = [1e-6, 2e-5, 3e-5, *np.linspace(0.001, 0.3, 60)]

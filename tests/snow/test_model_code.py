@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.outcome import ModelError
-from netdesign.snow.heights import find_model_code_density
+from netdesign.snow.snowpack import find_model_code_density
 
 
 @given(st.floats(0.01, 500.0), st.floats(1.01, 3.0))

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.stats import genextreme, gumbel_r
 
 from netdesign.addons.winter.statistics import TAILS, Gumbel, fit_gumbel
-from netdesign.snow.heights import find_model_code_density
+from netdesign.snow.snowpack import find_model_code_density
 from tests.each import each
 
 SAMPLES = 2000

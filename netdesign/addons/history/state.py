@@ -13,7 +13,7 @@ import numpy as np
 from netdesign.addons.history.body import Settling, SnowBody, build_body
 from netdesign.addons.history.net_pulls import measure_arcs
 from netdesign.addons.history.settings import Start
-from netdesign.cable.sag import find_slack
+from netdesign.cable.net import find_slack
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.net import guess_pressure, locate_nodes
 from netdesign.coupling.steady.solve import find_net_equilibrium

@@ -40,7 +40,7 @@ from netdesign.envelope.ranges import PARAMETERS, Case
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Fault, ModelError, Verdict, catch_fault
 from netdesign.site.model import Site
-from netdesign.snow.heights import compare_densities
+from netdesign.snow.snowpack import compare_densities
 from netdesign.study.case_records import record_point
 from netdesign.study.member_force import RowForces
 from netdesign.study.records import ReliabilityRecord, VariableRecord

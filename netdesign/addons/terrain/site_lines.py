@@ -20,7 +20,7 @@ from netdesign.addons.terrain.measure import (
     MeasuredRow,
     describe_end,
 )
-from netdesign.cable.sag import find_sag, find_slack
+from netdesign.cable.net import find_sag, find_slack
 from netdesign.outcome import SiteDataError, TerrainError
 from netdesign.site.cells.findings import Finding
 from netdesign.site.cells.spreadsheet import read_workbook

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.cable.sag import find_slack
+from netdesign.cable.net import find_slack
 from netdesign.checks import Approval, StatedValue
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import find_quantity

@@ -10,7 +10,7 @@ from io import BytesIO
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from netdesign.cable.sag import find_sag
+from netdesign.cable.net import find_sag
 from netdesign.site.assumed import MULTIPLE, Assumed, load_assumed
 from netdesign.site.columns.all_tables import FURTHER, load_file
 from netdesign.site.columns.fields import Field, SheetPlan

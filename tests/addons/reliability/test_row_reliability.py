@@ -14,7 +14,7 @@ from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.heights import compare_densities
+from netdesign.snow.snowpack import compare_densities
 from netdesign.structure.members import ROPE_OF, RopeForce
 from netdesign.study import worst_checks
 from netdesign.study.case_records import read_point

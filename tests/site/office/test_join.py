@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.cable.sag import find_slack
+from netdesign.cable.net import find_slack
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.reader import read_site
