@@ -30,7 +30,7 @@ from netdesign.structure.anchors import (
     compute_anchor_forces,
     compute_member_forces,
 )
-from netdesign.structure.head import FailedSupport, find_ways
+from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportLayout, place_support
 from netdesign.structure.members import (
     CARRYING_MEMBERS,
@@ -38,6 +38,7 @@ from netdesign.structure.members import (
     RopeForce,
     name_in_panel,
 )
+from netdesign.structure.splay import find_ways
 from netdesign.words.message import say
 
 # Shares of its error by which a pull is moved: each component (of foot, then of head)

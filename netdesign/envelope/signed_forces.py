@@ -17,9 +17,10 @@ import numpy as np
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.numerics.arrays import Floats
-from netdesign.structure.head import Vector, Ways, find_ways, resolve_signed
+from netdesign.structure.head import Vector, Ways, resolve_signed
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, name_in_panel
+from netdesign.structure.splay import find_ways
 
 
 def find_case_ways(

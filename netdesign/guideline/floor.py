@@ -29,9 +29,9 @@ from netdesign.numerics.arrays import Floats, Ints, measure_length
 from netdesign.numerics.optimise import find_largest
 from netdesign.outcome import ModelError
 from netdesign.structure.anchors import compute_member_forces, measure_pull
-from netdesign.structure.head import find_ways
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
+from netdesign.structure.splay import find_ways
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried first, and parts of each other range.

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Generic, TypeAlias
-
-import numpy as np
 
 from netdesign.numerics.arrays import (
     Floats,
@@ -22,12 +19,7 @@ from netdesign.numerics.arrays import (
     take_larger,
 )
 from netdesign.outcome import Outcome, require_within
-from netdesign.structure.layout import (
-    Point,
-    SupportLayout,
-    SupportPoints,
-    locate_base,
-)
+from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import Message, say
 
 # A guy nearer to the post's line than this holds nothing sideways. Choice of this
@@ -346,33 +338,6 @@ def list_directions(points: SupportPoints) -> tuple[Point, Point, Point]:
     ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
     post, uphill, downhill = (find_direction(points.head, end) for end in ends)
     return post, uphill, downhill
-
-
-def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
-    """Unit vectors from some heads along their members, on each layout.
-
-    Parameters
-    ----------
-    layouts : sequence of SupportLayout, shape (m,)
-        Of the supports.
-    heads : tuple of ndarray, shape (2, ..)
-        Where each net hangs, from its foot [m].
-
-    Returns
-    -------
-    tuple of tuple of ndarray, shape (3, 2, m, ..)
-        [-].
-    """
-    bases = np.array([locate_base(layout, *heads) for layout in layouts])
-    ground = np.zeros_like(bases)
-    uphill, downhill = np.array(
-        [(x.uphill_anchor_distance, x.downhill_anchor_distance) for x in layouts]
-    ).T.reshape(2, -1, *[1] * heads[0].ndim)
-    return (
-        find_direction(heads, (bases, ground)),
-        find_direction(heads, (ground - uphill, ground)),
-        find_direction(heads, (bases + downhill, ground)),
-    )
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:

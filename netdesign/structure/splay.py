@@ -18,12 +18,20 @@ from netdesign.outcome import require_within
 from netdesign.structure.head import (
     FailedSupport,
     HeadForces,
+    Vector,
+    Ways,
     compute_head_forces,
     cross,
+    find_direction,
     hold_head,
     list_directions,
 )
-from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.layout import (
+    Point,
+    SupportLayout,
+    SupportPoints,
+    locate_base,
+)
 
 LEAST_SPLAY, MOST_SPLAY = math.radians(5.0), math.radians(60.0)
 _FLATTEST = 1e-3  # of an end guy to the row; its anchor then lies far away [rad]
@@ -316,3 +324,30 @@ def _list_ropes(
 
 def _dot(a: Point, b: Point) -> float:
     return a[0] * b[0] + a[1] * b[1]
+
+
+def find_ways(layouts: Sequence[SupportLayout], heads: Vector[Floats]) -> Ways:
+    """Unit vectors from some heads along their members, on each layout.
+
+    Parameters
+    ----------
+    layouts : sequence of SupportLayout, shape (m,)
+        Of the supports.
+    heads : tuple of ndarray, shape (2, ..)
+        Where each net hangs, from its foot [m].
+
+    Returns
+    -------
+    tuple of tuple of ndarray, shape (3, 2, m, ..)
+        [-].
+    """
+    bases = np.array([locate_base(layout, *heads) for layout in layouts])
+    ground = np.zeros_like(bases)
+    uphill, downhill = np.array(
+        [(x.uphill_anchor_distance, x.downhill_anchor_distance) for x in layouts]
+    ).T.reshape(2, -1, *[1] * heads[0].ndim)
+    return (
+        find_direction(heads, (bases, ground)),
+        find_direction(heads, (ground - uphill, ground)),
+        find_direction(heads, (bases + downhill, ground)),
+    )

@@ -21,9 +21,9 @@ from netdesign.guideline.load_cases import (
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.anchors import compute_member_forces
-from netdesign.structure.head import find_ways
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import CARRYING_MEMBERS, Member, NetPart
+from netdesign.structure.splay import find_ways
 from netdesign.words.catalogue import render
 from tests.each import each
 from tests.guideline.one_floor import find_floor
