@@ -221,7 +221,7 @@ def test_reports_are_written_read_again_and_replaced(study, tmp_path):
 
 
 def test_a_kind_that_is_none_is_named_with_those_there_are(study, tmp_path):
-    with pytest.raises(nd.NetDesignError, match="html, xlsx, docx"):
+    with pytest.raises(nd.NetDesignError, match="html, pdf, docx, xlsx, csv"):
         nd.write_reports(study, tmp_path, kinds=["word"])
     assert list(tmp_path.iterdir()) == []
 

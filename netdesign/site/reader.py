@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -24,9 +24,10 @@ from netdesign.site.columns.all_tables import (
     QUIET_SHEETS,
     load_old_plans,
 )
-from netdesign.site.columns.office import is_heading
+from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.declared_sheet import read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
+from netdesign.site.headings import find_columns, find_headings
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
@@ -41,8 +42,12 @@ from netdesign.site.office.sheets import find_office_tables, is_old, is_read
 from netdesign.site.plausible import ask_about_numbers
 from netdesign.site.snow_sheets import check_layers
 from netdesign.site.support_types import list_catalogue
+from netdesign.site.titles import list_meant
 from netdesign.site.type_lines import read_links
 from netdesign.words.message import say
+
+# Headings of sheet Rows, at least, on a sheet that holds net rows.
+_LEAST_KNOWN = 4
 
 
 def read_site(
@@ -94,6 +99,7 @@ def read_site(
         findings.append(note_file(workbook.file, note))
         workbook, tables = join_list(workbook, answers, findings)
     else:
+        findings += _refuse_rows_elsewhere(path, workbook, text_format)
         elsewhere = ("net_types",) if net_types else ()
         tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
     tables, changed = change_values(tables, change, workbook.file, findings)
@@ -186,6 +192,24 @@ def _widen_density(ranges: Ranges, rows: Sequence[NetRow]) -> Ranges:
         max(interval.high for interval in spans),
     )
     return ranges.replaced_by(Ranges.of(density=Interval(low=low, high=high)))
+
+
+def _refuse_rows_elsewhere(
+    path: Path, workbook: Workbook, text_format: TextFormat
+) -> Iterator[Finding]:
+    """Sheets with net rows under another name: half a site must not vanish."""
+    plan, names = load_plan("rows"), {*workbook.unread} - {*QUIET_SHEETS}
+    if not names or not list_meant(workbook, plan):
+        return
+    try:
+        unread = read_workbook(path, names.__contains__, is_heading, text_format)
+    except SiteDataError:  # what has no part in the check may be damaged
+        return
+    for sheet in unread.sheets:
+        table = find_headings(sheet, plan, [])
+        if table and len(find_columns(table, [])) >= _LEAST_KNOWN:
+            accepted = say("table.other_file_accepted", name=plan.title)
+            yield workbook.finding(say("table.net_rows"), accepted, sheet.name)
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from netdesign.report.words import VERDICTS
+from netdesign.outcome import EXIT_CODES, Verdict
 from tests.make import write_rows
 
 QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet", "--no-html")
@@ -28,14 +28,14 @@ def test_the_worst_of_the_scopes_that_are_asked_for_ends_the_run(
     verdicts = {name: document["scopes"][name]["verdict"] for name in NAMES}
     assert verdicts["anchors"] != verdicts["siting"]
     worst = min(verdicts.values(), key=ORDER.index)
-    assert ended.code == VERDICTS[worst].exit_code
+    assert ended.code == EXIT_CODES[Verdict(worst)]
     for number, asked in enumerate([("anchors",), ("siting",), ("anchors,siting",)]):
         options = [part for one in asked for part in ("--scope", one)]
         told = call("check", "site.xlsx", *QUICK, *options, "--out", f"o{number}",
                     "--no-excel")  # fmt: skip
         named = ",".join(asked).split(",")
         worst = min((verdicts[one] for one in named), key=ORDER.index)
-        assert told.code == VERDICTS[worst].exit_code
+        assert told.code == EXIT_CODES[Verdict(worst)]
         again = json.loads((folder / f"o{number}" / "study.json").read_text())
         assert again["scopes"] == document["scopes"]  # the study is whole
 

@@ -306,3 +306,10 @@ def test_a_line_of_the_project_that_is_none_is_refused(book, line, cell, rule):
 
 
 # All at once
+
+
+def test_net_rows_on_a_sheet_of_another_name_are_refused(book):
+    """Half a site must not vanish."""
+    book["Rows north"] = [list(line) for line in book["Rows"]]
+    (finding,) = book.refuse()
+    assert (finding.sheet, finding.rule.key) == ("Rows north", "table.net_rows")

@@ -6,9 +6,10 @@ import random
 import numpy as np
 
 from netdesign.structure.anchors import compute_anchor_forces, compute_member_forces
-from netdesign.structure.head import FailedSupport, find_ways
+from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.structure.members import CARRYING_MEMBERS
+from netdesign.structure.splay import find_ways
 from tests.each import each
 
 COUNT = 90
