@@ -31,7 +31,9 @@ from netdesign.panel.solve import PanelSolution as PanelSolution
 from netdesign.panel.solve import solve_panel as solve_panel
 from netdesign.site.model import Site as Site
 from netdesign.site.reader import read_site as read_site
-from netdesign.site.template.example import write_site_workbook as write_site_workbook
+from netdesign.site.template.office_workbook import (
+    write_site_workbook as write_site_workbook,
+)
 from netdesign.snow.ground import GroundLaw as GroundLaw
 from netdesign.snow.ground import (
     build_ground_from_glide_factor as build_ground_from_glide_factor,

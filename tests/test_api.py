@@ -14,7 +14,7 @@ import pytest
 import netdesign as nd
 from netdesign.outcome import SEVERITY, NetDesignError
 from netdesign.site.reader import read_frames
-from netdesign.site.template.example import load_input_example
+from netdesign.site.template.office_workbook import load_input_example
 from netdesign.study.scopes import Scope, list_of_scope
 from tests.make import write_rows
 

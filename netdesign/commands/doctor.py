@@ -140,7 +140,7 @@ def _round_trip_example() -> Message:
     from pathlib import Path
 
     from netdesign.site.reader import read_site
-    from netdesign.site.template.example import write_site_workbook
+    from netdesign.site.template.office_workbook import write_site_workbook
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "example.xlsx"

@@ -155,7 +155,7 @@ def temporary_example() -> Iterator[Path]:
     """
     import tempfile
 
-    from netdesign.site.template.example import write_site_workbook
+    from netdesign.site.template.office_workbook import write_site_workbook
 
     try:
         place = tempfile.TemporaryDirectory()
@@ -197,8 +197,7 @@ def init(site_file: Path, **asked: Any) -> None:
     netdesign init site.xlsx --with parts,tests
     netdesign init example.xlsx --example
     """
-    from netdesign.site.template.example import write_site_workbook
-    from netdesign.site.template.office_workbook import WITH
+    from netdesign.site.template.office_workbook import WITH, write_site_workbook
 
     if site_file.suffix.lower() != ".xlsx":
         raise UsageRefusal(say("usage.init_suffix", file=str(site_file)))

@@ -14,7 +14,6 @@ from itertools import product
 
 from netdesign.checks import Declaration, Proof
 from netdesign.outcome import SiteDataError
-from netdesign.site.anchor_types import ANCHORS
 from netdesign.site.cells.cells import (
     Cell,
     Sheet,
@@ -27,6 +26,7 @@ from netdesign.site.columns.fields import normalise
 from netdesign.site.lines import ALL_ROWS, refuse_unknown_ids, settle_ids
 from netdesign.site.model import ReplacedCell
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.type_resistances import ANCHORS
 from netdesign.structure.members import (
     CONNECTED,
     DEPENDENT_MODES,

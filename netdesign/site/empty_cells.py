@@ -15,12 +15,12 @@ from netdesign.guideline.load_model import (
     load_guideline,
     read_load_model,
 )
-from netdesign.site.anchor_types import ANCHORS, read_axes
 from netdesign.site.assumed import Assumed, assume, assume_ends, load_assumed
 from netdesign.site.columns.fields import from_si, to_si
 from netdesign.site.lines import Lines, Types
 from netdesign.site.office.project import SHARED
 from netdesign.site.readings import Reading, Row
+from netdesign.site.type_resistances import ANCHORS, read_axes
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density, find_model_code_density

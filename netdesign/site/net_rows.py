@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.outcome import ModelError
-from netdesign.site.anchor_types import ANCHORS, read_anchors, read_axes
 from netdesign.site.assumed import assume
 from netdesign.site.cells.cells import MAX_NET_ROWS
 from netdesign.site.cells.findings import Finding, Refusal
@@ -42,6 +41,7 @@ from netdesign.site.support_types import (
     find_resistances,
     read_guys,
 )
+from netdesign.site.type_resistances import ANCHORS, read_anchors, read_axes
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     GroundLaw,

@@ -28,19 +28,13 @@ from netdesign.resistance.post import PostSection
 from netdesign.resistance.steel import (
     Wear,
 )
-from netdesign.site.anchor_types import (
-    ANCHORS,
-    name_column,
-    read_anchor,
-    read_anchors,
-    read_axes,
-)
 from netdesign.site.assumed import assume
 from netdesign.site.lines import Types
 from netdesign.site.model import Resistance, RowEnd
 from netdesign.site.readings import Reading, Row
 from netdesign.site.type_lines import find_depth
 from netdesign.site.type_resistances import (
+    ANCHORS,
     SECTION,
     SOLID,
     compute_buckling,
@@ -48,6 +42,10 @@ from netdesign.site.type_resistances import (
     find_steel,
     find_tests,
     may_be_rope,
+    name_column,
+    read_anchor,
+    read_anchors,
+    read_axes,
     reduce_breaking,
     reduce_loop,
 )

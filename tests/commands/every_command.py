@@ -13,8 +13,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.site.columns.office import load_plan
-from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import render_input
+from netdesign.site.template.office_workbook import load_input_example, render_input
 from tests.report.reading import read_workbook
 
 ROW = "A4"

@@ -1,6 +1,6 @@
 """``netdesign map`` from the command line, in three languages."""
 
-from netdesign.site.template.example import write_site_workbook
+from netdesign.site.template.office_workbook import write_site_workbook
 from tests.site.office.old_template import load_example, write_old
 
 

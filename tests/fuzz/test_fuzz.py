@@ -33,7 +33,7 @@ from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.office import TABLES, load_plan
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
-from netdesign.site.template.example import write_site_workbook
+from netdesign.site.template.office_workbook import write_site_workbook
 from netdesign.solving.store import CaseStore, StoreError
 from netdesign.study.document import read_document, write_document
 from netdesign.words.message import say

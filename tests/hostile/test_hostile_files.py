@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import netdesign
-from netdesign.site.template.example import write_site_workbook
+from netdesign.site.template.office_workbook import write_site_workbook
 from tests.hostile.hostile_files import write_all
 from tests.peak_memory import PEAK
 

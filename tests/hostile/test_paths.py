@@ -5,7 +5,7 @@ import tempfile
 
 import pytest
 
-from netdesign.site.template import example as template
+from netdesign.site.template import office_workbook as template
 
 LONG = "9" * 400
 

@@ -9,8 +9,7 @@ from netdesign.checks import OpenKind, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.outcome import Verdict
 from netdesign.site.reader import read_site
-from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import render_input
+from netdesign.site.template.office_workbook import load_input_example, render_input
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row

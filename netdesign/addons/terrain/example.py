@@ -15,8 +15,7 @@ from netdesign.addons.terrain.surface import Surface
 from netdesign.edge.output import write_files
 from netdesign.numerics.arrays import Floats
 from netdesign.site.lists.targets import list_targets
-from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import render_input
+from netdesign.site.template.office_workbook import load_input_example, render_input
 
 GRID_FILE, ROWS_FILE = "starting-zone.asc", "rows-drawn.geojson"
 TYPES_FILE = "types.xlsx"

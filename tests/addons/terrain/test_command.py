@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.addons.terrain.grid import Grid, read_grid
 from netdesign.site.reader import read_site
-from netdesign.site.template.example import write_site_workbook
+from netdesign.site.template.office_workbook import write_site_workbook
 from tests.addons.terrain.map_files import collect, feature, write_asc, write_tif
 from tests.addons.terrain.map_files import write_rows as write_layer
 

@@ -1,4 +1,4 @@
-from netdesign.site.anchor_types import name_column
+from netdesign.site.type_resistances import name_column
 from netdesign.structure.members import END_MODES, MEMBER_MODES
 from tests.each import each
 from tests.site.columns.fields import FIELDS

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from netdesign.site.columns.all_tables import list_unclear
 from netdesign.site.columns.fields import normalise
-from netdesign.site.lists.guess import guess
+from netdesign.site.lists.ask import guess
 from netdesign.site.lists.targets import Target, list_targets
 from netdesign.words.catalogue import LANGUAGES
 from tests.each import each

@@ -9,8 +9,11 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.columns.office import PARTS, TABLES, load_columns, load_plan
 from netdesign.site.reader import read_site
-from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import WITH, render_input
+from netdesign.site.template.office_workbook import (
+    WITH,
+    load_input_example,
+    render_input,
+)
 from tests.each import each
 
 LANGUAGES = ("en", "fr", "de")

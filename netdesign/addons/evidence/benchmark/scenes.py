@@ -17,8 +17,7 @@ import numpy as np
 from netdesign.coupling.scene import Scene
 from netdesign.files.scene import SceneFile, build_scene_of_file
 from netdesign.outcome import ModelError
-from netdesign.site.template.example import load_input_example
-from netdesign.site.template.office_workbook import render_input
+from netdesign.site.template.office_workbook import load_input_example, render_input
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import GROUND_KINDS
 from netdesign.words.message import say
