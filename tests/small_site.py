@@ -20,8 +20,8 @@ from netdesign.structure.members import (
 from netdesign.structure.splay import Guys
 from netdesign.study.anchor_pulls import ANCHORS
 from netdesign.study.row_to_check import CheckRun
+from netdesign.words.catalogue import as_given
 from netdesign.words.message import say
-from netdesign.words.names import as_given
 
 STRONG, WEAK = 1e7, 1e3  # [N]
 TURNS = AnchorType(

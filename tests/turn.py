@@ -6,8 +6,8 @@ from dataclasses import replace
 from netdesign.checks import Proof
 from netdesign.checks.rating import Open, OpenKind, rate_utilisation
 from netdesign.outcome import Verdict
+from netdesign.words.catalogue import as_given
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given
 
 AS_IT_IS = -1.0
 PROOF = Proof(document="Report G-17", author="B. R.", date="", cell="Declared!B2")

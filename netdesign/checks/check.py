@@ -12,8 +12,8 @@ from netdesign.checks.inputs import Proof
 from netdesign.checks.rating import Open, OpenKind, Rating
 from netdesign.edge.json_text import Items
 from netdesign.outcome import SEVERITY, Verdict
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, Text, say
-from netdesign.words.names import name
 
 
 @dataclass(frozen=True, kw_only=True)

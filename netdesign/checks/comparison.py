@@ -29,8 +29,8 @@ from netdesign.checks.schema import (
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import PullOutTests
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import name, name_member, name_mode
 from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_member, name_mode
 
 _CORRELATIONS = (CORRELATION_MEAN, CORRELATION_LEAST)
 

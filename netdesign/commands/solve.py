@@ -22,9 +22,8 @@ from netdesign.commands.running import (
 )
 from netdesign.outcome import EXIT_CODES, SENTENCE, Fault, Outcome, Verdict, catch_fault
 from netdesign.structure.members import SOLVED_MEMBERS, Member
-from netdesign.words.catalogue import render
+from netdesign.words.catalogue import name_member, render
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_member
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

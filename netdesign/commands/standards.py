@@ -12,8 +12,8 @@ from netdesign.commands.options import take_options
 from netdesign.commands.running import tell
 from netdesign.outcome import OutputError
 from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import name as name_of
 from netdesign.words.message import Message, say
-from netdesign.words.names import name as name_of
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard

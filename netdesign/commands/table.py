@@ -55,12 +55,12 @@ def table(site_file: Path | None, **asked: Any) -> None:
         rows = add_coupled(rows, {row.id: row.checks for row in solved.rows})
     words = Words(speak())
     if asked["as_json"]:
-        from netdesign.report.anchor_table import write_anchor_table
+        from netdesign.report.terminal import write_anchor_table
 
         print_document(write_anchor_table(rows, words))
         return
     from netdesign.edge.output import open_console
-    from netdesign.report.anchor_table import print_anchor_table
+    from netdesign.report.terminal import print_anchor_table
 
     for question in site.questions:
         tell(say("cli.question", text=question), err=True)

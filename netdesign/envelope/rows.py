@@ -17,8 +17,8 @@ from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.solving.solve import Settings
 from netdesign.structure.layout import SupportLayout
+from netdesign.words.catalogue import name_member
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_member
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.5

@@ -21,9 +21,8 @@ from netdesign.site.model import InputEcho
 from netdesign.study.document import ROUNDING, compare_values
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import find_governing
-from netdesign.words.catalogue import Language
+from netdesign.words.catalogue import Language, as_given, name, name_check, name_member
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given, name, name_check, name_member
 
 SCHEMA = "netdesign.diff/1"
 _MET, _UNMET = "met", "not met"

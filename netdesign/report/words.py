@@ -21,12 +21,13 @@ from netdesign.words.catalogue import (
     fill_text,
     load_tables,
     load_texts,
+    name_check,
+    name_member,
     render,
     round_force_up,
     set_marks,
 )
 from netdesign.words.message import Argument, Message, say
-from netdesign.words.names import name_check, name_member
 
 if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
     from netdesign.checks.check import CasePoint, Check

@@ -37,9 +37,8 @@ from netdesign.structure.members import (
     NET_MODES,
     Member,
 )
-from netdesign.words.catalogue import LANGUAGES, Language, render
+from netdesign.words.catalogue import LANGUAGES, Language, name_check, render
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_check
 
 _PLACE = re.compile(r"(?P<sheet>.+?)[!.](?P<column>[A-Za-z]{1,3})(?P<row>[1-9]\d{0,6})")
 

@@ -36,8 +36,7 @@ from netdesign.site.lists.list_map import (
 )
 from netdesign.site.model import NetRow, ReplacedCell, Site
 from netdesign.site.net_rows import build_net_rows
-from netdesign.site.office.join import read_office
-from netdesign.site.office.library import read_library
+from netdesign.site.office.join import read_library, read_office
 from netdesign.site.office.sheets import find_office_tables, is_old, is_read
 from netdesign.site.plausible import ask_about_numbers
 from netdesign.site.snow_sheets import check_layers

@@ -34,8 +34,8 @@ from netdesign.site.readings import Row, refuse
 from netdesign.structure.members import END_ANCHORS, NAMED_BY, EndMember, Member
 from netdesign.structure.row_position import find_axis_at_dip
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 _DEFAULT_TERMINATION, _DEFAULT_CURVE = "wedge", "d"
 _INCLUDED = "included"  # the ends, in a breaking force that is given

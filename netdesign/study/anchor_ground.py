@@ -36,8 +36,8 @@ from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
 from netdesign.study.row_to_check import Basis
 from netdesign.units import degree_from_radian
+from netdesign.words.catalogue import name_member
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_member
 
 _POSTS = 3  # beside each other: whatever comes near does so among them
 

@@ -67,8 +67,8 @@ from netdesign.units import (
     kilonewton_from_newton,
     kilonewton_if_known,
 )
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 
 def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:

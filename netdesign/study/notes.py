@@ -25,9 +25,8 @@ from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
 from netdesign.study.posts import find_snow_pressure
 from netdesign.study.records import RowStudy
-from netdesign.words.catalogue import load_texts
+from netdesign.words.catalogue import load_texts, name_member
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_member
 
 
 def list_site_notes(

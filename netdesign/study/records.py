@@ -46,8 +46,8 @@ from netdesign.study.scopes import (
     sum_up_row,
     sum_up_study,
 )
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, Text, say
-from netdesign.words.names import name
 
 if TYPE_CHECKING:
     from pandas import DataFrame

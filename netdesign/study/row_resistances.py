@@ -56,8 +56,8 @@ from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
 )
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 _NOT_ACROSS = 1e-9  # sine of a pull along the axis
 _LARGEST_ANGLE = math.radians(89.0)

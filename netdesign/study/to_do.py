@@ -15,8 +15,8 @@ from netdesign.outcome import SEVERITY, Verdict
 from netdesign.study.conditions import Who
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import STRUCTURE, is_of_structure
+from netdesign.words.catalogue import as_given, name_check, name_member, name_mode
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given, name_check, name_member, name_mode
 
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10

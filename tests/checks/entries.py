@@ -7,8 +7,8 @@ from netdesign.checks import Open, OpenKind, StandardValue
 from netdesign.checks.comparison import find_missing_force
 from netdesign.site.model import Resistance
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import as_given
 from netdesign.words.message import say
-from netdesign.words.names import as_given
 
 
 def a_value(value_id: str, value: float, unit: str = "-") -> StandardValue:

@@ -18,8 +18,7 @@ from netdesign.checks.rating import judge
 from netdesign.outcome import ModelError, Verdict
 from netdesign.resistance.ground import PullOutTests
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
-from netdesign.words.catalogue import LANGUAGES, render
-from netdesign.words.names import name_mode
+from netdesign.words.catalogue import LANGUAGES, name_mode, render
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
 from tests.each import each
 from tests.read_check import check_member

@@ -20,7 +20,7 @@ from netdesign.checks import (
 )
 from netdesign.checks.rating import Open, OpenKind, judge, merge_open
 from netdesign.outcome import Verdict
-from netdesign.words.names import as_given
+from netdesign.words.catalogue import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
 from tests.read_check import check_member
 

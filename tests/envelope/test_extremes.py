@@ -10,8 +10,8 @@ from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
+from netdesign.words.catalogue import as_given
 from netdesign.words.message import group_reasons, say
-from netdesign.words.names import as_given
 from tests.each import each
 
 

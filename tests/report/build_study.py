@@ -44,8 +44,8 @@ from netdesign.study.records import (
     VariableRecord,
     VariantRecord,
 )
+from netdesign.words.catalogue import as_given
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given
 
 FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")

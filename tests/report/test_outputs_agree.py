@@ -13,7 +13,7 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.words import ENGLISH, VERDICTS, show_check, show_member
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.scopes import find_governing
-from netdesign.words.names import name_mode
+from netdesign.words.catalogue import name_mode
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader, read_checks, read_rows, read_workbook
 

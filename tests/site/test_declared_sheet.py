@@ -7,8 +7,7 @@ import pytest
 from netdesign.checks import Declaration, Proof
 from netdesign.site.declared_sheet import DECLARABLE
 from netdesign.structure.members import DEPENDENT_MODES, MEMBER_MODES
-from netdesign.words.catalogue import LANGUAGES, render
-from netdesign.words.names import name_check
+from netdesign.words.catalogue import LANGUAGES, name_check, render
 from tests.each import each
 from tests.small_site import build_row, build_site, resist
 

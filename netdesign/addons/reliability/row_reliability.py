@@ -47,8 +47,8 @@ from netdesign.study.records import ReliabilityRecord, VariableRecord
 from netdesign.study.row_checks import RowChecks
 from netdesign.study.row_to_check import CaseSolver, RowToCheck
 from netdesign.study.scopes import find_worst
+from netdesign.words.catalogue import name_check
 from netdesign.words.message import Message, say
-from netdesign.words.names import name_check
 
 MOST_ROUNDS = 3  # in which the design point is solved again
 LARGEST_MISS = 0.1  # of ln mu at the last one

@@ -26,9 +26,8 @@ from netdesign.structure.row_position import Bore, Position
 from netdesign.study.anchor_ground import place_anchors, place_end_anchors
 from netdesign.study.load_along_row import place_row
 from netdesign.study.records import RowStudy, Study
-from netdesign.words.catalogue import Language, render
+from netdesign.words.catalogue import Language, name_check, name_member, render
 from netdesign.words.message import say
-from netdesign.words.names import name_check, name_member
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -41,7 +41,7 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.document import hash_results
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
-from netdesign.words.names import name
+from netdesign.words.catalogue import name
 
 _NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?(e[+-]?[0-9]+)?")
 

@@ -35,8 +35,8 @@ from netdesign.report.words import (
 from netdesign.site.model import InputEcho
 from netdesign.study.records import ProfileRecord, RowStudy, Study
 from netdesign.study.to_do import ToDo
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 
 def build_inputs(study: Study, words: Words) -> Table:

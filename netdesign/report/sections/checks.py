@@ -23,8 +23,8 @@ from netdesign.study.scopes import (
     is_far_from_limit,
 )
 from netdesign.study.to_do import shorten_reason
+from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
-from netdesign.words.names import name
 
 _FEW = 4  # checks that share a reason and are named
 

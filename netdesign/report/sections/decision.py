@@ -63,8 +63,8 @@ from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study, find_input
 from netdesign.study.scopes import Scope
 from netdesign.study.to_do import WHO, list_to_do
+from netdesign.words.catalogue import name, name_check
 from netdesign.words.message import Message, say
-from netdesign.words.names import name, name_check
 
 _NO_BREAK = "\u00a0"
 _SHOWN = (0.95, 0.54)  # utilisations of the legend

@@ -64,8 +64,8 @@ from netdesign.report.words import (
 )
 from netdesign.study.records import RowStudy, find_input
 from netdesign.study.scopes import STRUCTURE, is_of_structure
+from netdesign.words.catalogue import name_check, name_mode
 from netdesign.words.message import say
-from netdesign.words.names import name_check, name_mode
 
 _MOST_REASONS = 4  # of the points of a row that its page has room for
 _DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
