@@ -14,12 +14,8 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.panel.equations import estimate_force_along
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.solve import (
-    STATIONS,
-    PanelSolution,
-    compute_end_forces,
-    solve_panel,
-)
+from netdesign.panel.row_end import compute_end_forces
+from netdesign.panel.solve import STATIONS, PanelSolution, solve_panel
 from netdesign.panel.strips import ROPE_POINTS, build_stations, take_strip
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
