@@ -17,6 +17,7 @@ from netdesign.site.cells.cells import (
     TextFormat,
     Workbook,
     doubt_results,
+    find_followers,
 )
 from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
@@ -102,6 +103,9 @@ def read_site(
         elsewhere = ("net_types",) if net_types else ()
         tables = find_office_tables(workbook, findings, elsewhere=elsewhere)
     tables, changed = change_values(tables, change, workbook.file, findings)
+    if changed:
+        places = [change.cell for change in changed]
+        tables = tables.doubt_formulas(find_followers(workbook, places))
     replaced += changed
     library = read_library(net_types, text_format, findings) if net_types else None
     lines = read_office(workbook, tables, findings, library)

@@ -74,17 +74,16 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
         Largest number of lines, of which the last then counts the others; None: all.
     """
     lines: dict[tuple[str, ...], list[_Point]] = {}
-    unmet: dict[Message, list[str]] = {}  # laws that the drawn cases do not obey
     for row in study.rows:
         for point in _list_points(row):
             lines.setdefault((point.who, *point.key), []).append(point)
-        for reason in row.unmet:
-            unmet.setdefault(reason, []).append(row.id)
     every = [_sum_up(group) for group in sorted(lines.values(), key=_rank)]
-    every += [
-        ToDo(who="office", text=reason, rows=tuple(ids))
-        for reason, ids in unmet.items()
+    every += [  # laws that the drawn cases do not obey
+        ToDo(who="office", text=reason, rows=(row.id,))
+        for row in study.rows
+        for reason in row.unmet
     ]
+    every = _merge_alike(every)
     if most is None or len(every) <= most:
         return tuple(every)
     rest = every[most - 1 :]  # the last line counts them
@@ -92,6 +91,17 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
     ids = tuple(row.id for row in study.rows if row.id in left)
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*every[: most - 1], more)
+
+
+def _merge_alike(lines: Sequence[ToDo]) -> list[ToDo]:
+    """Lines of which each says something else, with the rows of all that say it."""
+    rows: dict[tuple[Who, Message], list[str]] = {}
+    for line in lines:
+        rows.setdefault((line.who, line.text), []).extend(line.rows)
+    return [
+        ToDo(who=who, text=text, rows=tuple(dict.fromkeys(ids)))
+        for (who, text), ids in rows.items()
+    ]
 
 
 def _rank(group: Sequence[_Point]) -> tuple[int, float]:

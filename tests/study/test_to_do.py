@@ -68,3 +68,13 @@ def test_a_missing_resistance_says_how_much_is_needed(bound):
     needed = [one.text for one in lines if one.text.key == "to_do.needs"]
     of = [each for one in needed for each in one.arguments["of"]]
     assert [one.arguments.get("least") for one in of] == [bound]
+
+
+def test_what_forces_and_other_checks_say_alike_is_said_once():
+    study, reason = build_study(), say("envelope.may_exceed", count=339)
+    row = study.rows[0]
+    point = Open(kind=OpenKind.UNSOLVED, message=reason)
+    checks = [replace(one, open=[point]) for one in row.checks]
+    assert len({one.is_of_force for one in checks}) == 2
+    lines = list_to_do(replace(study, rows=[replace(row, checks=checks)]))
+    assert sum(line.text == reason for line in lines) == 1

@@ -96,6 +96,10 @@ class Cell:
             return split_unit(self.value)[1]
         return "%" if self.is_percent else self.shown_unit
 
+    def follow_change(self) -> Cell:
+        """Cell of a formula whose stored result a change may have made old."""
+        return replace(self, doubt=say("cell.follows_change"))
+
     def retype(self, value: object) -> Cell:
         """Cell as if another value were typed there, without its display format."""
         plain = replace(self, is_error=False, is_percent=False, shown_unit="")
@@ -186,8 +190,8 @@ class Workbook:
 def doubt_results(workbook: Workbook, changed: Collection[str] = ()) -> Workbook:
     """Mark the formulas of a workbook whose stored results may be old.
 
-    These are formulas of numbers alone that give another number, formulas that name a
-    changed cell, and all others of a workbook that is calculated by hand.
+    These are formulas of numbers alone that give another number, formulas that rest on
+    a changed cell, and all others of a workbook that is calculated by hand.
 
     Parameters
     ----------
@@ -196,16 +200,15 @@ def doubt_results(workbook: Workbook, changed: Collection[str] = ()) -> Workbook
     changed : collection of str
         Places of cells that a what-if has changed: ``Rows!C8``.
     """
-    addresses = "|".join(place.rpartition("!")[2] for place in changed)
-    changed_address = re.compile(rf"(?<![A-Z])({addresses})(?!\d)")
+    followers = find_followers(workbook, changed) if changed else set[str]()
 
     def mark(cell: Cell) -> Cell:
         if not cell.formula or cell.doubt or not isinstance(cell.value, int | float):
             return cell
         number = compute_constant(cell.formula)
         if number is None:
-            if changed and changed_address.search(cell.formula.replace("$", "")):
-                return replace(cell, doubt=say("cell.names_changed"))
+            if cell.address in followers:
+                return cell.follow_change()
             return replace(cell, doubt=_BY_HAND) if workbook.is_by_hand else cell
         if math.isclose(number, cell.value, rel_tol=1e-6, abs_tol=1e-9):
             return cell
@@ -220,6 +223,23 @@ def doubt_results(workbook: Workbook, changed: Collection[str] = ()) -> Workbook
 
 
 _BY_HAND = say("cell.by_hand")
+_READ = re.compile(r"[A-Z]{1,3}[1-9]\d*|:")  # addresses; the sign of a range
+
+
+def find_followers(workbook: Workbook, changed: Collection[str]) -> set[str]:
+    """Addresses of changed cells, and of formulas that rest on them by any chain.
+
+    A formula of a range may read any cell; sheets are not told apart.
+    """
+    read: dict[str, set[str]] = {}
+    for cell in (cell for sheet in workbook.sheets for cell in sheet.cells):
+        if cell.formula:
+            names = _READ.findall(cell.formula.replace("$", ""))
+            read.setdefault(cell.address, set()).update(names)
+    followers = {":", *(place.rpartition("!")[2] for place in changed)}
+    while more := {x for x, names in read.items() if names & followers} - followers:
+        followers |= more
+    return followers
 
 
 def name_column(column: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.site.cells.cells import Sheet, Workbook
@@ -15,7 +15,7 @@ from netdesign.site.columns.office import (
     load_plan,
 )
 from netdesign.site.headings import Table, find_best_row
-from netdesign.site.readings import Row
+from netdesign.site.readings import Reading, Row
 from netdesign.site.tables import find_table, read_rows
 
 SHEETS_ALONE = tuple(table for table in TABLES if table not in PARTS)
@@ -34,6 +34,21 @@ class OfficeTables:
         table = self.tables.get(name)
         column = table.columns.get(key) if table else None
         return column.measure if column else ""
+
+    def doubt_formulas(self, addresses: Container[str]) -> OfficeTables:
+        """Tables whose formulas at some addresses may have an old result."""
+
+        def doubt(reading: Reading) -> Reading:
+            cell = reading.cell
+            if cell is None or not cell.formula or cell.address not in addresses:
+                return reading
+            return replace(reading, cell=cell.follow_change())
+
+        lines = {
+            name: [{key: doubt(x) for key, x in line.items()} for line in of_table]
+            for name, of_table in self.lines.items()
+        }
+        return replace(self, lines=lines)
 
 
 def read_tables(

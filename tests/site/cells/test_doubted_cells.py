@@ -157,12 +157,25 @@ def test_a_workbook_calculated_by_hand_is_asked_about_where_nothing_tells(path):
     assert not read_site(write_formulas(path, plain, by_hand=True)).questions
 
 
-def test_a_what_if_makes_the_formulas_old_that_name_its_cell(path):
+@each(
+    "formula",
+    ["='Net types'!$B$6*0.8", "=SUM('Net types'!B5:B7)*0.8", "=Rows!$G$7-1200"],
+)
+def test_a_what_if_makes_the_formulas_old_that_rest_on_its_cell(path, formula):
+    """Named, within a range, by a chain of formulas; whichever way it is asked."""
     other = {SNOW: ("=$B$66*0.8", 2.4)}
-    assert not read_site(write_formulas(path, other), instead={HEIGHT: "3.6"}).questions
-    named = {SNOW: ("='Net types'!$B$6*0.8", 2.4)}
-    changed = read_site(write_formulas(path, named), instead={HEIGHT: "3.6"})
-    assert "names a changed cell" in " ".join(map(str, changed.questions))
+    chain = {"Rows!G7": ("='Net types'!$B$6+1200", 1203.0)}  # the altitude of a row
+    write_formulas(path, other)
+    row_id = read_site(path).rows[0].id
+    shared = {row.id: {"net_height": 3.6} for row in read_site(path).rows}
+    ways = ({"instead": {HEIGHT: "3.6"}}, {"change": shared})
+    for way in ways:
+        assert not read_site(path, **way).questions
+    write_formulas(path, {SNOW: (formula, 2.4), **chain})
+    assert not read_site(path).questions
+    for way in ways:
+        rows = {row.id: row for row in read_site(path, **way).rows}
+        assert "rest on a changed cell" in " ".join(map(str, rows[row_id].questions))
 
 
 @each(
