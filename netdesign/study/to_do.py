@@ -6,7 +6,7 @@ them needs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks.check import Check
@@ -74,16 +74,17 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
         Largest number of lines, of which the last then counts the others; None: all.
     """
     lines: dict[tuple[str, ...], list[_Point]] = {}
+    unmet: dict[Message, list[str]] = {}  # laws that the drawn cases do not obey
     for row in study.rows:
         for point in _list_points(row):
             lines.setdefault((point.who, *point.key), []).append(point)
+        for reason in row.unmet:
+            unmet.setdefault(reason, []).append(row.id)
     every = [_sum_up(group) for group in sorted(lines.values(), key=_rank)]
-    every += [  # laws that the drawn cases do not obey
-        ToDo(who="office", text=reason, rows=(row.id,))
-        for row in study.rows
-        for reason in row.unmet
+    every += [
+        ToDo(who="office", text=reason, rows=tuple(ids))
+        for reason, ids in unmet.items()
     ]
-    every = _merge_alike(every)
     if most is None or len(every) <= most:
         return tuple(every)
     rest = every[most - 1 :]  # the last line counts them
@@ -91,17 +92,6 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
     ids = tuple(row.id for row in study.rows if row.id in left)
     more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*every[: most - 1], more)
-
-
-def _merge_alike(lines: Sequence[ToDo]) -> list[ToDo]:
-    """Lines of which each says something else, with the rows of all that say it."""
-    rows: dict[tuple[Who, Message], list[str]] = {}
-    for line in lines:
-        rows.setdefault((line.who, line.text), []).extend(line.rows)
-    return [
-        ToDo(who=who, text=text, rows=tuple(dict.fromkeys(ids)))
-        for (who, text), ids in rows.items()
-    ]
 
 
 def _rank(group: Sequence[_Point]) -> tuple[int, float]:
@@ -117,6 +107,7 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
     without any resistance has a single point.
     """
     is_bare = any(check.member == STRUCTURE and check.open for check in row.checks)
+    of_forces = {x.message for y in row.checks if y.is_of_force for x in y.open}
     for check in row.checks:
         is_part = check.member != STRUCTURE and is_of_structure(check)
         if is_bare and is_part and check.verdict is Verdict.NOT_PROVEN:
@@ -129,12 +120,18 @@ def _list_points(row: RowStudy) -> Iterator[_Point]:
             proofs = [point for point in check.open if point.proof is not None]
             open_points = proofs or check.open
         for point in open_points:
-            who, *key = _sort(check, point)
+            who, *key = _sort(check, point, of_forces)
             yield _Point(who=who, key=(*key,), row=row.id, check=check, point=point)
 
 
-def _sort(check: Check, point: Open | None) -> tuple[Who, *tuple[str, ...]]:
-    """Who has the answer to an open point of a check, and the key of its line."""
+def _sort(
+    check: Check, point: Open | None, of_forces: Container[Message]
+) -> tuple[Who, *tuple[str, ...]]:
+    """Who has the answer to an open point of a check, and the key of its line.
+
+    What checks without a force say has one line whatever its numbers, unless a check
+    of a force of the row says the same.
+    """
     if point is None:
         if not check.is_of_force:
             return "office", "open", check.plain_reason.key
@@ -156,7 +153,8 @@ def _sort(check: Check, point: Open | None) -> tuple[Who, *tuple[str, ...]]:
         return who, "proof", str(point.proof.document)
     is_asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
     named = "office" if is_asked or message.key == "bores.no_type" else who
-    return named, "open", str(message) if check.is_of_force else message.key
+    is_whole = check.is_of_force or message in of_forces
+    return named, "open", str(message) if is_whole else message.key
 
 
 def _name_deciding(message: Message) -> str:
