@@ -2,7 +2,7 @@
 
 Closed forms are starts for the solver and references for its tests. Snow prescribes the
 nodes, foot to head; n nodes lie between the two ends, and n + 1 segments join them.
-Theory: cable/THEORY.md, eqs (C6), (C8) and (C12).
+Theory: cable/THEORY.md, eqs (C6) and (C8).
 """
 
 from __future__ import annotations
@@ -149,31 +149,6 @@ def compute_capstan_ratio(wrap_angle: float, friction_angle: float) -> float:
     return math.exp(math.tan(friction_angle) * wrap_angle)
 
 
-_LARGEST_FRICTION = np.tan(np.radians(89.0))
-
-
-def compute_end_directions(points: Floats) -> tuple[Floats, Floats]:
-    """Unit vectors in which the net leaves its foot and its head.
-
-    Parameters
-    ----------
-    points : ndarray, shape (2, n + 2)
-        Foot, nodes and head [m]; segments are parabolas through two ends and a node
-        between.
-
-    Returns
-    -------
-    tuple of ndarray, shape (2,)
-        At the foot, at the head [-].
-    """
-    directions = []
-    for first, second, third in (points[:, :3].T, points[:, :-4:-1].T):
-        along = 4.0 * second - 3.0 * first - third
-        directions.append(along / np.hypot(*along))
-    foot, head = directions
-    return foot, head
-
-
 def compute_turning_angles(points: Floats) -> Floats:
     """Angles by which the net turns around the snow at its nodes.
 
@@ -198,47 +173,6 @@ def compute_turning_angles(points: Floats) -> Floats:
     dot = x[:-1] * x[1:] + y[:-1] * y[1:]
     angles: Floats = np.arctan2(cross, dot)
     return angles
-
-
-def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
-    """Logarithms of the largest tension ratios that friction holds, eq. (C12).
-
-    Exact for a node; their sum tends to tan(phi) times the wrap angle as nodes are
-    refined, see ``compute_capstan_ratio``.
-
-    Parameters
-    ----------
-    turning_angles : ndarray, shape (n,)
-        beta_i, positive where the net presses [rad].
-    friction : float
-        Tan phi of snow on net [-].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
-        Infinite where beta / 2 + phi reaches a right angle: no ratio slides there.
-
-    Raises
-    ------
-    ModelError
-        If the friction is out of its range.
-
-    Validity
-    --------
-    One bound per node: nodes must carry comparable shares of the pressure. Corner
-    nodes of quadratic elements do, midpoints (1 : 2) do not.
-
-    Verified by
-    -----------
-    tests/verification/test_sliding_cable.py
-    """
-    require_within("friction", friction, 0.0, float(_LARGEST_FRICTION))
-    half = np.maximum(turning_angles, 0.0) / 2.0
-    hold = np.minimum(friction * np.tan(half), 1.0)
-    with np.errstate(divide="ignore"):
-        bounds: Floats = 2.0 * np.arctanh(hold)
-    return bounds
 
 
 def find_slack(sag: float) -> float:

@@ -25,13 +25,7 @@ from netdesign.words.catalogue import Language, as_given, name, name_check, name
 from netdesign.words.message import Message, say
 
 SCHEMA = "netdesign.diff/1"
-_MET, _UNMET = "met", "not met"
-_PASSING = (str(Verdict.PASS), _MET)
-_RANKS = {
-    **{str(Verdict.PASS): 0, _MET: 0},
-    str(Verdict.DECLARED): 1,
-    **{str(Verdict.NOT_PROVEN): 2, _UNMET: 2},
-}
+_RANKS = {str(Verdict.PASS): 0, str(Verdict.DECLARED): 1, str(Verdict.NOT_PROVEN): 2}
 _WORST = 3  # rank of a failure, and of what is no longer there
 # Values of a check that are told one by one; all others are counted.
 _OF_CHECK = ("utilisation", "resistance_kN")
@@ -115,7 +109,7 @@ class Change:
     @property
     def is_turned(self) -> bool:
         """A verdict that is another now, or is gone; not a new one that passes."""
-        is_new_pass = self.old is None and self.new in _PASSING
+        is_new_pass = self.old is None and self.new == Verdict.PASS
         return self.area == "verdict" and not is_new_pass
 
 
@@ -212,7 +206,7 @@ def _rank(change: Change) -> int:
         return 3
     ranks = [_RANKS.get(str(side), _WORST) for side in (change.old, change.new)]
     if change.is_turned and (change.old is None or ranks[1] > ranks[0]):
-        return 1 if change.old in _PASSING else 2
+        return 1 if change.old == Verdict.PASS else 2
     return 4
 
 
@@ -271,9 +265,6 @@ def _list_verdicts(row: RowStudy) -> Pairs:
     yield say("diff.verdict"), _tell(row.verdict)
     for check in row.checks:
         yield say("diff.check", check=_name_check(check)), _tell(check.verdict)
-    for law in row.independent:
-        what = say("diff.law", law=name("law", law.name))
-        yield what, _tell(_MET if law.is_met else _UNMET)
 
 
 def _name_check(check: Check) -> Message:

@@ -1,24 +1,16 @@
 """Judgement of a site by a profile: its cases and checks as one study.
 
-First: the governing case of a row, its drawing, the laws that it obeys, other creep
-laws.
+First: the governing case of a row, its drawing, other creep laws.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign import addon_table
-from netdesign.cable.net import (
-    compute_end_directions,
-    compute_ratio_bounds,
-    compute_turning_angles,
-)
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
-from netdesign.coupling.solution import SolvedState
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import ModelError
@@ -29,8 +21,7 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
     load_glide_tables,
 )
-from netdesign.structure.anchors import AnchorForces
-from netdesign.structure.layout import Point, place_support
+from netdesign.structure.layout import place_support
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.anchor_pulls import list_parts
 from netdesign.study.case_records import Drawing, record_case, record_point
@@ -45,7 +36,6 @@ from netdesign.study.notes import (
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.records import (
     SCHEMA,
-    IndependentRecord,
     ModelFormRecord,
     ReliabilityRecord,
     RowStudy,
@@ -82,92 +72,6 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
         uphill_anchor_m=points.uphill_anchor,
         downhill_anchor_m=points.downhill_anchor,
     )
-
-
-BALANCE = 1e-3  # of a largest force or of the weight: tight enough for print
-DIRECTION = 2e-2  # pulls are those of two meshes, the shape that of the finer one
-DIRECTION_ERRORS = 3.0  # or so many times the relative error of the end's pull
-RATIO = 1e-2  # of the ratio of tensions, as the allowed error of forces
-
-
-def record_independent(
-    row: NetRow, result: CaseResult | None
-) -> list[IndependentRecord]:
-    """Laws that a converged case has to obey; none where it has no solution.
-
-    A law without a value is not met. Friction without a bound holds any ratio of
-    tensions.
-    """
-    if result is None or result.solution is None:
-        return []
-    state, width = result.solution, row.layout.post_spacing
-    balance = state.balance
-    smallest = balance.smallest_tension or 0.0
-    share = float(smallest / state.tension_max)
-    sine, largest_sine = _measure_ends(state)
-    held = _limit_ratio(state, result.case.friction_angle)
-    ratio = float(state.tension_max / smallest) if smallest > 0.0 else None
-    is_held = ratio is not None and (held is None or ratio <= held * (1.0 + RATIO))
-    laws = [
-        _limit("global_balance", balance.relative_residual, BALANCE),
-        _limit("friction_excess", balance.friction_excess, BALANCE),
-        _limit("end_direction", sine, largest_sine),
-        IndependentRecord(
-            name="capstan_ratio", value=ratio, limit=held, is_met=is_held
-        ),
-        IndependentRecord(
-            name="tension_share", value=share, limit=0.0, is_met=share > 0.0
-        ),  # a net does not push
-    ]
-    if result.anchors is not None:
-        pull = (state.head.x * width, state.head.y * width)
-        missing = _measure_open_head(pull, result.anchors)
-        if missing is not None:
-            laws.append(_limit("head_balance", missing, BALANCE))
-    return laws
-
-
-def _limit(name: str, value: float | None, limit: float) -> IndependentRecord:
-    """Law of a value that lies within a limit."""
-    value = None if value is None else float(value)
-    is_met = value is not None and abs(value) <= limit
-    return IndependentRecord(name=name, value=value, limit=limit, is_met=is_met)
-
-
-def _measure_ends(state: SolvedState) -> tuple[float, float]:
-    """Sine of the larger angle between an end's pull and the net's end, and its limit.
-
-    Both without a unit.
-    """
-    leaving = compute_end_directions(state.net_curve)
-    ends = zip((state.foot, state.head), leaving, strict=True)
-    sines = [abs(pull.x * y - pull.y * x) / pull.size for pull, (x, y) in ends]
-    errors = [
-        DIRECTION_ERRORS * pull.error / pull.size for pull in (state.foot, state.head)
-    ]
-    return max(sines), max(DIRECTION, *errors)
-
-
-def _limit_ratio(state: SolvedState, friction_angle: float) -> float | None:
-    """Ratio of the largest tension to the smallest that friction can hold, (C12)."""
-    turns = compute_turning_angles(state.net_curve)
-    bound = float(compute_ratio_bounds(turns, math.tan(friction_angle)).sum())
-    return math.exp(bound) if bound < 100.0 else None
-
-
-def _measure_open_head(pull: Point, anchors: AnchorForces) -> float | None:
-    """Forces on a post head that are left over, as a share of the largest one [-].
-
-    The net's pull is that of the solve, the others are the reverse of what each member
-    does to the ground: an error in the support leaves the polygon open. None where no
-    member has a force.
-    """
-    members = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
-    forces = [(-force.x, -force.y) for force in members if force.size > 0.0]
-    if not forces:
-        return None
-    missing = math.hypot(*(sum(part) for part in zip(pull, *forces, strict=True)))
-    return missing / max(math.hypot(*force) for force in (pull, *forces))
 
 
 def record_model_form(
@@ -343,7 +247,6 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
             record_assumed(assumed) for assumed in row.assumed if not assumed.is_typed
         ],
         pulls=list(forces.pulls),
-        independent=record_independent(forces.row, governing),
         forces=list(forces.largest.values()),
         guideline=record_guideline(forces.row, foot, task.standard),
         floor=forces.floor,

@@ -46,8 +46,7 @@ from netdesign.study.scopes import (
     sum_up_row,
     sum_up_study,
 )
-from netdesign.words.catalogue import name
-from netdesign.words.message import Message, Text, say
+from netdesign.words.message import Text, say
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -82,16 +81,6 @@ class ModelFormRecord:
 
 
 SCHEMA: Literal["netdesign.study/4"] = "netdesign.study/4"
-
-
-@dataclass(frozen=True, kw_only=True)
-class IndependentRecord:
-    """One law that the drawn case must obey whatever the mesh."""
-
-    name: str  # "global_balance", "end_direction", "capstan_ratio", ...
-    value: float | None  # a share or a ratio [-]
-    limit: float | None  # None where nothing bounds it
-    is_met: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,7 +159,6 @@ class RowStudy:
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: Items[Text] = field(default_factory=list)
-    independent: Items[IndependentRecord] = field(default_factory=list)
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     end_guy: EndGuyRecord | None = None  # None without one, or where nothing holds it
     model_form: ModelFormRecord | None = None  # None where nothing governs
@@ -180,16 +168,13 @@ class RowStudy:
 
     @cached_property
     def verdict(self) -> Verdict:
-        """Of all its checks; a law that is not met leaves it unproven."""
-        unmet = [Verdict.NOT_PROVEN for _ in self.unmet]
-        return merge_verdicts([*(check.verdict for check in self.checks), *unmet])
+        """Of all its checks."""
+        return merge_verdicts(check.verdict for check in self.checks)
 
     @cached_property
     def scopes(self) -> dict[Scope, ScopeRecord]:
         """Verdicts of anchors, structure and siting, each of its own checks alone."""
-        return sum_up_row(
-            self.checks, has_unmet=bool(self.unmet), assumed=len(self.assumed)
-        )
+        return sum_up_row(self.checks, assumed=len(self.assumed))
 
     def find_verdict(self, scopes: Collection[str] = ()) -> Verdict:
         """Verdict of some scopes; of the whole row where none is named."""
@@ -215,15 +200,6 @@ class RowStudy:
                     needs = max(point.needs_kN or 0.0, check.needed_kN or 0.0) or None
                     points[key] = replace(point, needs_kN=needs)
         return list(points.values())
-
-    @property
-    def unmet(self) -> list[Message]:
-        """Laws that its drawn case does not obey."""
-        return [
-            say("row.law_not_met", law=name("law", law.name))
-            for law in self.independent
-            if not law.is_met
-        ]
 
     @property
     def member_forces(self) -> list[LargestForce]:

@@ -194,30 +194,26 @@ def merge_scopes(
 
 
 def sum_up_row(
-    checks: Sequence[Check], *, has_unmet: bool = False, assumed: int = 0
+    checks: Sequence[Check], *, assumed: int = 0
 ) -> dict[Scope, ScopeRecord]:
     """Verdict of each scope of a row.
 
-    ``has_unmet`` says that its drawn case does not obey a law, so that no force is
-    proven; ``assumed`` counts the values that its forces were searched over.
+    ``assumed`` counts the values that its forces were searched over.
     """
     return {
         scope: _sum_up(
             list_of_scope(checks, scope),
-            [Verdict.NOT_PROVEN] if has_unmet and scope in _FORCES else [],
             assumed if scope in _FORCES else 0,
         )
         for scope in SCOPES
     }
 
 
-def _sum_up(
-    checks: Sequence[Check], others: Sequence[Verdict], assumed: int
-) -> ScopeRecord:
+def _sum_up(checks: Sequence[Check], assumed: int) -> ScopeRecord:
     governing = find_governing(checks)
     is_by_approval = governing is not None and governing.id == BY_APPROVAL
     return ScopeRecord(
-        verdict=merge_verdicts([*(check.verdict for check in checks), *others]),
+        verdict=merge_verdicts(check.verdict for check in checks),
         utilisation=governing.utilisation if governing else None,
         governing=governing.id if governing else "",
         assumed=0 if is_by_approval else assumed,

@@ -74,17 +74,10 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
         Largest number of lines, of which the last then counts the others; None: all.
     """
     lines: dict[tuple[str, ...], list[_Point]] = {}
-    unmet: dict[Message, list[str]] = {}  # laws that the drawn cases do not obey
     for row in study.rows:
         for point in _list_points(row):
             lines.setdefault((point.who, *point.key), []).append(point)
-        for reason in row.unmet:
-            unmet.setdefault(reason, []).append(row.id)
     every = [_sum_up(group) for group in sorted(lines.values(), key=_rank)]
-    every += [
-        ToDo(who="office", text=reason, rows=tuple(ids))
-        for reason, ids in unmet.items()
-    ]
     if most is None or len(every) <= most:
         return tuple(every)
     rest = every[most - 1 :]  # the last line counts them

@@ -11,11 +11,7 @@ from netdesign.addons.history.net_pulls import (
     measure_arcs,
     pull_nodes,
 )
-from netdesign.cable.net import (
-    compute_end_directions,
-    compute_ratio_bounds,
-    compute_turning_angles,
-)
+from netdesign.cable.net import compute_turning_angles
 from tests.each import each
 
 STRAIGHT = np.array([[0.0, 0.5, 1.5], [0.0, 1.0, 3.0]])
@@ -51,28 +47,6 @@ def test_components_are_those_of_the_vector():
     along = (lower[0] + 1j * lower[1]) * turn  # across the bisector, to the head
     x, y = pull(BULGED, tensions).forces
     np.testing.assert_allclose(x + 1j * y, along * (tangential + 1j * normal))
-
-
-@pytest.mark.parametrize("phi", np.radians([0.0, 1.0, 20.0, 45.0, 60.0]))
-def test_bound_is_the_ratio_that_friction_just_holds(phi):
-    beta = np.radians([0.001, 1.0, 30.0, 59.0])
-    bounds = compute_ratio_bounds(beta, math.tan(phi))
-    exact = np.log(np.cos(beta / 2 - phi) / np.cos(beta / 2 + phi))
-    np.testing.assert_allclose(bounds, exact, rtol=1e-12, atol=1e-15)
-    normal = (np.exp(bounds) + 1.0) * np.sin(beta / 2)
-    tangential = (np.exp(bounds) - 1.0) * np.cos(beta / 2)
-    np.testing.assert_allclose(
-        tangential, normal * math.tan(phi), rtol=1e-10, atol=1e-15
-    )
-
-
-def test_ends_of_a_parabola():
-    """y = x (1 - x) leaves both ends at 45 degrees."""
-    x = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
-    points = np.array([x, x * (1.0 - x)])
-    foot, head = compute_end_directions(points)
-    np.testing.assert_allclose(foot, np.array([1.0, 1.0]) / np.sqrt(2.0), rtol=1e-15)
-    np.testing.assert_allclose(head, np.array([-1.0, 1.0]) / np.sqrt(2.0), rtol=1e-15)
 
 
 def arc_points(count, opening=1.2, exponent=1.0):

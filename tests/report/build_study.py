@@ -34,7 +34,6 @@ from netdesign.study.case_records import (
 )
 from netdesign.study.records import (
     SCHEMA,
-    IndependentRecord,
     ModelFormRecord,
     ProfileRecord,
     Provenance,
@@ -210,15 +209,6 @@ def fill(kind, /, **given):
         if one.name not in given and one.default in (MISSING, None, 0):
             given |= {one.name: drawn[type_]} if type_ in drawn else {}
     return kind(**given)
-
-
-def build_independent() -> list[IndependentRecord]:
-    """Laws that the drawn case obeys."""
-    names = ("global_balance", "friction_excess", "end_direction", "capstan_ratio")
-    return [
-        fill(IndependentRecord, name=name, is_met=True)
-        for name in (*names, "tension_share")
-    ]
 
 
 def build_guideline(extreme: LargestForce) -> GuidelineRecord:

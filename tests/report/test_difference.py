@@ -17,7 +17,6 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.each import each
 from tests.report.build_study import (
-    build_independent,
     build_reliability,
     build_study,
 )
@@ -80,16 +79,9 @@ def test_the_document_and_the_lines_show_the_same_values():
     }
 
 
-def obey_laws(study):
-    """The same study with independent checks."""
-    rows = [replace(row, independent=build_independent()) for row in study.rows]
-    return replace(study, rows=rows)
-
-
-@pytest.mark.parametrize("gone", ["checks", "independent"])
-def test_what_is_gone_counts_as_turned_and_what_comes_and_passes_does_not(gone):
-    old = obey_laws(build_study())
-    row = replace(old.rows[0], **{gone: getattr(old.rows[0], gone)[1:]})
+def test_what_is_gone_counts_as_turned_and_what_comes_and_passes_does_not():
+    old = build_study()
+    row = replace(old.rows[0], checks=old.rows[0].checks[1:])
     new = replace(old, rows=[row, *old.rows[1:]])
     assert any(change.is_turned for change in compare_studies(old, new))
     assert not any(change.is_turned for change in compare_studies(new, old))
@@ -122,7 +114,7 @@ def is_worked_out(name):
 @pytest.mark.long
 def test_every_value_of_a_study_is_compared():
     """Whatever one leaf of the document is altered to: it is told, save two."""
-    small = obey_laws(build_study(samples=2, rows=2))
+    small = build_study(samples=2, rows=2)
     drawn = [
         replace(row, reliability=build_reliability(row.checks[0].id))
         for row in small.rows
@@ -145,8 +137,7 @@ def test_every_value_of_a_study_is_compared():
             continue
         changes = compare_studies(old, new)
         assert bool(changes) is (name not in UNTOLD), path
-        is_verdict = name[-1] in ("verdict", "is_met")
-        assert any(c.is_turned for c in changes) >= is_verdict, path
+        assert any(c.is_turned for c in changes) >= (name[-1] == "verdict"), path
 
 
 def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
@@ -174,7 +165,7 @@ def round_otherwise(part):
 
 
 def test_rounding_is_no_change():
-    document = json.loads(write_document(obey_laws(build_study())))
+    document = json.loads(write_document(build_study()))
     other = round_otherwise(document)
     assert other != document
     old, new = (read_document(json.dumps(one)) for one in (document, other))
@@ -183,7 +174,7 @@ def test_rounding_is_no_change():
 
 def change_much():
     """Two studies with changes of every kind, and checks that came and went."""
-    made = obey_laws(build_study())
+    made = build_study()
     row = made.rows[0]
     old = replace(made, rows=[row, turn_row(made.rows[1], Verdict.PASS), made.rows[2]])
     fewer = replace(row, checks=row.checks[2:])
@@ -196,10 +187,7 @@ def change_much():
     ]
     inputs = [replace(one, value="free") for one in row.inputs]
     extremes = [replace(one, value_kN=37.1) for one in row.member_forces]
-    laws = [replace(one, is_met=not one.is_met) for one in row.independent]
-    turned = replace(
-        row, checks=checks, inputs=inputs, forces=extremes, independent=laws
-    )
+    turned = replace(row, checks=checks, inputs=inputs, forces=extremes)
     return replace(old, rows=[fewer, *old.rows[1:]]), replace(
         old, rows=[turned, turn_row(old.rows[2], Verdict.PASS)]
     )

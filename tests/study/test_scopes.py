@@ -76,7 +76,7 @@ def test_a_doubted_cell_bears_on_what_its_number_decides(block, column, typed, a
 @given(VERDICTS)
 def test_the_row_has_the_worst_verdict_of_its_scopes(verdicts):
     checks = [turn(*pair) for pair in zip(CHECKS, verdicts, strict=True)]
-    row = replace(STUDY.rows[0], checks=checks, independent=[])
+    row = replace(STUDY.rows[0], checks=checks)
     of_scopes = [one.verdict for one in row.scopes.values()]
     if all(list_of_scope(checks, one) for one in SCOPES):
         assert row.verdict is min(of_scopes, key=SEVERITY.index)

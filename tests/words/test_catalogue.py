@@ -19,7 +19,7 @@ FAMILIES = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
     *("symbol.", "finding.error", "finding.question"),
     *("finding.note", "case_count.", "outcome.", "ended.", "member.", "mode."),
-    *("basis.", "status.", "axis.", "evidence.", "law.", "termination."),
+    *("basis.", "status.", "axis.", "evidence.", "termination."),
     *("verdict.", "meaning.", "factor.", "creep_law.", "of_scope."),
     *("geometry.inclination_", "geometry.slope_", "geometry.height_"),
     *("geometry.gap_", "geometry.spacing_", "winter_column.", "winter_outcome."),

@@ -84,7 +84,7 @@ def describe_briefly(row: RowStudy, words: Words) -> str:
     if row.verdict is Verdict.PASS:
         return ""
     if check is None or check.verdict is not row.verdict:
-        return words.show(row.unmet[0]) if row.unmet else words("todo.row_open")
+        return words("todo.row_open")
     if check.verdict is Verdict.DECLARED and check.declared:
         return show_text(check.declared.document)
     reasons = [_leave_out_cell(reason) for reason in check.open_reasons]

@@ -233,8 +233,7 @@ class RowPage:
         within = [x for x in others if x.mode == "approval" and x.finding is not None]
         yield from self._show_others(others, within)
         if not row.checks:
-            reasons = tuple(t.show(reason) for reason in row.unmet)
-            yield Items(items=reasons or (t("heading.no_check"),), look="reasons")
+            yield Items(items=(t("heading.no_check"),), look="reasons")
 
     def _tabulate(self, rated: Sequence[tuple[str, Rated]]) -> Table:
         t = self.words

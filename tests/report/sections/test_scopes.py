@@ -42,7 +42,7 @@ def approve(row):
     proof = Approval(document=DOCUMENT, cell="Net types!C4").prove()
     line = turn(bare, Verdict.DECLARED, proof=proof)
     anchors = [one for one in row.checks if one.member.endswith("anchor")]
-    return replace(row, checks=[*anchors, line], independent=[])
+    return replace(row, checks=[*anchors, line])
 
 
 @pytest.mark.parametrize(
