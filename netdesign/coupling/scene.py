@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
-from typing import TYPE_CHECKING
 
 from netdesign.cable.net import Net
 from netdesign.outcome import (
@@ -32,10 +31,6 @@ from netdesign.snow.law import FlowLayer, FlowProblem, Sides
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import Layer, Snowpack
 from netdesign.words.message import say
-
-if TYPE_CHECKING:
-    from netdesign.snow.flow_step import Step
-
 
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.
@@ -298,8 +293,6 @@ class SolverSettings:
         How many times the usual linear solves the rounds on one mesh may take [-].
     levels : tuple of MeshSize
         Meshes from coarse to fine, at least two.
-    step : callable, optional
-        Takes the Newton steps of the snow; default is the fast kernel.
     """
 
     accuracy: float = 0.01
@@ -310,7 +303,6 @@ class SolverSettings:
     max_iterations: int = 60
     patience: float = 1.0
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
-    step: Step | None = None
 
     def describe(self) -> dict[str, float]:
         """Tolerances that a rerun needs."""

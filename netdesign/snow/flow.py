@@ -18,7 +18,7 @@ from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import Contact, FlowState, change_some, rest, update_contact
 from netdesign.snow.element import interpolate_reference
-from netdesign.snow.flow_step import Step, take_step
+from netdesign.snow.flow_step import take_step
 from netdesign.snow.kernel import SingularError
 from netdesign.snow.law import (
     FlowProblem,
@@ -68,7 +68,6 @@ def solve_flow(
     *,
     tolerance: float,
     max_iterations: int = 40,
-    step: Step | None = None,
 ) -> FlowResult:
     """Stress and velocity in equilibrium with gravity, ground and net.
 
@@ -85,8 +84,6 @@ def solve_flow(
         forces on the net from its foot to any node, or 20 times that in the stress.
     max_iterations : int
         Newton steps allowed.
-    step : callable, optional
-        Takes the steps; default is the fast kernel.
 
     Returns
     -------
@@ -98,9 +95,8 @@ def solve_flow(
     -----------
     tests/snow/test_flow.py, tests/verification/test_slab.py
     """
-    take = step or take_step
     material = sample_material(problem, mesh.template)
-    state = _solve_linear_creep(problem, mesh, take) if start is None else start
+    state = _solve_linear_creep(problem, mesh) if start is None else start
     solves = 1 if start is None else 0
     outcome, change = Outcome.MAX_ITERATIONS, np.inf
     contact = state.contact
@@ -109,7 +105,7 @@ def solve_flow(
     for iteration in range(max_iterations):
         before = state
         try:
-            state = take(problem, material, mesh, before, contact)
+            state = take_step(problem, material, mesh, before, contact)
         except SingularError:
             outcome = Outcome.NONFINITE
             break
@@ -178,13 +174,11 @@ def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:
     return np.cumsum(mesh.net_in_slope_axes(reaction), axis=1)
 
 
-def _solve_linear_creep(
-    problem: FlowProblem, mesh: PlacedMesh, step: Step
-) -> FlowState:
+def _solve_linear_creep(problem: FlowProblem, mesh: PlacedMesh) -> FlowState:
     """Linear creep of snow held everywhere: a start that needs no guess."""
     at_rest, linear = rest(problem, mesh), make_linear(problem)
     material = sample_material(linear, mesh.template)
-    return step(linear, material, mesh, at_rest, at_rest.contact)
+    return take_step(linear, material, mesh, at_rest, at_rest.contact)
 
 
 def make_linear(problem: FlowProblem) -> FlowProblem:

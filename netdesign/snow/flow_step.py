@@ -5,7 +5,6 @@ Theory: snow/THEORY.md, sections 2 and 5.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -50,10 +49,6 @@ class _Linear(NamedTuple):
     creep: Tangent
     base: Tangent | None  # None where the ground does not slide by a law
     matrix: Matrix
-
-
-# A Newton step to the next state.
-Step = Callable[[FlowProblem, Material, PlacedMesh, FlowState, Contact], FlowState]
 
 
 def take_step(

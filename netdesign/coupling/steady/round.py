@@ -155,7 +155,7 @@ def take_round(
     problem : SteadyProblem
         Scene on a mesh, dimensionless.
     settings : SolverSettings
-        Newton steps allowed, and who takes them.
+        Newton steps allowed.
     curve : ndarray, shape (2, n_net)
         Of the net [thickness].
     state : FlowState or None
@@ -177,7 +177,6 @@ def take_round(
         state,
         tolerance=tolerance,
         max_iterations=settings.max_iterations,
-        step=settings.step,
     )
     if flow.outcome is not Outcome.CONVERGED:
         raise explain_flow(problem, flow.outcome)

@@ -168,7 +168,7 @@ def couple(
         If the rounds do not end, or one of them has no solution.
     """
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    core = None if settings.step else prepare_rounds(problem, settings, still)
+    core = prepare_rounds(problem, settings, still)
     take: Take = core.take if core else partial(take_round, problem, settings)
     state, net = _begin(problem, guess, core.hang if core else None)
     curve = _start_curve(problem, net, guess)

@@ -110,7 +110,6 @@ def solve_truth(
         settings,
         levels=(size, refine_size(size, halvings)),
         balance_tolerance=_TRUTH_BALANCE,
-        step=None,
     )
     return solve_fine(scene, fine)
 
