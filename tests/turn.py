@@ -52,7 +52,7 @@ def use(check, utilisation):
     resistance = check.resistance_kN
     if resistance is None:
         resistance = check.demand_kN / utilisation
-        known = {"R_d": resistance, "R_k": resistance * check.read("γ_R")}
+        known = {"R_d": resistance, "R_k": resistance * (check.read("γ_R") or 1.0)}
         check = _put(check, known)
     design = utilisation * resistance
     forces = {

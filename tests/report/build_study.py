@@ -1,42 +1,23 @@
-"""A realistic study by hand: one row that passes, one that fails, one unproven."""
+"""A study of three net rows, judged under given pulls: it passes, fails, is open.
+
+Of each row some checks are kept, so that its reports are soon made. Names, notes and an
+input are those of somebody who wants to harm a report.
+"""
 
 import math
 import random
 from dataclasses import MISSING, fields, replace
+from functools import cache
 from itertools import product
 
 import numpy as np
 
-from netdesign.calculation.quantity import Kind, Quantity, leaf
-from netdesign.calculation.steps import list_steps
-from netdesign.checks import StandardValue
-from netdesign.checks.check import CasePoint, Change, Check
-from netdesign.checks.forces import (
-    MemberLoad,
-    bring_to_support,
-    place_end_support,
-    rate,
-    take_largest,
-)
-from netdesign.checks.rating import Open, OpenKind
-from netdesign.outcome import Outcome, Verdict
+from netdesign.checks.check import CasePoint
+from netdesign.outcome import Outcome
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.case_records import (
-    CaseRecord,
-    Drawing,
-    FloorForceRecord,
-    FloorRecord,
-    GuidelineCase,
-    GuidelineRecord,
-    HeldSidewaysRecord,
-    LargestForce,
-    PullRecord,
-)
+from netdesign.study.case_records import Drawing
 from netdesign.study.records import (
-    SCHEMA,
     ModelFormRecord,
-    ProfileRecord,
-    Provenance,
     ReliabilityRecord,
     RowStudy,
     Study,
@@ -44,158 +25,119 @@ from netdesign.study.records import (
     VariantRecord,
 )
 from netdesign.words.catalogue import as_given
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
+from tests.checks.given_pulls import study_row
 
 FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
-MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
-ACTION_FACTOR, RESISTANCE_FACTOR = 1.5, 1.35
-ERROR = 0.004  # of every force
+KEPT = (
+    *("foot_anchor.tendon", "foot_anchor.pull_out", "uphill_guy.rope"),
+    *("downhill_anchor.pull_out", "post.compression", "geometry.inclination"),
+    "downhill_guy.rope",
+)
+TESTED = {"test_count": 3, "pull_out": 270, "test_mean": 290}
+ENDS = ((250.0, 450.0), (15.0, 45.0), (25.0, 35.0))  # of a case's numbers
+REMARK = InputEcho(
+    label=as_given("Remark"),
+    unit="",
+    text=f"{SCRIPT} {FORMULA}",
+    value=FORMULA,
+    cell="Nets!H5",
+)
 
 
 def build_study(*, samples: int = 3, rows: int = 3) -> Study:
     """Study of ``rows`` net rows with ``samples`` values of each quantity."""
+    sound = judge_row(0.8, **TESTED)
     built = [
-        build_row("Couloir 1", samples, scale=0.6),
-        build_row(FORMULA, samples, scale=0.72, failed_case=True),
-        build_row(f"Ridge {SCRIPT}", samples, scale=0.62, missing_resistance=True),
+        build_row("Couloir 1", sound, samples),
+        build_row(FORMULA, judge_row(2.0, **TESTED), samples, failed_case=True),
+        build_row(f"Ridge {SCRIPT}", judge_row(0.7), samples, KEPT[:1] + KEPT[2:]),
     ][:rows]
-    return Study(
-        schema=SCHEMA,
-        project=Project(
-            name=f"Combe du Lac & cirque, lot 3 {MENTION}",
-            number="2026-114",
-            author="A. Moreau",
-            checker="",
-            revision="B",
-            standard="nf-p-95-304",
-        ),
-        profile=build_profile(),
+    project = Project(
+        name=f"Combe du Lac & cirque, lot 3 {MENTION}",
+        number="2026-114",
+        author="A. Moreau",
+        revision="B",
+        standard="nf-p-95-304",
+    )
+    provenance = replace(
+        sound.provenance,
+        started="2026-11-21T08:15:00+00:00",
+        site_file="combe.xlsx",
+        site_sha256="9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+    )
+    return replace(
+        sound,
+        project=project,
         rows=built,
-        range_inputs=[
-            _echo(_end("low", "density"), "kg/m3", "250", 250.0, "Ranges!B2"),
-            _echo(_end("high", "density"), "kg/m3", "450", 450.0, "Ranges!C2"),
-            _echo(_end("low", "friction_angle"), "°", "", 15.0, "default"),
-        ],
-        notes=[
-            as_given(f"Sheet Nets: column {SCRIPT} was not understood."),
-            as_given(MENTION),
-        ],
-        provenance=Provenance(
-            version="0.1.0",
-            started="2026-11-21T08:15:00+00:00",
-            site_file="combe.xlsx",
-            site_sha256="9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
-            settings={"accuracy": "0.01", "method": "steady", "jobs": "2"},
-            libraries={"numpy": "2.4.0", "scipy": "1.17.0"},
-        ),
+        provenance=provenance,
+        notes=[as_given(f"Column {SCRIPT} was not read."), as_given(MENTION)],
     )
 
 
-def build_profile() -> ProfileRecord:
-    """Limit profile with confirmed and assumed values."""
-    names = ("id", "clause", "text", "value", "status")
-    rows = [
-        ("factor.action", "5.2", "Partial factor of snow pressure", 1.5, "assumed"),
-        ("factor.tendon", "6.1", "Partial factor of a tendon", 1.35, "assumed"),
-        ("factor.pull_out", "6.3", "Partial factor of a tested anchor", 1.4, "user"),
-        ("inclination.low", "4.4", "Smallest inclination of the net", 25.0, "read"),
-        ("inclination.high", "4.4", "Largest inclination of the net", 35.0, "read"),
-    ]
-    return ProfileRecord(
-        id="nf-p-95-304",
-        title="NF P 95-304 style profile",
-        edition="1992",
-        sha256="b1946ac92492d2347c6235b4d2611184d5b6b5e8b0e2a5a3a2b0a6f0a3d5c1e2",
-        values=[
-            StandardValue(
-                **dict(zip(names, row, strict=True)),
-                unit="°" if row[0].startswith("inclination") else "-",
-                source="secondary literature, see NOTES.md",
-            )
-            for row in rows
-        ],
+@cache
+def judge_row(share: float, **tests: float) -> Study:
+    """The row under a share of its pulls; without tests nothing holds in the ground."""
+    return study_row(
+        "nf-p-95-304-style",
+        anchor={"kind": "rope anchor", "tendon": 520, **tests},
+        foot=(20.0 * share, 18.0 * share),
+        head=(5.0 * share, -22.0 * share),
+        floor="guideline",
+        gap=0.5,
     )
 
 
 def build_row(
     name: str,
+    judged: Study,
     samples: int,
+    kept: tuple[str, ...] = KEPT,
     *,
-    scale: float,
     failed_case: bool = False,
-    missing_resistance: bool = False,
 ) -> RowStudy:
-    """One net row; ``scale`` moves its forces against fixed resistances."""
-    densities, frictions, inclinations = (
-        np.linspace(low, high, samples).tolist()
-        for low, high in ((250, 450), (15, 45), (25, 35))
-    )
+    """Some checks of the judged row under another name, with many cases."""
+    (row,) = judged.rows
+    (case,) = row.cases
+    values = (np.linspace(*one, samples).tolist() for one in ENDS)
+    names = ("density_kg_m3", "friction_deg", "inclination_deg")
     points = [
-        CasePoint(density_kg_m3=d, friction_deg=f, inclination_deg=i)
-        for d, f, i in product(densities, frictions, inclinations)
+        CasePoint(**dict(zip(names, one, strict=True))) for one in product(*values)
     ]
-    failing = len(points) // 2 if failed_case else None
-    cases = [
-        build_case(point, scale, fails=place == failing)
-        for place, point in enumerate(points)
-    ]
-    extremes = [build_extreme(member, cases) for member in MEMBERS]
-    slack = replace(extremes[2], value_kN=0.0, low_kN=0.0, high_kN=0.0)
-    checks = [
-        build_check("foot_anchor", "tendon", extremes[0], 520.0),
-        build_check("foot_anchor", "pull_out", extremes[0], 480.0),
-        build_check("uphill_guy", "rope", extremes[1], 300.0),
-        build_check(
-            "downhill_anchor",
-            "pull_out",
-            extremes[2],
-            None if missing_resistance else 150.0,
-        ),
-        build_check("post", "compression", extremes[3], 420.0),
-        Check(
-            id="geometry.inclination",
-            clause="4.4",
-            member="net",
-            mode="inclination",
-            met=Verdict.PASS,
-            finding=as_given("25° to 35° lies within 25° to 35°."),
-        ),
-        Check(
-            id="downhill_guy.rope",
-            clause="6.1",
-            member="downhill_guy",
-            mode="rope",
-            case=slack.case,
-            steps=list_steps(rate_force(slack, 180.0)),
-        ),
-    ]
-    floor = fill(
-        FloorForceRecord,
-        member=MEMBERS[0],
-        force_kN=0.4 * extremes[0].value_kN / 1.1,
-        load_case="load_case_1",
-    )
-    return RowStudy(
+    cases = [replace(case, case=point) for point in points]
+    if failed_case:
+        numbers = (one.name for one in fields(case)[3:])
+        cases[len(cases) // 2] = replace(
+            cases[len(cases) // 2],
+            outcome=Outcome.MAX_ITERATIONS,
+            **(dict.fromkeys(numbers) | {"reason": as_given("60 iterations.")}),
+        )
+    checks = {one.id: one for one in row.checks}
+    return replace(
+        row,
         id=name,
-        checks=checks,
-        forces=extremes,
+        checks=[checks[one] for one in kept],
         cases=cases,
-        inputs=[
-            _echo(say("column.Nets.slope_angle"), "°", "40", 40.0, "Nets!B5"),
-            _echo(say("column.Nets.snow_height"), "m", "5,22 ", 5.22, "Nets!C5"),
-            _echo(say("column.Nets.ground_law"), "", "rough", "no-slip", "Nets!D5"),
-            _echo(as_given("Remark"), "", f"{SCRIPT} {FORMULA}", FORMULA, "Nets!H5"),
-            _echo(say("column.Nets.slack"), "%", "", 2.0, "default"),
-        ],
-        drawing=replace(build_section(random.Random(3)), case=extremes[0].case),
-        guideline=build_guideline(extremes[0]),
-        model_form=build_model_form(extremes[0]),
-        floor=FloorRecord(profile="swiss-guideline-2007", forces=[floor]),
+        inputs=[*row.inputs, REMARK],
+        model_form=build_model_form(row),
         notes=[as_given(f"no gap is given {SCRIPT}")],
-        pulls=[
-            fill(PullRecord, anchor="foot_anchor", position="intermediate", kind="bar")
+        conditions=[],
+    )
+
+
+def build_model_form(row: RowStudy) -> ModelFormRecord:
+    """One variant with a force, one without."""
+    return ModelFormRecord(
+        case=row.cases[0].case,
+        member="foot_anchor",
+        force_kN=row.cases[0].foot_anchor_kN,
+        utilisation=0.78,
+        variants=[
+            VariantRecord(creep_law="zwinger-2007", ratio=0.907),
+            VariantRecord(
+                creep_law="gagliardini-1997", ratio=None, reason=as_given("it shrinks")
+            ),
         ],
-        held_sideways=fill(HeldSidewaysRecord),
     )
 
 
@@ -209,37 +151,6 @@ def fill(kind, /, **given):
         if one.name not in given and one.default in (MISSING, None, 0):
             given |= {one.name: drawn[type_]} if type_ in drawn else {}
     return kind(**given)
-
-
-def build_guideline(extreme: LargestForce) -> GuidelineRecord:
-    """One load case with numbers, one without."""
-    nothing = dict.fromkeys(("glide_factor", "load_kN_per_m", "foot_anchor_kN"))
-    told = as_given(f"the support fails {SCRIPT}")
-    return fill(
-        GuidelineRecord,
-        case=extreme.case,
-        solved_foot_anchor_kN=extreme.value_kN,
-        cases=[
-            fill(GuidelineCase, name="same_snow"),
-            fill(GuidelineCase, name="load_case_2", reason=told, **nothing),
-        ],
-        sentence=as_given(f"They differ because {SCRIPT}."),
-    )
-
-
-def build_model_form(extreme: LargestForce) -> ModelFormRecord:
-    """One variant with a force, one without."""
-    told = as_given(f"it shrinks {SCRIPT}")
-    return ModelFormRecord(
-        case=extreme.case,
-        member="foot_anchor",
-        force_kN=extreme.value_kN,
-        utilisation=0.78,
-        variants=[
-            VariantRecord(creep_law="zwinger-2007", ratio=0.907),
-            VariantRecord(creep_law="gagliardini-1997", ratio=None, reason=told),
-        ],
-    )
 
 
 def build_reliability(check: str) -> ReliabilityRecord:
@@ -262,118 +173,6 @@ def build_reliability(check: str) -> ReliabilityRecord:
             for name, key in names.items()
         ],
         design_point=fill(CasePoint),
-    )
-
-
-def force(member: str, point: CasePoint, scale: float) -> float:
-    """Made-up force law [kN], rising with density, dented by friction."""
-    share = {"foot_anchor": 1.0, "uphill_guy": 0.55, "downhill_guy": 0.12, "post": 0.7}
-    lean = math.radians(point.inclination_deg)
-    dent = 1 + 0.04 * math.cos(4 * math.radians(point.friction_deg))
-    weight = (point.density_kg_m3 / 450) ** 1.4
-    return 300 * scale * share[member] * weight * dent * (1 + 0.3 * math.sin(lean))
-
-
-def build_case(point: CasePoint, scale: float, *, fails: bool) -> CaseRecord:
-    """Case with a result, or without one."""
-    forces = {f"{member}_kN": force(member, point, scale) for member in MEMBERS}
-    errors = {
-        "error_percent": 100 * ERROR * point.density_kg_m3 / 450,
-        "balance_residual": 3.1e-10 * point.friction_deg,
-    }
-    known = forces | errors
-    return CaseRecord(
-        case=point,
-        outcome=Outcome.MAX_ITERATIONS if fails else Outcome.CONVERGED,
-        reason=as_given("60 iterations, residual 2e-3.") if fails else None,
-        **(dict.fromkeys(known) if fails else known),
-    )
-
-
-def build_extreme(member: str, cases: list[CaseRecord]) -> LargestForce:
-    """Largest force of ``member`` over the cases that have a result."""
-    solved = [case for case in cases if case.outcome is Outcome.CONVERGED]
-    worst = max(solved, key=lambda case: getattr(case, f"{member}_kN"))
-    largest = getattr(worst, f"{member}_kN")
-    return LargestForce(
-        quantity=member,
-        value_kN=largest,
-        low_kN=largest * (1 - ERROR),
-        high_kN=largest * (1 + ERROR),
-        bound_kN=largest,
-        case=worst.case,
-    )
-
-
-def build_check(
-    member: str, mode: str, extreme: LargestForce, characteristic: float | None
-) -> Check:
-    """Force check; without ``characteristic`` resistance it is not proven."""
-    used = rate_force(extreme, characteristic)
-    lack = as_given("No resistance is given in Anchors!E7.")
-    missing = Open(kind=OpenKind.RESISTANCE_MISSING, message=lack)
-    return Check(
-        id=f"{member}.{mode}",
-        clause="6.3 (2)",
-        member=member,
-        mode=mode,
-        case=extreme.case,
-        open=[missing] if characteristic is None else [],
-        resistance_basis="" if characteristic is None else "tested",
-        resistance_type="GEWI 28" if member != "post" else "HEA 160",
-        resistance_cell="Anchors!E7",
-        resistance_derivation=as_given(f"π · 90 mm {SCRIPT}")
-        if mode == "pull_out"
-        else None,
-        load_case="load_case_1",
-        load_inclination_deg=35.0,
-        steps=list_steps(used),
-        changes=[
-            Change(
-                quantity=say("change.type_of_workbook", type=FORMULA),
-                unit="kN",
-                now=characteristic,
-                bound=900.0,
-                sense="has",
-            ),
-            Change(
-                quantity=say("change.type_of_workbook", type="HEB 200"),
-                unit="kN",
-                now=characteristic,
-                bound=812.3,
-                sense="has",
-                note=say("change.as_far_as_solved"),
-            ),
-        ],
-    )
-
-
-def rate_force(extreme: LargestForce, characteristic: float | None) -> Quantity:
-    """Utilisation of a force on the first support of a row, step by step."""
-    spacing = leaf("b", 4.0, "m", "Nets!L5")
-    support = place_end_support(
-        spacing,
-        leaf("f_R", 1.6, "-", "end.constant", kind=Kind.PROFILE),
-        leaf("Δl", 1.5, "m", "end.constant", kind=Kind.PROFILE),
-    )
-    largest, low, high = (
-        force / 1.1 for force in (extreme.value_kN, extreme.low_kN, extreme.high_kN)
-    )
-    solved = leaf(
-        *("E_s", largest, "kN", extreme.quantity), kind=Kind.SOLVED, band=(low, high)
-    )
-    floor = leaf("E_g0", 0.4 * largest, "kN", "floor", kind=Kind.SOLVED)
-    plain = MemberLoad()
-    force = take_largest(
-        "E_k",
-        bring_to_support("E_c", solved, plain, support),
-        bring_to_support("E_g", floor, plain, support),
-    )
-    return rate(
-        force,
-        leaf("γ_E", ACTION_FACTOR, "-", "factor.action", kind=Kind.PROFILE),
-        leaf("R_k", characteristic, "kN", "Anchors!E7"),
-        leaf("γ_R", RESISTANCE_FACTOR, "-", "factor.tendon", kind=Kind.PROFILE),
     )
 
 
@@ -407,13 +206,3 @@ def build_section(rng: random.Random) -> Drawing:
         uphill_anchor_m=points["uphill_anchor"],
         downhill_anchor_m=points["downhill_anchor"],
     )
-
-
-def _end(end: str, quantity: str) -> Message:
-    return say(f"column.{end}_end", name=say(f"column.quantities.{quantity}"))
-
-
-def _echo(
-    label: Message, unit: str, text: str, value: float | str, cell: str
-) -> InputEcho:
-    return InputEcho(label=label, unit=unit, text=text, value=value, cell=cell)

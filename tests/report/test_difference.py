@@ -203,7 +203,7 @@ def test_changes_are_told_in_words_and_differ_as_told(language, way):
     ]
     assert len(told) > 30
     for line in told:
-        assert re.findall(r"(?!kN_)[a-z]+_[a-z]+", line) == []
+        assert re.findall(r"(?!kN_)[a-z]{2,}_[a-z]+", line) == []
         before, after = line.split(": ")[-1].split(" -> ")
         assert before != after
 
@@ -229,7 +229,7 @@ def test_lost_passes_stand_before_all_other_turns():
     fails = next(i for i, c in enumerate(old.rows[1].checks) if c.verdict == "fail")
     new = turn_one(old, row=1, check=fails, verdict=Verdict.NOT_PROVEN, utilisation=1)
     new = turn_one(new, row=2, check=0, verdict=Verdict.NOT_PROVEN)
-    new = turn_one(new, row=2, check=3, verdict=Verdict.FAIL)
+    new = turn_one(new, row=2, check=2, verdict=Verdict.FAIL)
     turns = [(c.old, c.new) for c in compare_studies(old, new) if c.is_turned]
     lost, *worse, gained = turns
     assert (lost, gained) == (("pass", "not_proven"), ("fail", "not_proven"))

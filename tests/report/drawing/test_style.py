@@ -6,10 +6,10 @@ from netdesign.report.drawing.plain_svg import BLUE
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.words import ENGLISH, show_member
 from tests.each import each
-from tests.report.build_study import build_row, build_section
+from tests.report.build_study import build_section, build_study
 from tests.report.drawing.drawn import build_forces, build_pulls
 
-ROW = build_row("A", 3, scale=0.72, failed_case=True)
+ROW = build_study().rows[1]
 TEXT = "{http://www.w3.org/2000/svg}text"
 
 

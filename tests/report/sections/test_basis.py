@@ -19,7 +19,7 @@ from tests.turn import turn_row
 def with_altitude(value, text=""):
     study = build_study()
     echo = InputEcho(label=ALTITUDE, unit="m", text=text, value=value, cell="")
-    rows = [replace(row, inputs=[*row.inputs, echo]) for row in study.rows]
+    rows = [replace(row, inputs=[echo]) for row in study.rows]
     return replace(study, rows=rows)
 
 
