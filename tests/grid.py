@@ -74,7 +74,6 @@ def wrap_results(site, row, results, run):
             confirmed_by=None,
         ),
         members=tuple(largest),
-        quantities=tuple(largest),
         results=tuple(results),
         maxima=Maxima(
             points=(),

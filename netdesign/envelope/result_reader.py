@@ -92,7 +92,6 @@ def bound_lifted(
         tolerance=tolerance,
         deciding=(),
         lattice=build_lattice(places.shape[1]),
-        certainty=settings.certainty,
         inflations=(),
     )
     if not bound(watched=(0,)).upper[0] > 0.0:

@@ -95,8 +95,6 @@ class RowEnvelope:
         What was searched.
     members : tuple of str
         The quantities that are reported, in the order of ``maxima``.
-    quantities : tuple of str
-        All that were modelled: the members, and the signed forces behind them.
     results : tuple of CaseResult
         Every case, in the order of ``maxima.points``.
     maxima : Maxima
@@ -111,7 +109,6 @@ class RowEnvelope:
 
     task: RowTask
     members: tuple[str, ...]
-    quantities: tuple[str, ...]
     results: tuple[CaseResult, ...]
     maxima: Maxima
     confirmations: tuple[Confirmation, ...]

@@ -185,74 +185,63 @@ def _would_gain(result: CaseResult, accuracy: float) -> bool:
     return any(pull.error > accuracy * pull.size for pull in pulls)
 
 
-class RowSearch:
-    """Search of one row's envelope.
-
-    Attributes
-    ----------
-    task : RowTask
-        What is searched.
+def search_row(task: RowTask) -> Steps[RowEnvelope]:
+    """Envelope of one row; the same for the same ends.
 
     Verified by
     -----------
     tests/envelope/test_search.py
     """
+    search = MaximaSearch(len(task.ranges.axes), task.search)
+    skip = FrictionSkip(task.ranges.axes)
+    every, rough = yield from solve_first(task, search.ask(), skip)
+    quantities = name_quantities(task, every)
+    readings = [quantities.read(every)]
+    doubts = np.zeros_like(readings[0].errors)
+    doubts[sorted(rough)] = readings[0].errors[sorted(rough)]
+    search.tell(readings[0].values, quantities.watch(readings), doubts)
+    while search.result is None:
+        results = yield from solve_points(task, search.ask(), skip)
+        every += results
+        readings.append(quantities.read(results))
+        search.tell(readings[-1].values, quantities.watch(readings))
+    maxima = quantities.bound_members(search.result)
+    confirmed = yield from _confirm(task, quantities.members, maxima, every)
+    return RowEnvelope(
+        task=task,
+        members=quantities.members,
+        results=tuple(every),
+        maxima=maxima,
+        confirmations=confirmed,
+        skipped=skip.skipped,
+        lifted=bound_lifted(task.layouts, maxima.points, every, task.search),
+    )
 
-    def __init__(self, task: RowTask) -> None:
-        """Begin a search with nothing known of the row's cases."""
-        self.task = task
-        self._search = MaximaSearch(len(task.ranges.axes), task.search)
 
-    def run(self) -> Steps[RowEnvelope]:
-        """Envelope of the row; the same for the same ends."""
-        task, search = self.task, self._search
-        skip = FrictionSkip(task.ranges.axes)
-        every, rough = yield from solve_first(task, search.ask(), skip)
-        quantities = name_quantities(task, every)
-        readings = [quantities.read(every)]
-        doubts = np.zeros_like(readings[0].errors)
-        doubts[sorted(rough)] = readings[0].errors[sorted(rough)]
-        search.tell(readings[0].values, quantities.watch(readings), doubts)
-        while search.result is None:
-            results = yield from solve_points(task, search.ask(), skip)
-            every += results
-            readings.append(quantities.read(results))
-            search.tell(readings[-1].values, quantities.watch(readings))
-        maxima = quantities.bound_members(search.result)
-        return RowEnvelope(
-            task=task,
-            members=quantities.members,
-            quantities=quantities.names,
-            results=tuple(every),
-            maxima=maxima,
-            confirmations=(yield from self._confirm(quantities.members, maxima, every)),
-            skipped=skip.skipped,
-            lifted=bound_lifted(task.layouts, maxima.points, every, task.search),
-        )
-
-    def _confirm(
-        self, members: Sequence[str], maxima: Maxima, results: Sequence[CaseResult]
-    ) -> Steps[tuple[Confirmation, ...]]:
-        """Governing case of each member that carries a force, solved once more."""
-        if self.task.confirmed_by is None:
-            return ()
-        peaks = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
-        governing = {
-            member: place
-            for member, (force, place) in zip(members, peaks, strict=False)
-            if force > 0.0
-        }
-        places = sorted(set(governing.values()))
-        points = [maxima.points[place] for place in places]
-        apart = FrictionSkip(())  # each is solved
-        confirmed = yield from solve_points(
-            self.task, points, apart, self.task.confirmed_by
-        )
-        again = dict(zip(places, confirmed, strict=True))
-        return tuple(
-            Confirmation(member=member, screened=results[place], confirmed=again[place])
-            for member, place in governing.items()
-        )
+def _confirm(
+    task: RowTask,
+    members: Sequence[str],
+    maxima: Maxima,
+    results: Sequence[CaseResult],
+) -> Steps[tuple[Confirmation, ...]]:
+    """Governing case of each member that carries a force, solved once more."""
+    if task.confirmed_by is None:
+        return ()
+    peaks = zip(maxima.maximum, maxima.governing, strict=True)  # none, unsolved
+    governing = {
+        member: place
+        for member, (force, place) in zip(members, peaks, strict=False)
+        if force > 0.0
+    }
+    places = sorted(set(governing.values()))
+    points = [maxima.points[place] for place in places]
+    apart = FrictionSkip(())  # each is solved
+    confirmed = yield from solve_points(task, points, apart, task.confirmed_by)
+    again = dict(zip(places, confirmed, strict=True))
+    return tuple(
+        Confirmation(member=member, screened=results[place], confirmed=again[place])
+        for member, place in governing.items()
+    )
 
 
 def search_rows(tasks: Sequence[RowTask], runner: Runner) -> list[RowEnvelope]:
@@ -270,9 +259,7 @@ def search_rows(tasks: Sequence[RowTask], runner: Runner) -> list[RowEnvelope]:
     list of RowEnvelope
         In the order of the tasks; equal tasks share one.
     """
-    searches = {task: RowSearch(task) for task in dict.fromkeys(tasks)}
-
-    steps = {task: search.run() for task, search in searches.items()}
+    steps = {task: search_row(task) for task in dict.fromkeys(tasks)}
     envelopes = _run_together(steps, runner)
     return [envelopes[task] for task in tasks]
 

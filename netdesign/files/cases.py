@@ -21,6 +21,7 @@ from netdesign.files.scene import SceneSupport
 from netdesign.panel.row_end import EndForces, compute_end_forces
 from netdesign.panel.solve import RopeForces
 from netdesign.search.maxima import RESOLVED_SHARE
+from netdesign.search.upper_bound import CERTAINTY
 from netdesign.solving.runner import Counts
 from netdesign.solving.solve import Settings, keep_state
 from netdesign.solving.workers import Job
@@ -82,7 +83,7 @@ def write_envelope_document(
         ],
         "bound": {
             "gap_asked": task.search.gap,
-            "certainty": task.search.certainty,
+            "certainty": CERTAINTY,
             "resolved_share": RESOLVED_SHARE,
             "rests_on": render(say("envelope.rests_on"), language),
         },

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.outcome import ModelError, require_count, require_within
+from netdesign.outcome import ModelError
 from netdesign.search.surrogate import (
     DENSE_DIMENSIONS,
     Point,
@@ -24,6 +24,7 @@ from netdesign.search.surrogate import (
     weigh_axes,
 )
 from netdesign.search.upper_bound import (
+    CERTAINTY,
     NOISE,
     Bounds,
     Inflation,
@@ -38,47 +39,32 @@ MOST_PARAMETERS = 8
 # The first design sees features at least as wide at half their height, as a share of
 # a range; narrower ones may hide, and every result says so.
 RESOLVED_SHARE = 0.6
+# Batches of held-out cases in turn that the model must predict well, at the places
+# where it could be wrong most dearly, before the search ends.
+_TESTS = 2
+# Quantities below this share of the largest one are bounded to the same absolute gap as
+# at that share. A small guy force is a difference of large ones: its numerical error is
+# a share of those, and so may be its gap.
+_SMALL_SHARE = 0.2
+# Cases per round; not the number of workers, so that results do not depend on that.
+_BATCH = 6
 _MOST_INFLATION = 2.0  # more would widen what is dense with cases by now
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchSettings:
-    """Demands on the bounds of the maxima; pure numbers, printed in every result.
+    """Demands on the bounds of the maxima.
 
     Attributes
     ----------
     gap : float
         Most that the upper bound may lie above the maximum found, as a share of it.
-    certainty : float
-        Standard errors between the model's mean and the upper bound.
-    tests : int
-        Batches of held-out cases in turn that the model must predict well, at the
-        places where it could be wrong most dearly, before the search ends.
-    small_share : float
-        Quantities below this share of the largest one are bounded to the same
-        absolute gap as at that share. A small guy force is a difference of large
-        ones: its numerical error is a share of those, and so may be its gap.
-    batch : int
-        Cases per round; not the number of workers, so that results do not depend
-        on that.
     max_cases : int
         The search ends there with whatever gap is left, and says so.
     """
 
     gap: float = 0.005
-    certainty: float = 3.0
-    tests: int = 2
-    small_share: float = 0.2
-    batch: int = 6
     max_cases: int = 250
-
-    def __post_init__(self) -> None:
-        """Refuse settings that would certify anything."""
-        require_within("gap", self.gap, 1e-4, 0.5)
-        require_within("certainty", self.certainty, 1.0, 10.0)
-        require_within("small share", self.small_share, 0.0, 1.0)
-        for name in ("tests", "batch", "max_cases"):
-            require_count(name.replace("_", " "), getattr(self, name))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -215,16 +201,7 @@ class MaximaSearch:
         doubts : ndarray, shape (points, quantities), optional
             Errors of values that are known roughly only, 0 of the others; none by
             default.
-
-        Raises
-        ------
-        ModelError
-            If these are not as many values as points, or the search has ended.
         """
-        if not self._asked or len(values) != len(self._asked):
-            raise ModelError(
-                say("envelope.values", given=len(values), asked=len(self._asked))
-            )
         if self._model is not None and self._bounds is not None:
             expected = self._model.predict(np.array(self.ask()))
             self._test(values, expected, self._bounds)
@@ -239,7 +216,7 @@ class MaximaSearch:
         """Test the bounds by cases that they did not know: they must have held."""
         errors = _measure_errors(values, expected.mean, bounds.watched)
         allowed = np.maximum(
-            self.settings.certainty * expected.standard_error, bounds.tolerance / 2.0
+            CERTAINTY * expected.standard_error, bounds.tolerance / 2.0
         )
         is_held = (errors <= allowed)[:, list(bounds.deciding)]
         has_passed = bounds.is_closed and bool(np.all(is_held))
@@ -272,7 +249,7 @@ class MaximaSearch:
         watched: Mapping[int, Watched],
     ) -> tuple[Surrogate, Bounds]:
         """Model of the cases solved so far, and what it allows."""
-        tolerance = _set_tolerance(values, self.settings, watched)
+        tolerance = _set_tolerance(values, self.settings.gap, watched)
         deciding = [q for q, bound in watched.items() if bound.is_deciding]
         if self._axis_weights is None and places.shape[1] > DENSE_DIMENSIONS:
             self._axis_weights = weigh_axes(
@@ -289,19 +266,18 @@ class MaximaSearch:
             watched=list(watched),
             deciding=deciding,
             lattice=self._lattice,
-            certainty=self.settings.certainty,
             inflations=self._inflations,
         )
 
     def _list_questions(self, bounds: Bounds) -> list[Point]:
         room = max(0, self.settings.max_cases - len(self.points))
-        return choose_questions(bounds, self.points, self.settings.batch, room)
+        return choose_questions(bounds, self.points, _BATCH, room)
 
     @property
     def _is_tested(self) -> bool:
         """The bounds are close enough, and have held for all tests in turn."""
         is_closed = self._bounds is not None and self._bounds.is_closed
-        return is_closed and self._passed >= self.settings.tests
+        return is_closed and self._passed >= _TESTS
 
     @property
     def _is_closed(self) -> bool:
@@ -356,13 +332,13 @@ def _find_best(values: Floats, watched: Mapping[int, Watched]) -> Floats:
 
 
 def _set_tolerance(
-    values: Floats, settings: SearchSettings, watched: Mapping[int, Watched]
+    values: Floats, gap: float, watched: Mapping[int, Watched]
 ) -> Floats:
     """Gap that each quantity may keep, in its unit: search/THEORY.md, eq. (M8)."""
     best = _find_best(values, watched)
-    scale = np.maximum(best, settings.small_share * best.max())
+    scale = np.maximum(best, _SMALL_SHARE * best.max())
     closest = [watched.get(q, Watched()).resolution for q in range(values.shape[1])]
-    tolerance = np.maximum(settings.gap * scale, closest)
+    tolerance = np.maximum(gap * scale, closest)
     result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
     return result
 

@@ -22,6 +22,7 @@ from netdesign.search.surrogate import REACH, Point, Surrogate, measure_distance
 GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.
 _LATTICE = {0: 1, 1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5, 7: 4, 8: 3}
+CERTAINTY = 3.0  # standard errors between the model's mean and the upper bound
 NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
 _WANTED = 100  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
@@ -76,10 +77,9 @@ def bound_quantities(
     watched: Sequence[int],
     deciding: Sequence[int],
     lattice: Floats,
-    certainty: float,
     inflations: Sequence[Inflation],
 ) -> Bounds:
-    """Largest mean plus ``certainty`` standard errors, and the places near it.
+    """Largest mean plus ``CERTAINTY`` standard errors, and the places near it.
 
     Parameters
     ----------
@@ -95,8 +95,6 @@ def bound_quantities(
         Those of them whose bounds have to be close.
     lattice : ndarray, shape (m, dimension)
         Of `build_lattice`.
-    certainty : float
-        Standard errors between mean and bound [-].
     inflations : sequence of Inflation
         Around the cases for which the bound did not hold.
 
@@ -110,7 +108,7 @@ def bound_quantities(
     distinct, every = _list_places(lattice, around)
     looked_at = distinct[every]
 
-    reach = _build_reach(model, asked, tolerance, certainty, inflations)
+    reach = _build_reach(model, asked, tolerance, inflations)
     allowed = reach(distinct)[every]
     upper = allowed.max(axis=0)
     order = {q: _list_highest(allowed[:, q]) for q in asked}
@@ -150,7 +148,6 @@ def _build_reach(
     model: Surrogate,
     asked: list[int],
     tolerance: Floats,
-    certainty: float,
     inflations: Sequence[Inflation],
 ) -> Callable[[Floats], Floats]:
     """Places to what each quantity may reach there; infinity of one not asked for."""
@@ -159,7 +156,7 @@ def _build_reach(
         mean, standard_error, sway = model.predict(at, asked)
         factor = _inflate(at, inflations, asked)
         result: Floats = np.full((len(at), len(tolerance)), np.inf)
-        likely = mean + certainty * factor * standard_error
+        likely = mean + CERTAINTY * factor * standard_error
         result[:, asked] = likely + sway + NOISE * tolerance[asked]
         return result
 
