@@ -140,25 +140,15 @@ class RowEnvelope:
         extremes = find_extremes(self.results)
         return {member: self._bound(extreme) for member, extreme in extremes.items()}
 
-    def at_layout(self, place: int) -> RowEnvelope:
-        """The envelope on one of the task's layouts alone.
+    def on_layout(self, layout: SupportLayout) -> RowEnvelope:
+        """The envelope on one layout: of the task, or between those.
 
         No case is solved for it. Its bounds follow from those of the largest over all
         layouts: envelope/THEORY.md, (E3).
         """
         if len(self.task.layouts) < 2:
             return self
-        layout = self.task.layouts[place]
-        return self._move(layout, lambda result: result.at_layout(place))
-
-    def on_layout(self, layout: SupportLayout) -> RowEnvelope:
-        """The envelope on a layout between those of the task, as ``at_layout``."""
-        return self._move(layout, lambda result: result.on_layout(layout))
-
-    def _move(
-        self, layout: SupportLayout, move: Callable[[CaseResult], CaseResult]
-    ) -> RowEnvelope:
-        results = tuple(map(move, self.results))
+        results = tuple(result.on_layout(layout) for result in self.results)
         return replace(
             self,
             task=replace(self.task, layouts=(layout,)),
@@ -167,8 +157,8 @@ class RowEnvelope:
             confirmations=tuple(
                 replace(
                     confirmation,
-                    screened=move(confirmation.screened),
-                    confirmed=move(confirmation.confirmed),
+                    screened=confirmation.screened.on_layout(layout),
+                    confirmed=confirmation.confirmed.on_layout(layout),
                 )
                 for confirmation in self.confirmations
             ),

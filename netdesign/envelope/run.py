@@ -57,12 +57,15 @@ class LayoutForces:
 
     Attributes
     ----------
+    layouts : tuple of SupportLayout
+        In the order of the bands.
     names : tuple of str
         Members, and quantities of the panel between posts.
     bands : ndarray, shape (layouts, names, 3)
         Least, own and largest force [N].
     """
 
+    layouts: tuple[SupportLayout, ...]
     names: tuple[str, ...]
     bands: Floats
 
@@ -71,9 +74,11 @@ class LayoutForces:
         """Forces on the layout that is worst for each."""
         return self._name(self.bands.max(axis=0))
 
-    def take(self, place: int) -> dict[str, Band]:
-        """Forces on one of the layouts."""
-        return self._name(self.bands[place])
+    def find(self, layout: SupportLayout) -> dict[str, Band] | None:
+        """Forces on one of the layouts; None on any other."""
+        if layout not in self.layouts:
+            return None
+        return self._name(self.bands[self.layouts.index(layout)])
 
     def _name(self, bands: Floats) -> dict[str, Band]:
         return {
@@ -133,30 +138,25 @@ class CaseResult:
             return self.panel.reason
         return self.reason
 
-    def at_layout(self, place: int) -> CaseResult:
-        """The case with the members' forces on one of its layouts alone.
+    def on_layout(self, layout: SupportLayout) -> CaseResult:
+        """The case with the members' forces on one layout: of its own, or between them.
 
         What it brings to the ground stays that on the first layout; `stand` gives it.
-        """
-        if self.of_layouts is None:
-            return self
-        return replace(self, member_forces=self.of_layouts.take(place), of_layouts=None)
-
-    def on_layout(self, layout: SupportLayout) -> CaseResult:
-        """The same on another layout, between those that it has.
 
         Raises
         ------
         ValueError
-            Where that cannot hold what they hold.
+            Where a layout cannot hold what its own hold.
         """
-        if self.solution is None:
+        if self.of_layouts is None or self.solution is None:
             return self
-        panel = self.panel if isinstance(self.panel, PanelForces) else None
-        held = _hold([layout], self.solution, panel)
-        if not held.is_held.all():
-            raise ValueError("a case that another layout holds")
-        forces = _list_forces(held, self.solution, panel).take(0)
+        forces = self.of_layouts.find(layout)
+        if forces is None:
+            panel = self.panel if isinstance(self.panel, PanelForces) else None
+            held = _hold([layout], self.solution, panel)
+            if not held.is_held.all():
+                raise ValueError("a case that another layout holds")
+            forces = _list_forces((layout,), held, self.solution, panel).largest
         return replace(self, member_forces=forces, of_layouts=None)
 
     def stand(self, layout: SupportLayout) -> CaseResult:
@@ -248,7 +248,7 @@ def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
     anchors = stand_on(layouts[0], head, _read_ends(state))
     if isinstance(anchors, FailedSupport):
         return _fail_support(task, anchors)
-    forces = _list_forces(held, state, panel)
+    forces = _list_forces(layouts, held, state, panel)
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
@@ -273,7 +273,10 @@ def _hold(
 
 
 def _list_forces(
-    held: HeldPulls, state: SolvedState, panel: PanelForces | None
+    layouts: tuple[SupportLayout, ...],
+    held: HeldPulls,
+    state: SolvedState,
+    panel: PanelForces | None,
 ) -> LayoutForces:
     """Forces by the section, and by the worst of its panels."""
     mesh = _bound_tension(state)
@@ -284,7 +287,8 @@ def _list_forces(
         bands |= {name: band.max(axis=-1) for name, band in of_panels.items()}
     shape = (len(held.is_held), 3)
     each = [np.broadcast_to(band, shape) for band in bands.values()]
-    return LayoutForces(names=tuple(bands), bands=np.stack(each, axis=1))
+    stacked = np.stack(each, axis=1)
+    return LayoutForces(layouts=layouts, names=tuple(bands), bands=stacked)
 
 
 def _fail_support(task: CaseTask, failed: FailedSupport) -> CaseResult:

@@ -28,7 +28,6 @@ from netdesign.study.member_force import MemberForce, RowForces
 from netdesign.study.row_to_check import (
     CaseSolver,
     RowToCheck,
-    list_layouts,
     place_variant,
     read_values,
 )
@@ -214,8 +213,7 @@ class _BestEnds:
         """Forces at a corner over all cases, with the best of the assumed panels."""
         key = (_name(row), find_least_forces.__name__)
         if key not in self.forces_at:
-            place = list_layouts(self.task.row).index(row.layout)
-            solved = self.task.solved.at_layout(place)
+            solved = self.task.solved.on_layout(row.layout)
             self.forces_at[key] = find_least_forces(self.task, row, solved)
         return self.forces_at[key]
 
@@ -360,8 +358,7 @@ class _BestEnds:
             ranges = ranges.with_value(name, value)
         at = replace(task, site=replace(task.site, ranges=ranges))
         solved = _wrap(task.solved, result)
-        place = list_layouts(task.row).index(row.layout)
-        return find(at, row, solved.at_layout(place))
+        return find(at, row, solved.on_layout(row.layout))
 
 
 def _name(row: NetRow) -> object:

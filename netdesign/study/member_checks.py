@@ -192,7 +192,6 @@ def _list_open(
     """List the open points of a member's force."""
     open_forces = (
         forces.open_cases,
-        forces.open_panel,
         None if resistance.member in ROPE_OF else forces.open_floor,
         _find_loose_end(forces, resistance.member, width.position),
     )

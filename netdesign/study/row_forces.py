@@ -44,8 +44,6 @@ class RowForces(Basis):
         Directions at the anchors.
     open_cases : Message or None
         Why the forces do not cover every case.
-    open_panel : Message or None
-        Why an assumed panel fails, so that a force may be larger than those known.
     """
 
     effects: RowEffects
@@ -56,7 +54,6 @@ class RowForces(Basis):
     end_guy: EndGuyRecord | Message | None = None
     pulls: tuple[PullRecord, ...] = ()
     open_cases: Message | None = None
-    open_panel: Message | None = None
     # forces that were asked for
     worked_out: dict[tuple[str, bool, LoadedWidth], MemberForce | None] = field(
         default_factory=dict, init=False, compare=False, repr=False

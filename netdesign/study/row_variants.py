@@ -20,7 +20,6 @@ from netdesign.envelope.row_pulls import (
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
-from netdesign.panel.solve import FailedPanel
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
@@ -40,7 +39,7 @@ from netdesign.study.member_force import (
 )
 from netdesign.study.row_to_check import RowToCheck, list_layouts, list_variants
 from netdesign.units import kilonewton_from_newton
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,8 +55,8 @@ def gather_variants(task: RowToCheck) -> list[Variant]:
     variants: list[Variant] = []
     rows = groupby(list_variants(task.row), key=attrgetter("layout"))
     cases: RowCases | None = None
-    for place, (_, of_layout) in enumerate(rows):
-        solved, (first, *others) = task.solved.at_layout(place), of_layout
+    for layout, of_layout in rows:
+        solved, (first, *others) = task.solved.on_layout(layout), of_layout
         cases = gather_cases(task, first, solved, cases)
         base = read_cases(cases)
         for row in (first, *others):
@@ -196,7 +195,6 @@ def read_cases(cases: RowCases) -> RowForces:
             row, (result.case.inclination for result in results if result.is_converged)
         ),
         open_cases=task.solved.gap,
-        open_panel=_find_failed_panel(results),
     )
 
 
@@ -217,11 +215,3 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
         along *= factors.head / factors.ridge
     load = EndShare(end=forces.effects.supports[-1], along=along, factor=factors.head)
     return replace(forces, end_guy=find_end_guy(task, load, cases.heads))
-
-
-def _find_failed_panel(results: Sequence[CaseResult]) -> Message | None:
-    """Reason why a panel fails, so that a force may be larger."""
-    failed = [result for result in results if isinstance(result.panel, FailedPanel)]
-    if not failed:
-        return None
-    return say("panel.assumed_fails", reason=failed[0].lack or "")

@@ -51,7 +51,7 @@ def test_each_layout_is_as_if_it_were_alone_and_the_worst_counts(seed, panels):
             each = [getattr(one.member_forces[name], end) for one in alone]
             assert getattr(band, end) == pytest.approx(max(each), rel=1e-9, abs=1e-6)
     for place, one in enumerate(alone):
-        found = together.at_layout(place)
+        found = together.on_layout(LAYOUTS[place])
         assert found.stand(LAYOUTS[place]).anchors == one.anchors
         for name, band in one.member_forces.items():
             size = max(1.0, band.value)
@@ -81,10 +81,10 @@ def test_no_case_of_a_grid_exceeds_the_bound_on_any_layout(runner, panels):
         for result in grid:
             assert result.member_forces[name].value <= extreme.widened.high
     for place in range(len(LAYOUTS)):
-        of_one = found.at_layout(place)
+        of_one = found.on_layout(LAYOUTS[place])
         assert of_one.task.layouts == (LAYOUTS[place],)
         for name, extreme in of_one.extremes.items():
             assert extreme.widened.high <= found.extremes[name].widened.high * 1.001
             for result in grid:
-                force = result.at_layout(place).member_forces[name].value
+                force = result.on_layout(LAYOUTS[place]).member_forces[name].value
                 assert force <= extreme.widened.high, (place, name, result.case)
