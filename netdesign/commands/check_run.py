@@ -233,14 +233,15 @@ def _check_and_size(
 
     ``read`` gives the site with some cells replaced.
     """
-    from netdesign.study.check_site import check_site, judge_solved, solve_rows
+    from netdesign.study.cases import search_site
+    from netdesign.study.check_site import check_site
     from netdesign.study.sizing import size_site
 
-    solved = solve_rows(site, run, runner)
-    studies = judge_solved(solved, profiles, run, runner, watch)
+    solved = search_site(site, run, runner)
+    studies = check_site(site, profiles, run, runner, watch, solved=solved)
     sized: list[Sized] = []
     for study, profile in zip(studies, profiles, strict=True):
-        cells = size_site(solved, study, profile, run, read)
+        cells = size_site(site, solved, study, profile, run, read)
         instead = {cell.cell: cell.now for cell in cells if cell.now}
         if not instead:
             sized.append((cells, None))

@@ -146,7 +146,7 @@ class RowsJob:
     ----------
     site : Site
         With these rows alone: all rows of a large site take long to be sent.
-    solved : tuple of RowEnvelope, or None
+    solved : sequence of RowEnvelope, or None
         Cases of these rows; None where they are to be searched first.
     standards : tuple of Standard
         Limit profiles.
@@ -157,7 +157,7 @@ class RowsJob:
     """
 
     site: Site
-    solved: tuple[RowEnvelope, ...] | None = None
+    solved: Sequence[RowEnvelope] | None
     standards: tuple[Standard, ...]
     run: CheckRun
     store: Path | None
@@ -180,7 +180,7 @@ class JudgedRows:
 def judge_rows(
     jobs: Sequence[RowsJob],
     runner: Runner,
-    on_job: Callable[[RowsJob, list[Studies]], None] = lambda *_: None,
+    on_job: Callable[[RowsJob, list[Studies]], None],
 ) -> dict[str, Studies]:
     """Studies of the rows of all jobs, by their ids.
 
@@ -190,7 +190,7 @@ def judge_rows(
         Each is done in one process.
     runner : Runner
         Its pool takes the jobs, if it has one; else this process does.
-    on_job : callable, optional
+    on_job : callable
         Called with each job once it is done, and with what it found.
     """
     judged_at: dict[int, list[Studies]] = {}
@@ -253,7 +253,7 @@ def _judge_away(job: RowsJob) -> JudgedRows:
 
 
 def _judge(job: RowsJob, runner: Runner) -> list[Studies]:
-    solved: Sequence[RowEnvelope] | None = job.solved
+    solved = job.solved
     if solved is None:
         solved = search_site(job.site, job.run, runner)
     pairs = list(zip(job.site.rows, solved, strict=True))
@@ -291,14 +291,6 @@ def _keep_silent(_: Studies) -> None:
 _ROWS_A_PROCESS = 2  # at least; with fewer some processes would wait for the others
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SolvedSite:
-    """A site with the solved cases of its rows."""
-
-    site: Site
-    rows: Sequence[RowEnvelope]
-
-
 def check_site(
     site: Site,
     standards: Sequence[Standard],
@@ -306,6 +298,7 @@ def check_site(
     runner: Runner | None = None,
     watch: RunProgress | None = None,
     on_row: OnRow | None = None,
+    solved: Sequence[RowEnvelope] | None = None,
 ) -> list[Study]:
     """Check a site against limit profiles; its cases are solved once.
 
@@ -325,6 +318,8 @@ def check_site(
         Told of every phase, wave and check.
     on_row : callable, optional
         Called with the studies of each row, one a profile, as soon as they are known.
+    solved : sequence of RowEnvelope, optional
+        Of all rows; they are searched unless given.
 
     Returns
     -------
@@ -351,9 +346,15 @@ def check_site(
             watch.count_piece()
             on_row(studies)
 
-    new = tuple(row for row in site.rows if row.id not in by_row)
+    new = [k for k, row in enumerate(site.rows) if row.id not in by_row]
     if new:
-        job = _build_job(replace(site, rows=new), standards, run, runner)
+        job = RowsJob(
+            site=replace(site, rows=tuple(site.rows[k] for k in new)),
+            solved=solved and tuple(solved[k] for k in new),
+            standards=tuple(standards),
+            run=run,
+            store=runner.store.path if runner.store else None,
+        )
         by_row |= judge_rows(_split(job, runner, watch), runner, keep)
     return _gather(site, by_row, standards, run)
 
@@ -363,47 +364,17 @@ def _split(job: RowsJob, runner: Runner, watch: RunProgress) -> list[RowsJob]:
 
     Where there are too few rows for all processes, all solve cases of the same rows.
     """
-    groups, pool = list_alike(job.site, job.run), runner.workers.pool
-    if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
-        watch.enter("checks", say("phase.rows"))
-        return [replace(job, site=replace(job.site, rows=rows)) for rows in groups]
-    solved = solve_rows(job.site, job.run, runner)
+    solved, pool = job.solved, runner.workers.pool
+    if solved is None:
+        groups = list_alike(job.site, job.run)
+        if pool is None or len(groups) >= _ROWS_A_PROCESS * pool.processes:
+            watch.enter("checks", say("phase.rows"))
+            return [replace(job, site=replace(job.site, rows=rows)) for rows in groups]
+        solved = search_site(job.site, job.run, runner)
     watch.enter("checks")
-    return _list_jobs(job, solved)
-
-
-def solve_rows(site: Site, run: CheckRun, runner: Runner) -> SolvedSite:
-    """Solve the cases of every net row."""
-    rows = search_site(site, run, runner)
-    return SolvedSite(site=site, rows=rows)
-
-
-def judge_solved(
-    solved: SolvedSite,
-    standards: Sequence[Standard],
-    run: CheckRun,
-    runner: Runner,
-    watch: RunProgress,
-) -> list[Study]:
-    """Studies of a solved site, one for each profile."""
-    watch.enter("checks")
-    job = _build_job(solved.site, standards, run, runner)
-    judged = judge_rows(_list_jobs(job, solved), runner, lambda *_: watch.count_piece())
-    return _gather(solved.site, judged, standards, run)
-
-
-def _build_job(
-    site: Site, standards: Sequence[Standard], run: CheckRun, runner: Runner
-) -> RowsJob:
-    store = runner.store.path if runner.store else None
-    return RowsJob(site=site, standards=tuple(standards), run=run, store=store)
-
-
-def _list_jobs(job: RowsJob, solved: SolvedSite) -> list[RowsJob]:
-    """Jobs of one solved row each."""
     return [
         replace(job, site=replace(job.site, rows=(row,)), solved=(of_row,))
-        for row, of_row in zip(solved.site.rows, solved.rows, strict=True)
+        for row, of_row in zip(job.site.rows, solved, strict=True)
     ]
 
 

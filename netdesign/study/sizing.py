@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
 from netdesign.checks.check import Check
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import (
@@ -24,7 +25,6 @@ from netdesign.structure.members import (
     Member,
 )
 from netdesign.study.cases import have_same_forces
-from netdesign.study.check_site import SolvedSite
 from netdesign.study.judge import judge_site
 from netdesign.study.member_checks import find_ground, holds_in_ground
 from netdesign.study.records import Study
@@ -88,7 +88,8 @@ class SizedCell:
 
 
 def size_site(
-    solved: SolvedSite,
+    site: Site,
+    solved: Sequence[RowEnvelope],
     study: Study,
     standard: Standard,
     run: CheckRun,
@@ -101,8 +102,10 @@ def size_site(
 
     Parameters
     ----------
-    solved : SolvedSite
-        The site as built, solved.
+    site : Site
+        As built.
+    solved : sequence of RowEnvelope
+        Of its rows.
     study : Study
         Of it, under the profile ``standard``.
     standard : Standard
@@ -117,8 +120,10 @@ def size_site(
     list of SizedCell
         In the order of rows and columns; empty where every check passes.
     """
-    trials = _Trials(solved=solved, study=study, standard=standard, run=run, read=read)
-    cells = [cell for cell in _list_cells(study, solved.site) if cell.open_rows]
+    trials = _Trials(
+        site=site, solved=solved, study=study, standard=standard, run=run, read=read
+    )
+    cells = [cell for cell in _list_cells(study, site) if cell.open_rows]
     placed = [cell for cell in cells if cell.cell]
     used_by_type: dict[SizedCell, dict[str, float]] = {cell: {} for cell in cells}
     for number in range(max((len(cell.types) for cell in placed), default=0)):
@@ -211,7 +216,8 @@ def _find_cell(row: NetRow, column: Column, position: str) -> tuple[str, str]:
 class _Trials:
     """Site as built, with what judges it again with other types in its cells."""
 
-    solved: SolvedSite
+    site: Site
+    solved: Sequence[RowEnvelope]
     study: Study
     standard: Standard
     run: CheckRun
@@ -230,7 +236,7 @@ class _Trials:
         except SiteDataError:
             yield from self._try_alone(trial, trial)
             return
-        questions = {row.id: set(row.questions) for row in self.solved.site.rows}
+        questions = {row.id: set(row.questions) for row in self.site.rows}
         rows, judged = self._judge_again(site, trial)
         asked = {row.id for row in rows if set(row.questions) - questions[row.id]}
         alone = [cell for cell in trial if not asked.isdisjoint(cell.checks)]
@@ -258,8 +264,8 @@ class _Trials:
     ) -> tuple[Sequence[NetRow], Study]:
         """Rows whose forces are known with other types in cells, and their study."""
         wanted = {row_id for cell in cells for row_id in cell.checks}
-        built, run = self.solved.site, self.run
-        known = zip(built.rows, self.solved.rows, strict=True)
+        built, run = self.site, self.run
+        known = zip(built.rows, self.solved, strict=True)
         by_id = {row.id: (row, of_row) for row, of_row in known}
         rows = tuple(
             row

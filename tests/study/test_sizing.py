@@ -2,16 +2,18 @@
 
 from dataclasses import replace
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.outcome import SiteDataError, Verdict
 from netdesign.site import reader
+from netdesign.site.model import Site
 from netdesign.site.reader import read_site
-from netdesign.solving.runner import Runner
-from netdesign.study.check_site import solve_rows
+from netdesign.study.cases import search_site
 from netdesign.study.sizing import size_site
 from netdesign.words.message import say
 from tests.make import find_cell, load_rows, write_rows, write_site
@@ -36,8 +38,15 @@ class Nobody:
         """Nor a check."""
 
 
+class Solved(NamedTuple):
+    """A site, and the envelopes of its rows."""
+
+    site: Site
+    rows: list[RowEnvelope]
+
+
 def solve(site):
-    return solve_rows(site, RUN, Runner())
+    return Solved(site, search_site(site, RUN))
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -70,9 +79,9 @@ def size(example, **changes):
     path, solved = example
     read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
     site = read({}) if changes else solved.site
-    solved = replace(solved, site=site)
+    solved = solved._replace(site=site)
     study = judge(solved)
-    return study, size_site(solved, study, PROFILE, RUN, read), read
+    return study, size_site(*solved, study, PROFILE, RUN, read), read
 
 
 @pytest.mark.slow
@@ -91,7 +100,7 @@ def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
         for kind in {other.type_id for other in read({}).catalogue}:
             if not kind.startswith("A") or kind == one.was:
                 continue
-            again = judge(replace(example[1], site=read({one.cell: kind})))
+            again = judge(example[1]._replace(site=read({one.cell: kind})))
             (row,) = [row for row in again.rows if row.id == one.row_id]
             checks = [c for c in row.checks if c.member == "foot_anchor"]
             assert len(checks) >= 4
@@ -112,7 +121,7 @@ def test_a_type_that_is_offered_brings_its_own_dip(example):
     _, cells, read = size(example, **flat)
     (now,) = [one.now for one in cells if one.column == "foot_anchor"]
     assert now in ("", "A63-tested")
-    again = judge(replace(example[1], site=read({FOOT: "A57-tested"})))
+    again = judge(example[1]._replace(site=read({FOOT: "A57-tested"})))
     checks = [one for one in again.rows[0].checks if one.member == "foot_anchor"]
     assert any(one.verdict is not Verdict.PASS for one in checks)
 
@@ -169,7 +178,7 @@ def test_a_type_of_a_cell_of_two_rows_passes_in_both_of_them(tmp_path):
     (found,) = [one for one in cells if one.column == "end_guy"]
     assert found.row_id == "R1, R2"
     site = read({found.cell: found.now})
-    again = judge(replace(solve(site), site=site))
+    again = judge(solve(site))
     checks = [
         one for row in again.rows for one in row.checks if one.member == "end_guy"
     ]
@@ -204,13 +213,13 @@ def two_open_cells(example):
     path, solved = example
     changes = {UPHILL: "A25-untested"}
     read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
-    solved = replace(solved, site=read({}))
+    solved = solved._replace(site=read({}))
     study = judge(solved)
     return solved, study, read, find_types(solved, study, read)
 
 
 def find_types(solved, study, read):
-    cells = size_site(solved, study, PROFILE, RUN, read)
+    cells = size_site(*solved, study, PROFILE, RUN, read)
     return {one.column: one for one in cells}
 
 
