@@ -47,6 +47,8 @@ class Column:
         Who has it: ``office``, ``survey``, ``supplier`` or ``ground``.
     like : str
         Column of `all_tables` that it stands for, as ``Nets.slack``; empty of none.
+    was : sequence of str
+        Columns of version 0.1 from which it is rewritten, the first that is filled.
     unit, choice : str
         Unit that is shown; of several measures the name of their list.
     group : str
@@ -65,6 +67,7 @@ class Column:
     need: str = ""
     has: str = ""
     like: str = ""
+    was: Sequence[str] = ()
     unit: str = ""
     choice: str = ""
     group: str = ""
@@ -87,7 +90,7 @@ def _read_column(table: str, key: str, quantities: str) -> Column:
     stands_for = own.get("like", f"{quantities}.{key}")
     place, _, name = stands_for.rpartition(".")
     like = load_file("columns").get(place, {}).get(name, {})
-    shown = {"like", "unit", *_PLAIN, *_TEXTS}
+    shown = {"like", "was", "unit", *_PLAIN, *_TEXTS}
     entry = like | {
         attribute: own[attribute] for attribute in own if attribute not in shown
     }
@@ -95,6 +98,7 @@ def _read_column(table: str, key: str, quantities: str) -> Column:
     return Column(
         field=field,
         like=stands_for,
+        was=own.get("was", (stands_for,)),
         unit=own.get("unit", field.unit),
         texts={text: own.get(text, {}) for text in _TEXTS},
         **{attribute: own[attribute] for attribute in _PLAIN if attribute in own},
