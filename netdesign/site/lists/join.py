@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
 from netdesign.site.cells.findings import Finding, quote
 from netdesign.site.columns.fields import (
     KNOWN_UNITS,
     Field,
+    SheetPlan,
     normalise,
     split_heading,
 )
 from netdesign.site.columns.office import TABLES, load_plan
-from netdesign.site.headings import (
-    Column,
-    Table,
-    Title,
-    find_columns,
-    is_numbering,
-)
+from netdesign.site.headings import Column, Table, Title, is_numbering
 from netdesign.site.lists.list_map import ListMap, ListTable
-from netdesign.site.lists.targets import GROUPS, Target, read_answer
+from netdesign.site.lists.targets import Target, read_answer
 from netdesign.site.office.sheets import OfficeTables, read_tables
-from netdesign.site.tables import complete_table, inspect_layout, judge_missing
-from netdesign.site.titles import (
-    find_heading_unit,
-    is_unit,
-    name_net_type,
-    read_unit,
-)
+from netdesign.site.tables import complete_table, judge_missing
+from netdesign.site.titles import find_heading_unit, is_unit, read_unit
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")
@@ -38,42 +28,6 @@ _ANCHOR_COLUMNS = {
     key: Column(number=number, unit="")
     for number, key in enumerate(("id", "kind", "ground"), 1)
 }
-_NEEDED = ("rows", "net_types")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MappedSheet:
-    """A sheet of a list whose headings are answered.
-
-    Attributes
-    ----------
-    sheet : Sheet
-        Cells of the columns that are read, also of those that every line has alike.
-    table : ListTable
-        What becomes of it.
-    columns : mapping of int to tuple of Target and str
-        What its columns become, with the unit of their numbers.
-    lines : tuple of int
-        Rows below the headings, and below their units, that hold something.
-    file : str
-        Of the answers.
-    """
-
-    sheet: Sheet
-    table: ListTable
-    columns: Mapping[int, tuple[Target, str]]
-    lines: tuple[int, ...]
-    file: str
-
-    def find(self, table: str, key: str) -> int | None:
-        """Number of the column that becomes a column of the input workbook."""
-        place = (table, key)
-        columns = self.columns.items()
-        return next((n for n, (target, _) in columns if target.place == place), None)
-
-    def cells(self, number: int) -> dict[int, Cell]:
-        """Cells of a column by line."""
-        return {line: self.sheet.cell(line, number) for line in self.lines}
 
 
 def join_list(
@@ -81,8 +35,8 @@ def join_list(
 ) -> tuple[Workbook, OfficeTables]:
     """Tables of the input workbook from an office's list, and the list without these.
 
-    Every cell keeps its place in the list. Rows whose net is the same by all its
-    columns share a net type. Anchor types that only the rows name get a line each.
+    Every cell keeps its place in the list. Rows may have the columns of their nets, and
+    need no net types then. Anchor types that only the rows name get a line each.
 
     Parameters
     ----------
@@ -95,69 +49,103 @@ def join_list(
         tables.
     """
     sheets = {sheet.name: sheet for sheet in workbook.sheets}
-    mapped: list[MappedSheet] = []
-    for name, table in answers.tables.items():
+    tables: dict[str, Table | None] = dict.fromkeys(TABLES)
+    unread = dict.fromkeys(sheets)
+    for name, answered in answers.tables.items():
         if name not in sheets:
             rule = say("map.sheet_absent")
             findings.append(Finding(file=answers.file, sheet=name, rule=rule))
-        elif table.becomes:
-            mapped.append(map_sheet(sheets[name], table, answers.file, findings))
-    tables: dict[str, Table | None] = dict.fromkeys(TABLES)
-    for source in mapped:
-        for name, made in _make_tables(source, findings).items():
-            if first := tables[name]:
-                title, of_first = load_plan(name).title, first.sheet.name
-                rule = say("table.second_sheet", name=title, first=of_first)
-                findings.append(made.sheet.finding(rule))
-            tables[name] = first or made
-    if tables["anchor_types"] is None:
-        tables["anchor_types"] = _name_anchors(mapped)
-    read = {source.sheet.name for source in mapped}
-    unread = tuple(name for name in sheets if name not in read)
-    rest = replace(workbook, sheets=(), unread=unread)
-    for name in _NEEDED:
+        elif answered.becomes:
+            del unread[name]
+            made = _make_table(sheets[name], answered, answers.file, findings)
+            first = tables[answered.becomes]
+            tables[answered.becomes] = first or made
+            _refuse_second(answered.becomes, first, made, findings)
+    rows, needed = tables["rows"], ["rows", "net_types"]
+    if rows and "net_height" in map_fields(rows.plan):
+        needed.remove("net_types")
+        _refuse_second("net_types", rows, tables["net_types"], findings)
+    if rows and tables["anchor_types"] is None:
+        tables["anchor_types"] = _name_anchors(rows)
+    rest = replace(workbook, sheets=(), unread=tuple(unread))
+    for name in needed:
         if tables[name] is None:
             findings.extend(judge_missing(rest, load_plan(name)))
     return rest, read_tables(tables, findings)
 
 
-def map_sheet(
-    sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
-) -> MappedSheet:
-    """Columns of a sheet by its answers; a heading without an answer is a finding."""
-    head = table.headings_in_line
-    units = find_units(sheet, head)
-    columns = _find_targets(sheet, table, file, findings)
-    lines = list_below(sheet, head)[1 if units else 0 :]
+def _refuse_second(
+    name: str, first: Table | None, second: Table | None, findings: list[Finding]
+) -> None:
+    if first and second:
+        title = load_plan(name).title
+        rule = say("table.second_sheet", name=title, first=first.sheet.name)
+        findings.append(second.sheet.finding(rule))
+
+
+def _make_table(
+    sheet: Sheet, answered: ListTable, file: str, findings: list[Finding]
+) -> Table:
+    """Table of a sheet by its answers; a heading without an answer is a finding."""
+    head = answered.headings_in_line
+    lines = list_below(sheet, head)[1 if find_units(sheet, head) else 0 :]
     if lines and is_numbering(sheet.row(lines[0])):
         lines = lines[1:]
+    titles = _list_titles(sheet, answered, file, findings)
+    read = {title.cell.column for title in titles}
     rows = {
-        line: {n: cell for n, cell in sheet.rows.get(line, {}).items() if n in columns}
+        line: {n: cell for n, cell in sheet.rows.get(line, {}).items() if n in read}
         for line in (head, *lines)
     }
-    for number, (name, text) in enumerate(table.always.items(), _find_last(sheet) + 1):
-        target = read_answer(name, table.becomes).target
+    for number, (name, text) in enumerate(
+        answered.always.items(), _find_last(sheet) + 1
+    ):
+        target = read_answer(name, answered.becomes).target
         if target is not None:
-            columns[number] = target, target.field.unit
+            titles.append(_title(sheet.cell(head, number), target, target.field.unit))
             for line in lines:
                 rows[line][number] = replace(sheet.cell(line, number), value=text)
     merged = tuple(cells for cells in sheet.merged if cells.min_row > head)
-    return MappedSheet(
+    table = Table(
         sheet=replace(sheet, rows=rows, merged=merged),
-        table=table,
-        columns=columns,
-        lines=tuple(lines),
-        file=file,
+        plan=_plan(answered.becomes, titles),
+        titles=titles,
+        heading_row=head,
+        first_data_row=min(lines, default=head + 1),
+        columns={},
+        words=answered.words,
+        answered_in=file,
     )
+    return complete_table(table, findings)
 
 
-def _find_targets(
+def map_fields(plan: SheetPlan) -> Mapping[str, Field]:
+    """Columns of a sheet by key."""
+    return {field.key: field for field in plan.fields}
+
+
+def _plan(becomes: str, titles: Sequence[Title]) -> SheetPlan:
+    """Columns that a sheet may have; rows may have those of their nets, too."""
+    plan, nets = load_plan(becomes), map_fields(load_plan("net_types"))
+    if becomes != "rows" or all(x.field and x.field.table == "rows" for x in titles):
+        return plan
+    named = replace(map_fields(plan)["net_type"], required=False)
+    fields = {**nets, **map_fields(plan), "net_type": named}
+    return replace(plan, fields=tuple(fields.values()))
+
+
+def _title(cell: Cell, target: Target, unit: str) -> Title:
+    field = map_fields(load_plan(target.table))[target.key]
+    return Title(cell, field, target.unit(unit), target.measure)
+
+
+def _list_titles(
     sheet: Sheet, table: ListTable, file: str, findings: list[Finding]
-) -> dict[int, tuple[Target, str]]:
-    """What the columns of a sheet become, with the unit of their numbers."""
+) -> list[Title]:
+    """Headings of a sheet that become columns, with the unit of their numbers."""
     units = find_units(sheet, table.headings_in_line)
     asked = {normalise(heading): heading for heading in table.headings}
-    columns: dict[int, tuple[Target, str]] = {}
+    titles: list[Title] = []
     for name, cell in name_headings(sheet, table.headings_in_line):
         own = split_heading(str(cell.value))[0]
         heading = asked.get(normalise(name)) or asked.get(own)
@@ -173,11 +161,11 @@ def _find_targets(
         if answer.target.measure and unit and answer.unit not in ("", unit):
             rule = say("list_map.other_unit", unit=unit, other=answer.unit)
             findings.append(cell.finding(rule, say("list_map.one_unit")))
-        columns[cell.column] = answer.target, answer.unit or unit
+        titles.append(_title(cell, answer.target, answer.unit or unit))
     for heading in asked.values():
         rule = say("list_map.no_heading", heading=quote(heading))
         findings.append(sheet.finding(rule, say("list_map.again")))
-    return columns
+    return titles
 
 
 def _find_last(sheet: Sheet) -> int:
@@ -220,116 +208,20 @@ def find_units(sheet: Sheet, line: int) -> Mapping[int, str]:
     return {cell.column: read_unit(cell)[0] for cell in cells}
 
 
-def _make_tables(mapped: MappedSheet, findings: list[Finding]) -> dict[str, Table]:
-    """Tables of the input workbook that a sheet of a list makes."""
-    if mapped.table.becomes != "rows":
-        (name,) = GROUPS[mapped.table.becomes]
-        titles = _list_titles(mapped, name)
-        return {name: complete_table(_make_table(mapped, name, titles), findings)}
-    own = mapped.find("rows", "net_type")
-    number = own or _find_last(mapped.sheet) + 1
-    rows = {line: dict(cells) for line, cells in mapped.sheet.rows.items()}
-    for line, cell in _name_nets(mapped, own).items():
-        rows[line][number] = cell
-    mapped = replace(mapped, sheet=replace(mapped.sheet, rows=rows))
-    heading = mapped.sheet.cell(mapped.table.headings_in_line, number)
-    titles = [*_list_titles(mapped, "rows")]
-    if not own:
-        titles.append(Title(heading, _find_field("rows", "net_type")))
-    tables = {"rows": complete_table(_make_table(mapped, "rows", titles), findings)}
-    of_net = _list_titles(mapped, "net_types")
-    if of_net:
-        titles = [*of_net, Title(heading, _find_field("net_types", "id"))]
-        nets = _make_table(mapped, "net_types", titles)
-        nets = replace(nets, columns=find_columns(nets, findings))
-        lines = _list_different(nets, tables["rows"].rows)
-        tables["net_types"] = replace(nets, rows=lines)
-        inspect_layout(tables["net_types"], findings)
-    return tables
-
-
-def _find_field(table: str, key: str) -> Field:
-    return next(field for field in load_plan(table).fields if field.key == key)
-
-
-def _list_titles(mapped: MappedSheet, table: str) -> list[Title]:
-    """Headings of a sheet that become columns of a table."""
-    head = mapped.table.headings_in_line
-    return [
-        Title(
-            cell=mapped.sheet.cell(head, number),
-            field=_find_field(table, target.key),
-            unit=target.unit(unit),
-            measure=target.measure,
-        )
-        for number, (target, unit) in mapped.columns.items()
-        if target.table == table
-    ]
-
-
-def _make_table(mapped: MappedSheet, table: str, titles: Sequence[Title]) -> Table:
-    """Table of a sheet, without its columns and lines."""
-    head = mapped.table.headings_in_line
-    return Table(
-        sheet=mapped.sheet,
-        plan=load_plan(table),
-        titles=titles,
-        heading_row=head,
-        first_data_row=min(mapped.lines, default=head + 1),
-        columns={},
-        words=mapped.table.words,
-        answered_in=mapped.file,
-    )
-
-
-def _name_nets(mapped: MappedSheet, own: int | None) -> dict[int, Cell]:
-    """Name of the net of each line: as typed, or made of the height of the net."""
-    slope = mapped.find("rows", "slope_angle")
-    typed = mapped.cells(own) if own else {}
-    names = {line: cell for line, cell in typed.items() if not cell.is_blank}
-    height = mapped.find("net_types", "net_height")
-    nets = [
-        n for n, (target, _) in mapped.columns.items() if target.table == "net_types"
-    ]
-    named: dict[Hashable, str] = {}
-    for line, cell in mapped.cells(height).items() if height else ():
-        values = tuple(mapped.sheet.cell(line, n).text.strip() for n in nets)
-        # a line of sums and an empty line have no net whose height could be missing
-        is_sum = not slope or mapped.sheet.cell(line, slope).is_blank
-        if line in names or (cell.is_blank and is_sum):
-            continue
-        name = name_net_type(cell.text.strip(), values, named)
-        names[line] = replace(cell, value=name, formula="")
-    return names
-
-
-def _list_different(nets: Table, lines: Sequence[int]) -> tuple[int, ...]:
-    """First line of each net, of the lines with equal cells of the net."""
-    first: dict[tuple[str, ...], int] = {}
-    for line in lines:
-        cells = [nets.sheet.cell(line, x.number) for x in nets.columns.values()]
-        if not nets.sheet.cell(line, nets.columns["id"].number).is_blank:
-            first.setdefault(tuple(cell.text.strip() for cell in cells), line)
-    return tuple(first.values())
-
-
-def _name_anchors(mapped: Sequence[MappedSheet]) -> Table | None:
+def _name_anchors(rows: Table) -> Table | None:
     """Anchor types that the rows name; None where they name none."""
     first: dict[str, Cell] = {}
-    for source in mapped:
-        numbers = [n for key in _ANCHORS if (n := source.find("rows", key))]
-        for cell in (source.sheet.cell(y, n) for y in source.lines for n in numbers):
-            if not cell.is_blank:
-                first.setdefault(" ".join(cell.text.split()).casefold(), cell)
+    named = (rows.cell(line, key) for line in rows.rows for key in _ANCHORS)
+    for cell in named:
+        if cell and not cell.is_blank:
+            first.setdefault(" ".join(cell.text.split()).casefold(), cell)
     if not first:
         return None
     plan = load_plan("anchor_types")
-    rows = {number: {1: cell} for number, cell in enumerate(first.values(), 1)}
+    lines = {number: {1: cell} for number, cell in enumerate(first.values(), 1)}
     return Table(
-        sheet=Sheet(
-            file=next(iter(first.values())).file, name=plan.name_in("en"), rows=rows
-        ),
+        sheet=Sheet(file=rows.sheet.file, name=plan.name_in("en"), rows=lines),
         plan=plan,
         columns=_ANCHOR_COLUMNS,
-        rows=tuple(rows),
+        rows=tuple(lines),
     )

@@ -92,10 +92,9 @@ def read_office(
 def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
     """Lines by table, each number as what its unit cell says that it measures."""
     lines = {key: list(rows) for key, rows in tables.lines.items()}
-    measure = tables.find_measure("net_types", "slack")
-    lines["net_types"] = [
-        measure_slack(net, measure, findings) for net in lines["net_types"]
-    ]
+    for key in ("rows", "net_types"):  # rows of a list may have the columns of nets
+        measure = tables.find_measure(key, "slack")
+        lines[key] = [measure_slack(line, measure, findings) for line in lines[key]]
     measure = tables.find_measure("layers", "thickness")
     lines["layers"] = measure_layers(lines.get("layers", ()), measure, findings)
     lines["links"] = measure_links(lines["links"])
@@ -109,10 +108,10 @@ def _settle_all(lines: Mapping[str, list[Row]]) -> dict[str, list[Row]]:
         table: [word for line in lines[table] if (word := line["id"].word)]
         for table in ("rows", "net_types", *TYPES)
     }
-    for table in lines:
-        for field in load_plan(table).fields:
-            spellings = ids.get(field.refers_to, ())
-            settled[table] = settle_ids(settled[table], spellings, field.key)
+    for table, of_table in lines.items():
+        for key, reading in (of_table[0] if of_table else {}).items():
+            spellings = ids.get(reading.field.refers_to, ())
+            settled[table] = settle_ids(settled[table], spellings, key)
     anchors_and_ropes = [*ids["anchor_types"], *ids["ropes"]]  # at whose end a link is
     settled["links"] = settle_ids(settled["links"], anchors_and_ropes, "type")
     return settled
@@ -134,7 +133,7 @@ def _join(
     ends = place_in_ground(_find_end_types(rows, typed), anchors, findings)
     for rope in typed["ropes"]:
         check_ends(rope, findings)
-    joined = _join_types(typed, anchors, project, findings)
+    joined = _join_types(typed, rows, anchors, project, findings)
     types = {
         key: _index(joined[key], findings) if by_key[key] else {} for key in joined
     }
@@ -159,6 +158,7 @@ def _join(
 
 def _join_types(
     typed: Mapping[str, Sequence[Row]],
+    rows: Sequence[Row],
     anchors: Sequence[Row],
     project: Row,
     findings: list[Finding],
@@ -167,7 +167,7 @@ def _join_types(
     return {
         "anchor_types": complete_anchors(name_by_ground(anchors), findings),
         "ropes": typed["ropes"],
-        "posts": join_posts(typed["posts"], project, typed["net_types"]),
+        "posts": join_posts(typed["posts"], project, [*typed["net_types"], *rows]),
     }
 
 
@@ -178,11 +178,26 @@ def _join_net_types(
     findings: list[Finding],
 ) -> list[Row]:
     """Rows with their net types; a net type without a line is refused."""
-    nets = _index(typed["net_types"], findings)
+    nets = _index(typed["net_types"] or _list_own_nets(typed["rows"]), findings)
     places = {name: net["id"].place for name, net in nets.items()}
     refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
     measure = tables.find_measure("rows", "snow")
     return join_rows(typed["rows"], nets, project, measure, findings)
+
+
+def _list_own_nets(rows: Sequence[Row]) -> list[Row]:
+    """Named nets of rows that have the columns of a net, each once."""
+    nets: list[Row] = []
+    for line in rows:
+        net = {
+            key: reading
+            for key, reading in line.items()
+            if reading.field.table == "net_types"
+        }
+        named = {**net, "id": line["net_type"]}
+        if net and line["net_type"].word and _bare(named) not in map(_bare, nets):
+            nets.append(named)
+    return nets
 
 
 def _index(lines: Sequence[Row], findings: list[Finding]) -> dict[str, Row]:

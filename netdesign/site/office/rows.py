@@ -26,9 +26,9 @@ _LAYER = {"vertical": "height", "normal": "thickness"}
 
 
 def measure_slack(line: Row, measure: str, findings: list[Finding]) -> Row:
-    """Net type whose sag is the slack that it makes."""
-    slack = line["slack"]
-    if slack.state != "given" or measure == "slack":
+    """Line of a net whose sag is the slack that it makes."""
+    slack = line.get("slack")
+    if slack is None or slack.state != "given" or measure == "slack":
         return line
     if not measure:
         return {**line, "slack": _refuse_unit(slack, "sag_unit", findings)}
@@ -88,7 +88,8 @@ def join_rows(
     height = replace(unknown["net_height"], state="faulty")
     rows: list[Row] = []
     for line in lines:
-        net = nets.get(line["net_type"].word) or {**unknown, "net_height": height}
+        named = nets.get(line["net_type"].word) or {**unknown, "net_height": height}
+        net = line if "net_height" in line else named
         snow, glide = line["snow"], line["glide_factor"]
         if snow.state == "given" and not measure:
             snow = _refuse_unit(snow, "snow_unit", findings)

@@ -10,8 +10,7 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, name_column
 from netdesign.site.lists.ask import is_own_list, write_list_map
-from netdesign.site.lists.join import join_list
-from netdesign.site.lists.list_map import read_list, read_list_map
+from netdesign.site.lists.list_map import read_list_map
 from netdesign.site.reader import read_site
 from netdesign.site.template.office_workbook import write_site_workbook
 from netdesign.site.titles import name_map
@@ -69,28 +68,34 @@ def test_snow_is_vertical_or_normal_in_its_own_unit(office, sites):
 
 
 @pytest.mark.parametrize("office", [VALAIS, CONSULTANT], ids=lambda one: one.file)
-def test_rows_with_the_same_net_share_a_type(office, tmp_path):
+def test_each_row_has_the_net_of_its_own_line(office, sites):
+    heights = list(map(number, list_typed(office, "net_types.net_height")))
+    rows = sites[office.file].rows
+    assert [row.net_height for row in rows] == pytest.approx(heights)
+
+
+def test_rows_that_name_a_net_have_it_alike(tmp_path):
+    """Another height in one of the lines that name it is a slip."""
+    sheet, lines = TYROL.sheets[0], [list(one) for one in TYROL.sheets[0].lines]
+    meanings = list(sheet.headings.values())
+    height, named = map(meanings.index, ("net_types.net_height", "rows.net_type"))
+    first = next(x for x in lines if [y[named] for y in lines].count(x[named]) > 1)
+    first[height] += 0.5
+    office = replace(TYROL, sheets=(replace(sheet, lines=lines), *TYROL.sheets[1:]))
     path = office.write(tmp_path)
     answer_list(office, path)
-    told = []
-    _, joined = join_list(read_list(path, UNDECLARED), read_list_map(path), told)
-    assert [finding for finding in told if finding.severity == "error"] == []
-    heights = list_typed(office, "net_types.net_height")
-    assert len(joined.lines["net_types"]) == len(set(heights))
-    site = read_site(path)
-    wanted = list(map(number, heights))
-    assert [row.net_height for row in site.rows] == pytest.approx(wanted)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(path)
+    keys = [one.rule.key for one in refused.value.findings if one.severity == "error"]
+    assert set(keys) == {"nets.used_twice"}
 
 
 def test_each_input_names_its_cell_in_the_list(sites):
     site = sites[TYROL.file]
-    first = {}  # line of each net type
     for line, row in enumerate(site.rows, 4):
-        net = first.setdefault(row.net_height, line)
         found = {one.cell for one in row.inputs}
-        # altitude, slope, snow, spacing of the row; D_K of its net
-        assert {f"Werke!{one}{line}" for one in "CEFK"} <= found
-        assert f"Werke!J{net}" in found
+        # altitude, slope, snow, D_K, spacing
+        assert {f"Werke!{one}{line}" for one in "CEFJK"} <= found
 
 
 @pytest.mark.parametrize("office", OFFICES, ids=lambda one: one.file)
