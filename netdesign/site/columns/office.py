@@ -61,6 +61,8 @@ class Column:
         Of the column; 0 where its heading decides.
     texts : mapping of str to mapping of str to str
         ``why``, ``note``, ``divided`` by language.
+    measured : mapping of str to str
+        Column of `all_tables` that its number is, by what its unit cell says.
     """
 
     field: Field
@@ -75,6 +77,7 @@ class Column:
     said: str = ""
     width: float = 0.0
     texts: Mapping[str, Mapping[Language, str]]
+    measured: Mapping[str, str]
 
 
 @cache
@@ -90,7 +93,7 @@ def _read_column(table: str, key: str, quantities: str) -> Column:
     stands_for = own.get("like", f"{quantities}.{key}")
     place, _, name = stands_for.rpartition(".")
     like = load_file("columns").get(place, {}).get(name, {})
-    shown = {"like", "was", "unit", *_PLAIN, *_TEXTS}
+    shown = {"like", "was", "measured", "unit", *_PLAIN, *_TEXTS}
     entry = like | {
         attribute: own[attribute] for attribute in own if attribute not in shown
     }
@@ -101,6 +104,7 @@ def _read_column(table: str, key: str, quantities: str) -> Column:
         was=own.get("was", (stands_for,)),
         unit=own.get("unit", field.unit),
         texts={text: own.get(text, {}) for text in _TEXTS},
+        measured=own.get("measured", {}),
         **{attribute: own[attribute] for attribute in _PLAIN if attribute in own},
     )
 

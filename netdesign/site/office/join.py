@@ -22,7 +22,7 @@ from netdesign.site.lines import (
     settle_ids,
 )
 from netdesign.site.office.project import build_project, build_ranges, read_lines
-from netdesign.site.office.rows import join_rows, measure_layers, measure_slack
+from netdesign.site.office.rows import join_rows, measure_lines
 from netdesign.site.office.sheets import OfficeTables, find_office_tables
 from netdesign.site.readings import (
     Reading,
@@ -91,12 +91,10 @@ def read_office(
 
 def _read_typed(tables: OfficeTables, findings: list[Finding]) -> dict[str, list[Row]]:
     """Lines by table, each number as what its unit cell says that it measures."""
-    lines = {key: list(rows) for key, rows in tables.lines.items()}
-    for key in ("rows", "net_types"):  # rows of a list may have the columns of nets
-        measure = tables.find_measure(key, "slack")
-        lines[key] = [measure_slack(line, measure, findings) for line in lines[key]]
-    measure = tables.find_measure("layers", "thickness")
-    lines["layers"] = measure_layers(lines.get("layers", ()), measure, findings)
+    lines = {
+        key: measure_lines(key, rows, tables, findings)
+        for key, rows in tables.lines.items()
+    }
     lines["links"] = measure_links(lines["links"])
     return lines
 
@@ -126,7 +124,7 @@ def _join(
 ) -> Lines:
     """Lines of net rows and their types, of the lines of all sheets."""
     by_key = tables.tables
-    rows = _join_net_types(tables, typed, project, findings)
+    rows = _join_net_types(typed, project, findings)
     layers = order_layers(typed["layers"], findings)
     anchors = join_anchors(typed, project, findings)
     placed = place_in_ground(rows, anchors, findings)
@@ -172,7 +170,6 @@ def _join_types(
 
 
 def _join_net_types(
-    tables: OfficeTables,
     typed: Mapping[str, Sequence[Row]],
     project: Row,
     findings: list[Finding],
@@ -181,8 +178,7 @@ def _join_net_types(
     nets = _index(typed["net_types"] or _list_own_nets(typed["rows"]), findings)
     places = {name: net["id"].place for name, net in nets.items()}
     refuse_unknown_ids((row["net_type"] for row in typed["rows"]), places, findings)
-    measure = tables.find_measure("rows", "snow")
-    return join_rows(typed["rows"], nets, project, measure, findings)
+    return join_rows(typed["rows"], nets, project)
 
 
 def _list_own_nets(rows: Sequence[Row]) -> list[Row]:

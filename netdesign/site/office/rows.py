@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from netdesign.cable.net import find_slack
 from netdesign.checks import Approval, StatedValue
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import find_quantity
-from netdesign.site.columns.office import list_measures, load_plan
+from netdesign.site.columns.office import Column, list_measures, load_columns, load_plan
+from netdesign.site.office.sheets import OfficeTables
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -20,52 +22,65 @@ from netdesign.site.readings import (
 )
 from netdesign.words.message import say
 
-# What a number measures, as its unit cell says.
-_SNOW = {"vertical": "snow_height", "normal": "snow_thickness"}
-_LAYER = {"vertical": "height", "normal": "thickness"}
+
+def measure_lines(
+    table: str, lines: Sequence[Row], tables: OfficeTables, findings: list[Finding]
+) -> list[Row]:
+    """Lines whose numbers are what the unit cells of their columns say.
+
+    Parameters
+    ----------
+    table : str
+        Name of the lines; those of rows may have the columns of a net, too.
+    lines : sequence of Row
+        As read.
+    tables : OfficeTables
+        With the unit cells.
+    findings : list of Finding
+        Appended to: a number whose unit cell says nothing.
+    """
+    measured = list(lines)
+    columns = dict.fromkeys(("net_types", table))
+    for column in chain.from_iterable(map(load_columns, columns)):
+        key = column.field.key
+        if column.choice and lines and key in lines[0]:
+            measure = tables.find_measure(table, key)
+            measured = [
+                {**line, key: _measure(line[key], column, measure, findings)}
+                for line in measured
+            ]
+    return measured
 
 
-def measure_slack(line: Row, measure: str, findings: list[Finding]) -> Row:
-    """Line of a net whose sag is the slack that it makes."""
-    slack = line.get("slack")
-    if slack is None or slack.state != "given" or measure == "slack":
-        return line
-    if not measure:
-        return {**line, "slack": _refuse_unit(slack, "sag_unit", findings)}
-    sags = slack.span or (slack.number, slack.number)
+def _measure(
+    reading: Reading, column: Column, measure: str, findings: list[Finding]
+) -> Reading:
+    """Number as what its unit cell says: of vertical snow, of a sag."""
+    if reading.state == "given" and not measure:
+        choices = (f"choice.{column.choice}.{x}" for x in list_measures(column.choice))
+        accepted = say("accepted.words", words=tuple(map(say, choices)))
+        refuse(reading, say("office.no_measure"), accepted, findings)
+        reading = replace(reading, state="faulty")
+    if reading.state == "given" and measure == "sag":
+        return _turn_sag(reading)
+    quantity = column.measured.get(measure or list_measures(column.choice)[-1], "")
+    sheet, _, key = quantity.rpartition(".")
+    return rename(reading, find_quantity(sheet, key)) if quantity else reading
+
+
+def _turn_sag(sag: Reading) -> Reading:
+    """Slack that a sag makes."""
+    sags = sag.span or (sag.number, sag.number)
     low, high = map(find_slack, sags)
     how = say("office.slack_of_sag", low=100.0 * sags[0], high=100.0 * sags[1])
-    span = None if slack.span is None else (low, high)
-    worked = work_out(slack, slack.field, low, how)
-    return {**line, "slack": replace(worked, span=span)}
-
-
-def _refuse_unit(reading: Reading, choice: str, findings: list[Finding]) -> Reading:
-    """Refuse a number whose unit cell does not say what it measures."""
-    texts = tuple(
-        say(f"choice.{choice}.{measure}") for measure in list_measures(choice)
-    )
-    accepted = say("accepted.words", words=texts)
-    refuse(reading, say("office.no_measure"), accepted, findings)
-    return replace(reading, state="faulty")
-
-
-def measure_layers(
-    lines: Sequence[Row], measure: str, findings: list[Finding]
-) -> list[Row]:
-    """Layers of sheet Snow, vertical or normal as their unit cell says."""
-    if lines and not measure:
-        refuse(lines[0]["thickness"], say("office.no_measure"), "", findings)
-    field = find_quantity("Snow", _LAYER[measure or "normal"])
-    return [{**line, "thickness": rename(line["thickness"], field)} for line in lines]
+    worked = work_out(sag, sag.field, low, how)
+    return replace(worked, span=None if sag.span is None else (low, high))
 
 
 def join_rows(
     lines: Sequence[Row],
     nets: Mapping[str, Row],
     project: Row,
-    measure: str,
-    findings: list[Finding],
 ) -> list[Row]:
     """Rows, each with the columns of its net type and of sheet Project.
 
@@ -77,10 +92,6 @@ def join_rows(
         Of sheet Net types, by id.
     project : Row
         Lines of sheet Project by key.
-    measure : str
-        Of the snow: ``vertical`` or ``normal``; empty where the unit cell does not say.
-    findings : list of Finding
-        Appended to.
     """
     unknown = {
         field.key: read_nothing(field, None) for field in load_plan("net_types").fields
@@ -90,15 +101,12 @@ def join_rows(
     for line in lines:
         named = nets.get(line["net_type"].word) or {**unknown, "net_height": height}
         net = line if "net_height" in line else named
-        snow, glide = line["snow"], line["glide_factor"]
-        if snow.state == "given" and not measure:
-            snow = _refuse_unit(snow, "snow_unit", findings)
+        glide = line["glide_factor"]
         rows.append(
             {
                 **line,
                 **net,
                 "id": line["id"],
-                "snow": rename(snow, find_quantity("Nets", _SNOW[measure or "normal"])),
                 "glide_factor": replace(glide, value="free") if glide.word else glide,
                 "design_life": project["design_life"],
             }

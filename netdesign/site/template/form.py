@@ -158,6 +158,7 @@ def _show_field(field: Field) -> Column:
         unit=field.unit,
         need="yes" if field.required else "",
         texts={"note": field.notes, "why": {}, "divided": {}},
+        measured={},
     )
 
 
