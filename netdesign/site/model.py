@@ -10,7 +10,6 @@ from typing import Any
 from netdesign.checks import Approval, Declaration, GivenResistance
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import NO_RANGES, Case, Ranges
-from netdesign.outcome import require_positive, require_within
 from netdesign.panel.inputs import Panel
 from netdesign.resistance.ground import AnchorType
 from netdesign.resistance.post import PostSection
@@ -170,17 +169,6 @@ class NetRow:
     questions: tuple[Message, ...] = field(default=(), hash=False)
     approval: Approval | None = None  # of its net type
 
-    def __post_init__(self) -> None:
-        """Refuse values that no scene can have."""
-        if self.gap != math.inf:
-            require_within("gap to the next work", self.gap, 0.0, 1e4, "m")
-        require_within("slope angle", self.slope_angle, 0.0, 1.4, "rad")
-        require_positive("snow thickness", self.snow_thickness, "m")
-        require_positive("upslope length", self.upslope_length, "m")
-        require_positive("net height", self.net_height, "m")
-        require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
-        require_within("slack", self.slack, 0.0, 0.5)
-
     def find_assumed(self, key: str) -> Assumed | None:
         """What is assumed of an empty column; None where it is given."""
         return next((assumed for assumed in self.assumed if assumed.key == key), None)
@@ -210,12 +198,6 @@ class NetRow:
         name = say("column.anchor_types.drilled_length")
         column = say("check.on_sheet", name=name, sheet=say("sheet.anchor_types"))
         return () if is_given else (column,)
-
-    def find_net_part(self, part: NetPart) -> Resistance:
-        """Resistance of the mesh, or of a border rope where the row has one."""
-        return next(
-            resistance for resistance in self.net_parts if resistance.member == part
-        )
 
     @property
     def length(self) -> float | None:

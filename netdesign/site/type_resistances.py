@@ -98,29 +98,11 @@ def find_tests(row: Row) -> PullOutTests | None:
 
 
 def check_tests(row: Row, findings: list[Finding]) -> None:
-    """Refuse tests, or a ground's strength, that are incomplete or contradictory."""
-    _refuse_incomplete(row, SOIL_COLUMNS, findings)
-    if row["pull_out"].state != "given":  # the others say nothing without it
-        _refuse_incomplete(row, TEST_COLUMNS, findings)
-        return
-    mean = row["test_mean"].given_si
-    is_tested = row["proven"].word == "tests"
-    if is_tested and mean is not None and row["pull_out"].si > mean:
+    """Refuse tests whose least force is beyond their mean."""
+    least, mean = row["pull_out"].given_si, row["test_mean"].given_si
+    if row["proven"].word == "tests" and least and mean and least > mean:
         rule = say("type.exceeds_mean", place=row["test_mean"].place)
         refuse(row["pull_out"], rule, say("type.at_most_mean"), findings)
-
-
-def _refuse_incomplete(
-    row: Row, keys: tuple[str, ...], findings: list[Finding]
-) -> None:
-    """Refuse a line that fills only some of the columns that belong together."""
-    typed = [row[key] for key in keys if row[key].state == "given"]
-    lacking = [row[key] for key in keys if row[key].state == "blank"]
-    if typed and lacking and len(typed) + len(lacking) == len(keys):
-        rule = say(
-            "type.needs_more", names=tuple(reading.field.name for reading in lacking)
-        )
-        refuse(typed[0], rule, say("type.all_or_none"), findings)
 
 
 def check_ends(row: Row, findings: list[Finding]) -> None:

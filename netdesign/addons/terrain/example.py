@@ -91,7 +91,7 @@ def list_rows(grid: Grid) -> list[Feature]:
     """Rows of the made-up zone along its contours, and the zone."""
     surface = Surface(grid, 7, _NOISE)
     origin = np.array((_EAST, _NORTH))
-    headings = {x.field.key: x.heading(x.field.unit) for x in list_targets("rows")}
+    headings = {x.name: x.heading(x.field.unit) for x in list_targets("rows")}
     cells = {headings[key]: value for key, value in _OWN.items()}
     rows = [
         make_feature(

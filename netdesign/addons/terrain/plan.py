@@ -70,9 +70,9 @@ def read_typed_cells(
         elif not targets:
             unread[f"{heading!r:.60}"] = None
         else:
-            (field,) = (target.field for target in targets)
-            key = _MEASURED.get(field.key, field.key)
-            converted = _convert(value, unit, field.unit)
+            (target,) = targets
+            key = _MEASURED.get(target.name, target.name)
+            converted = _convert(value, unit, target.field.unit)
             if converted is None or key in cells:
                 fault = f"property {heading!r:.60} is given twice, or its value or unit"
                 faults.append(f"{fault} is not understood")

@@ -113,10 +113,10 @@ def _list_spellings(key: str, words: Iterable[str]) -> dict[str, str]:
     return spellings
 
 
-def list_unclear(sheet: str) -> frozenset[str]:
-    """Headings, normalised, that may mean several columns of a sheet."""
+def list_unclear(table: str) -> frozenset[str]:
+    """Headings, normalised, that may mean several columns of a table."""
     by_language = (
-        _load_headings(language)["unclear"].get(sheet, {})
+        _load_headings(language)["unclear"].get(table, {})
         for language in READ_LANGUAGES
     )
     lists = (names for headings in by_language for names in headings.values())

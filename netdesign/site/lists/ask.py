@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
 from pathlib import Path
-from typing import NamedTuple
 
 from rapidfuzz.fuzz import token_sort_ratio
 
@@ -67,9 +66,6 @@ _FIRST_LINES = 20  # in which headings stand
 _LEAST_TEXTS = 3  # in a line of headings
 _LEAST_KNOWN = 2  # headings that a sheet needs, to be read
 _EXAMPLES = 3
-_OLD = {"anchor_types": "Anchors", "tests": "Tests"} | dict.fromkeys(
-    ("rows", "net_types"), "Nets"
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -259,10 +255,10 @@ def guess_headings(
         shown = "; ".join(make_printable(cell.text) for cell in below)
         guesses.append(replace(heading, name=name, cells=shown))
     counts = Counter(
-        heading.target.place for heading in guesses if heading.target is not None
+        heading.target.column.like for heading in guesses if heading.target is not None
     )
     for heading in guesses:
-        count = counts[heading.target.place] if heading.target else 0
+        count = counts[heading.target.column.like] if heading.target else 0
         if count > 1:
             how = say("list_map.twice", count=count, column=heading.answer)
             yield replace(heading, answer=UNANSWERED, target=None, how=how)
@@ -277,7 +273,7 @@ def _guess(
     if has_no_part(text):
         return HeadingGuess(answer=IGNORE, how=say("list_map.no_part"))
     targets = [target for target in list_targets(becomes) if target.has_unit(unit)]
-    ranked, alike = guess(text, unit, targets)
+    ranked, alike = rank_targets(text, unit, targets)
     shown = (f"{target.title(language, unit)} {score:.0f}" for target, score in ranked)
     question = HeadingGuess(
         answer=UNANSWERED, how=say("list_map.unknown"), ranked=" · ".join(shown)
@@ -307,7 +303,7 @@ def _is_unclear(text: str, becomes: str) -> bool:
     if _NUMBER.fullmatch(text.strip()):
         return True
     own, bracket = split_heading(text)
-    if not list_unclear(_OLD[becomes]).isdisjoint((normalise(text), own)):
+    if not list_unclear(GROUPS[becomes][-1]).isdisjoint((normalise(text), own)):
         return True
     # behind a number a bracket is a unit, behind a word part of the name
     fields = [
@@ -364,11 +360,11 @@ def _ask_always(
     table: ListTable, guesses: Sequence[HeadingGuess], language: Language
 ) -> _Asked:
     """Answers for columns that a list lacks: how pull-out resistances are proven."""
-    keys = {heading.target.key for heading in guesses if heading.target}
+    keys = {heading.target.name for heading in guesses if heading.target}
     if table.always or "pull_out" not in keys or "proven" in keys:
         return {column: (text, "") for column, text in table.always.items()}
     target = next(
-        target for target in list_targets(table.becomes) if target.key == "proven"
+        target for target in list_targets(table.becomes) if target.name == "proven"
     )
     accepted = render(target.field.accepted, language)
     return {target.label(language): (UNANSWERED, accepted)}
@@ -396,23 +392,10 @@ _WORD = re.compile(r"[^\W_]+")
 _BRACKET = re.compile(r"[\[(][^\[\]()]*[\])]\s*$")
 
 
-class Guess(NamedTuple):
-    """Columns that a heading may mean.
-
-    Attributes
-    ----------
-    ranked : list of Target and float
-        The likeliest first, with how alike their names are, of 100.
-    target : Target or None
-        Column that may be taken; None where an engineer must decide.
-    """
-
-    ranked: list[tuple[Target, float]]
-    target: Target | None
-
-
-def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
-    """Guess at a heading by the likeness of its words to known names.
+def rank_targets(
+    text: str, unit: str, targets: Iterable[Target]
+) -> tuple[list[tuple[Target, float]], Target | None]:
+    """Rank columns by the likeness of a heading's words to their names.
 
     Parameters
     ----------
@@ -425,8 +408,9 @@ def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
 
     Returns
     -------
-    Guess
-        An allowable value is never taken for a resistance.
+    list of Target and float, Target or None
+        The likeliest columns with how alike they are, of 100; the column that may be
+        taken, None where an engineer must decide.
     """
     plain = _list_words(_BRACKET.sub("", text) or text)
     scores = [
@@ -438,7 +422,7 @@ def guess(text: str, unit: str, targets: Iterable[Target]) -> Guess:
     best, second = [*(score for _, score in scores), 0.0, 0.0][:2]
     is_sure = best >= _SURE and best - second >= _APART and not is_allowable(text)
     listed = [scored for scored in scores if scored[1] >= _LEAST]
-    return Guess(listed[:_MOST_LISTED], scores[0][0] if is_sure else None)
+    return listed[:_MOST_LISTED], scores[0][0] if is_sure else None
 
 
 def _list_words(text: str) -> str:

@@ -135,8 +135,7 @@ def _plan(becomes: str, titles: Sequence[Title]) -> SheetPlan:
 
 
 def _title(cell: Cell, target: Target, unit: str) -> Title:
-    field = map_fields(load_plan(target.table))[target.key]
-    return Title(cell, field, target.unit(unit), target.measure)
+    return Title(cell, target.column.field, target.unit(unit), target.measure)
 
 
 def _list_titles(

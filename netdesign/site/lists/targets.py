@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -28,11 +28,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = {
     "anchor_types": ("anchor_types",),
     "tests": ("tests",),
 }
-# Columns of earlier workbooks whose names say what a column with a choice measures.
-_MEASURED: Mapping[tuple[str, str], Mapping[str, str]] = {
-    ("rows", "snow"): {"vertical": "snow_height", "normal": "snow_thickness"},
-    ("net_types", "slack"): {"slack": "slack", "sag": ""},
-}
+# Columns whose symbol, the last word of their name, stands for nothing else.
+_SYMBOLS = (
+    *("rows.slope_angle", "rows.glide_factor", "rows.upslope_length"),
+    "net_types.net_height",
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,30 +41,26 @@ class Target:
 
     Attributes
     ----------
-    table, key : str
-        Sheet and column of the input workbook.
-    measure : str
-        ``vertical``, ``normal``, ``sag`` or ``slack``; empty of any other column.
-    choice : str
-        List that the measure is of.
+    column : Column
+        Of the input workbook.
     field : Field
         Of the column, with the names that it had in earlier workbooks, too.
+    measure : str
+        ``vertical``, ``normal``, ``sag`` or ``slack``; empty of any other column.
     """
 
-    table: str
-    key: str
-    measure: str = ""
-    choice: str = ""
+    column: Column
     field: Field
+    measure: str = ""
 
     @property
-    def place(self) -> tuple[str, str]:
-        """Table and key of the column."""
-        return self.table, self.key
+    def name(self) -> str:
+        """Key of the column, with its measure: ``snow.vertical``."""
+        return f"{self.field.key}.{self.measure}".rstrip(".")
 
     def label(self, language: Language) -> str:
         """Name of sheet and column, as the file of answers has it."""
-        sheet = load_plan(self.table).name_in(language)
+        sheet = load_plan(self.field.table).name_in(language)
         return f"{sheet}: {self.field.label_in(language)}"
 
     def title(self, language: Language, unit: str = "") -> str:
@@ -74,7 +70,7 @@ class Target:
 
     def measure_in(self, language: Language, unit: str = "") -> str:
         """Measure with its unit, in a language: "cm vertical"."""
-        shown = name_measure(self.choice, self.measure, language)
+        shown = name_measure(self.column.choice, self.measure, language)
         first, _, word = shown.partition(" ")
         return f"{unit or first} {word}"
 
@@ -102,61 +98,31 @@ def list_targets(becomes: str) -> tuple[Target, ...]:
     A row names its net type: its list has no other column for that.
     """
     return tuple(
-        target
+        Target(column=column, field=_add_names(column, measure), measure=measure)
         for table in GROUPS[becomes]
         for column in load_columns(table)
         if (becomes, table, column.field.key) != ("rows", "net_types", "id")
-        for target in _split(table, column)
+        for measure in (list_measures(column.choice) if column.choice else ("",))
     )
 
 
-def _split(table: str, column: Column) -> Iterator[Target]:
-    """Target of a column; a column with several measures has a target for each."""
-    key = column.field.key
-    if not column.choice:
-        field = _add_names(column.field, _find_old(*column.like.rsplit(".", 1)))
-        field = _add_symbol(field) if (table, key) in _SYMBOLS else field
-        yield Target(table=table, key=key, field=field)
-        return
-    for measure in list_measures(column.choice):
-        of_old = _MEASURED.get((table, key), {})
-        old = _find_old("Nets", of_old.get(measure, ""))
-        field = _add_names(column.field, old)
-        # a name that says nothing of the measure is that of both
-        named = replace(field, key=f"{key}.{measure}")
-        choice = column.choice
-        yield Target(table=table, key=key, measure=measure, choice=choice, field=named)
+def _add_names(column: Column, measure: str) -> Field:
+    """Field that is known by its names in earlier workbooks, and by its symbol.
 
-
-# Columns whose symbol, the last word of their name, stands for nothing else.
-_SYMBOLS = (
-    *(("rows", key) for key in ("slope_angle", "glide_factor", "upslope_length")),
-    ("net_types", "net_height"),
-)
-
-
-def _add_symbol(field: Field) -> Field:
-    """Field that is known by its symbol, too: N of "glide factor N"."""
-    symbol = field.label_in("en").split()[-1]
-    named = {language: (*names, symbol) for language, names in field.headings.items()}
-    return replace(field, headings=named)
-
-
-def _find_old(sheet: str, key: str) -> Field | None:
+    A name that says nothing of the measure is that of both.
+    """
+    own = column.field
+    earlier = column.measured.get(measure, "" if measure == "sag" else column.like)
+    sheet, _, key = earlier.partition(".")
     plan = load_old_plans().get(sheet)
-    fields = plan.fields if plan else ()
-    return next((field for field in fields if field.key == key), None)
-
-
-def _add_names(field: Field, old: Field | None) -> Field:
-    """Field that is known by the names of an earlier field, too."""
-    if old is None:
-        return field
+    olds = [field for field in plan.fields if field.key == key] if plan else []
+    is_known = f"{own.table}.{own.key}" in _SYMBOLS
+    symbols = own.label_in("en").split()[-1:] if is_known else []
     names = {
-        language: tuple(dict.fromkeys((*field.headings.get(language, ()), *old_names)))
-        for language, old_names in old.headings.items()
+        language: (*names, *(n for x in olds for n in x.headings[language]), *symbols)
+        for language, names in own.headings.items()
     }
-    return replace(field, headings={**field.headings, **names})
+    return replace(own, headings=names)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

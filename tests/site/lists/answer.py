@@ -18,8 +18,7 @@ _UNIT = re.compile(r"\[(cm)\]")
 
 def name_target(target):
     """Column as `offices` names it."""
-    parts = (target.table, target.key, target.measure)
-    return ".".join(filter(None, parts))
+    return f"{target.field.table}.{target.name}"
 
 
 def find_target(becomes, meaning):

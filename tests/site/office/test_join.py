@@ -55,7 +55,7 @@ def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
         assert row.post_count == line["post_count"]
         length = (line["post_count"] - 1) * line["post_spacing"]
         assert row.length == pytest.approx(length)
-        strength = row.find_net_part(NetPart.MESH).value
+        strength = next(x for x in row.net_parts if x.member is NetPart.MESH).value
         assert strength == 1e3 * net["mesh_strength"]
         assert row.design_life == tables["project"][0]["design_life"]
         assert row.ground_type == "till"
