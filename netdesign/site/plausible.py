@@ -66,48 +66,34 @@ def ask_about_numbers(
     }
 
 
-# Tables whose lines are named by net rows, or name the types of net rows.
-_NAMED = {
-    "net_types": ("id", "net_types"),
-    "tests": ("type", "anchor_types"),
-    "links": ("type", "anchor_types", "ropes"),
-}
-
-
 _NOT_OF_ROWS = ("project", "declared")  # whose cells are judged where they are read
 
 
 def _find_resting(lines: Lines) -> Mapping[str, set[str]]:
-    """Net rows that rest on each cell; all of them rest on a cell of sheet Project."""
-    resting: dict[str, set[str]] = defaultdict(lambda: set(lines.places))
-    for line, rows in _list_users(lines):
-        for reading in line.values():
-            resting[reading.place] = {*resting.get(reading.place, ()), *rows}
-    return resting
+    """Net rows that rest on each cell; all of them rest on a cell of sheet Project.
 
-
-def _list_users(lines: Lines) -> Iterator[tuple[Row, Collection[str]]]:
-    """Lines with the net rows that name them, or name the type that they belong to."""
-    users: dict[tuple[str, str], set[str]] = {}  # by table and id
+    A row rests on its own line, and on each line that belongs to what its cells name.
+    """
+    naming: dict[str, set[str]] = defaultdict(set)
+    users = [(line, {line["row"].word}) for line in lines.typed["layers"]]
     for line in lines.rows:
         row = line["id"].word
-        yield line, [row]
+        users.append((line, {row}))
         for reading in (*line.values(), *lines.ends[row].values()):
-            for name in {reading.word, name_bare(reading.word)}:
-                users.setdefault((reading.field.refers_to, name), set()).add(row)
-    for row, layers in lines.snow.items():
-        yield from ((line, [row]) for line in layers)
-    for table in TYPES:
-        for name, line in lines.types[table].items():
-            yield line, users.get((table, name), ())
-    for table, (key, *tables) in _NAMED.items():
-        for line in lines.typed[table]:
-            yield (
-                line,
-                set().union(
-                    *(users.get((target, line[key].word), ()) for target in tables)
-                ),
-            )
+            if reading.field.refers_to:
+                for name in {reading.word, name_bare(reading.word)}:
+                    naming[name].add(row)
+    typed = (lines.typed[table] for table in ("net_types", "tests", "links"))
+    types = (lines.types[table].values() for table in TYPES)
+    users.extend(
+        (line, naming[line["type" if "type" in line else "id"].word])
+        for line in chain.from_iterable((*typed, *types))
+    )
+    resting: dict[str, set[str]] = defaultdict(lambda: set(lines.places))
+    for line, rows in users:
+        for reading in line.values():
+            resting[reading.place] = resting.get(reading.place, set()) | rows
+    return resting
 
 
 def _list_all_doubts(lines: Lines) -> Iterator[Doubt]:

@@ -95,17 +95,10 @@ def _show_line(table: str, line: Row) -> dict[str, object]:
 
 def _show(column: Column, reading: Reading) -> object:
     if reading.span is not None:
-        low, high = (_scale(column, end) for end in reading.span)
+        low, high = (column.show(end) for end in reading.span)
         return f"{low:g} to {high:g}"
     value = reading.value
-    return _scale(column, value) if isinstance(value, float) else value
-
-
-def _scale(column: Column, number: float) -> float:
-    """Number in the unit that the workbook shows."""
-    is_share = column.unit == "%" or column.choice == "sag_unit"
-    is_share = is_share and column.field.unit == "-"
-    return round(100.0 * number, 8) if is_share else number
+    return column.show(value) if isinstance(value, float) else value
 
 
 _FARTHEST = 20.0  # from a row's end; beyond it the next work counts as none [m]
@@ -319,7 +312,7 @@ def _take_net(cells: Mapping[str, float | str], measure: str) -> dict[str, objec
     if isinstance(own, float) or isinstance(other, float):
         typed["slack"] = own if isinstance(own, float) else turn(float(other or 0.0))
     return {
-        key: _scale(_NETS[key], value) if isinstance(value, float) else value
+        key: _NETS[key].show(value) if isinstance(value, float) else value
         for key, value in typed.items()
         if key in _NETS
     }

@@ -79,6 +79,16 @@ class Column:
     texts: Mapping[str, Mapping[Language, str]]
     measured: Mapping[str, str]
 
+    @property
+    def is_percent(self) -> bool:
+        """The template shows its shares in percent."""
+        is_shown = self.unit == "%" or self.choice == "sag_unit"
+        return is_shown and self.field.unit == "-"
+
+    def show(self, number: float) -> float:
+        """Number of the field's first unit, as the template shows it."""
+        return round(100.0 * number, 8) if self.is_percent else number
+
 
 @cache
 def load_columns(table: str) -> tuple[Column, ...]:

@@ -206,10 +206,8 @@ def _copy(table: str, old: Mapping[str, Row], log: _Log) -> Line:
             continue
         value = _show(cells[0])
         log.copied.update(cell.place for cell in cells if _show(cell) == value)
-        is_share = column.unit == "%" or column.choice == "sag_unit"
-        if is_share and isinstance(value, float):
-            value = round(100.0 * value, 8)
-        copied[column.field.key] = value
+        shown = column.show(value) if isinstance(value, float) else value
+        copied[column.field.key] = shown
     return copied
 
 

@@ -236,19 +236,11 @@ def say_accepted(column: Column, language: Language) -> str:
     """Bounds or words that a cell accepts, in the shown unit; empty for free text."""
     field = column.field
     low, high = _show_in_unit(column, field.bounds)
-    is_share = column.choice == "sag_unit" or column.unit == "%"
-    units = ("%",) if is_share else field.units
-    shown = replace(field, bounds=(low, high), units=units)
-    accepted = describe_accepted(shown, language)
-    if not field.may_range:
-        return accepted
-    return render(say("accepted.or_range", accepted=accepted), language)
-
-
-def describe_accepted(field: Field, language: Language) -> str:
-    """Accepted content of a cell as a phrase; empty where all is accepted."""
     is_open = not field.words and field.bounds[0] == field.bounds[1]
-    return "" if is_open else render(field.accepted, language)
+    units = ("%",) if column.is_percent else field.units
+    shown = replace(field, bounds=(low, high), units=units).accepted
+    accepted = say("accepted.or_range", accepted=shown) if field.may_range else shown
+    return "" if is_open else render(accepted, language)
 
 
 def _find(column: Column) -> Assumed | None:
@@ -270,8 +262,7 @@ def _show_in_unit(column: Column, ends: Sequence[float]) -> tuple[float, ...]:
     """Ends of a range in the unit that the template shows."""
     if column.choice == "sag_unit":
         return tuple(round(100.0 * find_sag(end), 1) for end in ends)
-    share = 100.0 if column.unit == "%" and column.field.unit == "-" else 1.0
-    return tuple(round(share * end, 6) for end in ends)
+    return tuple(round(column.show(end), 6) for end in ends)
 
 
 def _show(value: float | str, language: Language) -> str:
