@@ -129,7 +129,7 @@ def judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
 
 
 def inspect_layout(table: Table, findings: list[Finding]) -> None:
-    """Refuse merged cells in the table; note what a reader does not see."""
+    """Refuse merged cells in the table, and cells in doubt; note what is not read."""
     sheet = table.sheet
     read = [column.number for column in table.columns.values()]
     for merged in sheet.merged:
@@ -141,9 +141,6 @@ def inspect_layout(table: Table, findings: list[Finding]) -> None:
             cell = sheet.cell(merged.min_row, merged.min_col)
             rule = say("table.merged", range=merged.coord)
             findings.append(cell.finding(rule, say("accepted.single_cells")))
-    first = (sheet.row(row)[0] for row in table.rows if row in sheet.hidden_rows)
-    rule = say("table.hidden_row")
-    findings.extend(cell.finding(rule, severity="note") for cell in first)
     # cells of other sheets become questions about the net rows that rest on them
     inspected = table.rows if table.plan.name in _NOT_ASKED else (table.heading_row,)
     cells = (

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Hashable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 
-from netdesign.site.cells.cells import Cell, Sheet, Workbook, name_column
+from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Refusal
 from netdesign.site.cells.numbers import parse_number, read_grade
 from netdesign.site.columns.fields import (
@@ -102,27 +102,3 @@ def list_near(workbook: Workbook, plan: SheetPlan) -> list[str]:
         for name in workbook.unread
         if difflib.get_close_matches(normalise(name), names, n=1, cutoff=_MISSPELT)
     ]
-
-
-def name_net_type(height: str, values: Hashable, named: dict[Hashable, str]) -> str:
-    """Name of an unnamed net type: that of a type with the same values, or a new one.
-
-    Parameters
-    ----------
-    height : str
-        D_K as typed.
-    values : hashable
-        All that is given of the net.
-    named : dict of hashable to str
-        Names so far by values; appended to.
-
-    >>> named = {}
-    >>> [name_net_type("3.0", value, named) for value in (1, 2, 1, 3)]
-    ['D_K 3.0', 'D_K 3.0 b', 'D_K 3.0', 'D_K 3.0 c']
-    """
-    if values not in named:
-        stem = f"D_K {height}"
-        alike = [name for name in named.values() if f"{name} ".startswith(f"{stem} ")]
-        letters = name_column(len(alike) + 1).lower()
-        named[values] = f"{stem} {letters}" if alike else stem
-    return named[values]

@@ -134,7 +134,6 @@ class Sheet:
     name: str
     rows: Mapping[int, Mapping[int, Cell]]
     merged: tuple[CellRange, ...] = ()
-    hidden_rows: frozenset[int] = frozenset()
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
 
     def cell(self, row: int, column: int) -> Cell:

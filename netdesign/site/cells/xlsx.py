@@ -140,7 +140,6 @@ def _read_sheet(
         name=stored.title,
         rows=group_by_row(cells.values()),
         merged=tuple(layout.merged),
-        hidden_rows=frozenset(layout.hidden_rows),
     )
 
 
@@ -172,7 +171,6 @@ class _Layout:
 
     last_row: int = 0
     merged: list[CellRange] = field(default_factory=list)
-    hidden_rows: set[int] = field(default_factory=set)
     formulas: dict[tuple[int, int], str] = field(default_factory=dict)
 
 
@@ -185,7 +183,7 @@ def _is_struck(cell: Any) -> bool:
 
 
 def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
-    """Last filled row, merged ranges, hidden rows, formulas of a sheet.
+    """Last filled row, merged ranges, formulas of a sheet.
 
     openpyxl gives merged ranges only in its other mode, which makes an object
     of every merged cell: a few bytes of XML would exhaust the memory.
@@ -206,8 +204,6 @@ def _scan_layout(reader: ExcelReader, name: str) -> _Layout:
                 layout.formulas |= _list_formulas(element, row, shared)
                 if any(len(cell) for cell in element):
                     layout.last_row = max(layout.last_row, row)
-                    if _is_true(element.get("hidden")):
-                        layout.hidden_rows.add(row)
                 element.clear()
     return layout
 
@@ -244,7 +240,3 @@ def _follow_row(element: Any, row_before: int) -> int:
     if any(place.lstrip(ascii_uppercase) != str(row) for place in places):
         raise ContentError(say("book.other_row", row=row))
     return row
-
-
-def _is_true(attribute: str | None) -> bool:
-    return attribute in ("1", "true")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Final, Literal
@@ -63,8 +63,8 @@ class ListTable:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _AnswerFile:
-    """Content of a file of answers."""
+class ListMap:
+    """Answers to a list, as their file has them, by the name of a sheet of the list."""
 
     __pydantic_config__: ClassVar = _SHAPE
 
@@ -72,16 +72,8 @@ class _AnswerFile:
     list: str = ""
     decimal_mark: Literal["", "comma", "point"] = ""
     tables: dict[str, ListTable]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ListMap:
-    """Answers to a list, with the file that they stand in."""
-
-    file: str
-    sha256: str
-    decimal_mark: str  # its word, as the file has it
-    tables: Mapping[str, ListTable]  # by the name of a sheet of the list
+    file: str = ""
+    sha256: str = ""
 
 
 def read_list_map(site_file: Path) -> ListMap | None:
@@ -98,7 +90,9 @@ def read_list_map(site_file: Path) -> ListMap | None:
     wanted = say("map.wanted")
     try:
         content = read_bounded(path, MAX_TOML_BYTES)
-        answers = TypeAdapter(_AnswerFile).validate_python(parse_toml(content))
+        given = {"file": path.name, "sha256": hashlib.sha256(content).hexdigest()}
+        answers = parse_toml(content)
+        return TypeAdapter(ListMap).validate_python({**answers, **given})
     except ValidationError as error:
         findings = [
             Finding(
@@ -113,12 +107,6 @@ def read_list_map(site_file: Path) -> ListMap | None:
     except (ContentError, OSError) as error:
         rule = say("map.faulty", cause=explain(error))
         raise refuse_file(path.name, rule, wanted) from error
-    return ListMap(
-        file=path.name,
-        sha256=hashlib.sha256(content).hexdigest(),
-        decimal_mark=answers.decimal_mark,
-        tables=answers.tables,
-    )
 
 
 def read_list(path: Path, text_format: TextFormat) -> Workbook:

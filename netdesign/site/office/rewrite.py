@@ -7,7 +7,7 @@ cell is copied from there, or is named in the list of what was done.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -32,7 +32,6 @@ from netdesign.site.declared_sheet import split_replacement
 from netdesign.site.office.sheets import is_old
 from netdesign.site.readings import Reading, Row, read_cell
 from netdesign.site.tables import find_table, read_rows
-from netdesign.site.titles import name_net_type
 from netdesign.site.type_resistances import SOLID
 from netdesign.structure.row_position import find_dip
 from netdesign.units import kilonewton_from_newton
@@ -293,7 +292,7 @@ def _rewrite_declared(lines: Sequence[Row], log: _Log) -> Iterator[Line]:
 def _rewrite_rows(
     lines: Lines, log: _Log
 ) -> tuple[dict[str, list[Line]], dict[tuple[str, str], str]]:
-    """Rows and net types, and what their unit cells measure."""
+    """Rows and net types, one for all rows of like nets; what unit cells measure."""
     (ranged,), nets = lines["quantities"], lines["Nets"]
     measured = [key for key in _SNOW for line in nets if _is_typed(line[key])]
     is_vertical = "snow_height" in ranged or (
@@ -301,7 +300,6 @@ def _rewrite_rows(
     )
     ends = {end["row"].word: end for end in lines["Ends"]}
     types: dict[str, Line] = {}
-    named: dict[Hashable, str] = {}
     rows: list[Line] = []
     for line in lines["Nets"]:
         end = ends.get(line["id"].word) or ends.get("all", {})
@@ -309,11 +307,9 @@ def _rewrite_rows(
         row, net = _copy("rows", old, log), _copy("net_types", old, log)
         row |= _rewrite_snow(line, ranged, log, is_vertical=is_vertical)
         row |= _rewrite_words(line, log)
-        height = net.get("net_height", "")
-        shown = f"{height:g}" if isinstance(height, float) else str(height)
-        name = name_net_type(shown, repr(sorted(net.items())), named)
-        types.setdefault(name, {"id": name, **net})
-        rows.append({**row, "net_type": name})
+        own = {"id": f"N{len(types) + 1}", **net}
+        own = types.setdefault(repr(sorted(net.items())), own)
+        rows.append({**row, "net_type": own["id"]})
     has_heights = any(_is_typed(layer["height"]) for layer in lines["Snow"])
     measures = {
         ("rows", "snow"): "vertical" if is_vertical else "normal",
