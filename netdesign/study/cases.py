@@ -23,7 +23,7 @@ from netdesign.words.message import Message, group_reasons, say
 # takes one for each other creep law.
 _SEARCH, _BESIDE = 55, len(CREEP_LAWS) - 1
 _BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
-CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
+_CLOSEST_GAP = 1e-3  # of a search, however accurate its cases are
 _USUAL_RANGES, _MORE_CASES = 3, 150  # density, friction, inclination; for each more
 
 
@@ -107,7 +107,7 @@ def _build_search(row: NetRow, of_site: Ranges, run: CheckRun) -> RowTask:
         layouts=list_layouts(row),
         settings=run.settings,
         search=SearchSettings(
-            gap=max(run.settings.accuracy, CLOSEST_GAP),
+            gap=max(run.settings.accuracy, _CLOSEST_GAP),
             max_cases=_count_most_cases(ranges),
         ),
         confirmed_by=refine_settings(run.settings) if ranges.axes else None,

@@ -100,7 +100,7 @@ def find_rows(
             continue
         try:
             pairs = zip(texts, range(count), strict=True)
-            by_row[row_id] = [_restore(text) for text, _ in pairs]
+            by_row[row_id] = [restore_row(text) for text, _ in pairs]
         except ValueError:
             path = str(runner.store.path if runner.store else "")
             runner.tell(say("store.row_damaged", path=path, name=name[:12]))
@@ -123,19 +123,6 @@ def keep_rows(
         name = names.get(row.id)
         if name is not None:
             runner.keep_row(name, [study.written for study in studies])
-
-
-def _restore(text: str) -> RowStudy:
-    """Record of a row, with its text: 2.0 that was written as 2 is written so again.
-
-    Raises
-    ------
-    ValueError
-        If it is none.
-    """
-    row = restore_row(text)
-    vars(row)["written"] = text
-    return row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -356,7 +343,10 @@ def check_site(
             store=runner.store.path if runner.store else None,
         )
         by_row |= judge_rows(_split(job, runner, watch), runner, keep)
-    return _gather(site, by_row, standards, run)
+    return [
+        gather_study(site, [by_row[row.id][k] for row in site.rows], standard, run)
+        for k, standard in enumerate(standards)
+    ]
 
 
 def _split(job: RowsJob, runner: Runner, watch: RunProgress) -> list[RowsJob]:
@@ -375,16 +365,4 @@ def _split(job: RowsJob, runner: Runner, watch: RunProgress) -> list[RowsJob]:
     return [
         replace(job, site=replace(job.site, rows=(row,)), solved=(of_row,))
         for row, of_row in zip(job.site.rows, solved, strict=True)
-    ]
-
-
-def _gather(
-    site: Site,
-    of_rows: Mapping[str, Studies],
-    standards: Sequence[Standard],
-    run: CheckRun,
-) -> list[Study]:
-    return [
-        gather_study(site, [of_rows[row.id][k] for row in site.rows], standard, run)
-        for k, standard in enumerate(standards)
     ]

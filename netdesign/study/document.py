@@ -26,7 +26,6 @@ from netdesign.edge.input_files import (
 from netdesign.edge.json_text import (
     MAX_JSON_BYTES,
     hash_values,
-    join_members,
     read_json,
     restore_json,
     write_json,
@@ -54,16 +53,6 @@ def compute_digest(study: Study) -> str:
 def hash_text(text: str) -> str:
     """SHA-256 of a document as it is stored, without its own digest."""
     return hash_values(json.dumps({**json.loads(text), "digest": ""}))
-
-
-def hash_results(study: Study) -> str:
-    """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
-    results = {
-        "verdict": write_json(study.verdict),
-        "profile": write_json(study.profile.sha256),
-        "rows": study.written_rows,
-    }
-    return hash_values(join_members(results))
 
 
 def write_document(study: Study) -> str:
@@ -113,7 +102,9 @@ def read_document(text: str) -> Study:
 
 
 def restore_row(text: str) -> RowStudy:
-    """Read a net row from the text that this program wrote.
+    """Read a net row from the text that this program wrote; it keeps that text.
+
+    2.0 that was written as 2 is written so again.
 
     Raises
     ------
@@ -123,6 +114,7 @@ def restore_row(text: str) -> RowStudy:
     row = json.loads(text)
     _drop_of_row(row)
     restored: RowStudy = restore_json(RowStudy, json.dumps(row, check_circular=False))
+    vars(restored)["written"] = text
     return restored
 
 

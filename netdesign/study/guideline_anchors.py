@@ -14,7 +14,6 @@ from typing import ClassVar
 from netdesign.checks import Check, Standard
 from netdesign.envelope.ranges import Interval
 from netdesign.site.model import NetRow, Site
-from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.structure.members import END_ANCHORS, Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import weigh_splay
@@ -175,7 +174,6 @@ def _list_variants(
             site=site,
             row=variant,
             standard=standard,
-            law=BOUTILLIER_2004,  # no force here depends on it
             effects=effects,
             largest={},
             floor=record_floor(floor),
@@ -233,10 +231,6 @@ def _hold_sideways(
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
-        pull_low_kN=pull,
-        pull_kN=pull,
-        pull_high_kN=pull,
-        least_tension_kN=0.0,  # no anchor follows it
         floor_pull_kN=pull,
         **weigh_places(places),
     )

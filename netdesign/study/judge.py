@@ -47,8 +47,9 @@ from netdesign.study.row_checks import (
     check_row,
     distrust,
 )
+from netdesign.study.row_forces import RowForces
 from netdesign.study.row_to_check import CaseSolver, CheckRun, RowToCheck
-from netdesign.study.row_variants import Variant, gather_variants
+from netdesign.study.row_variants import gather_variants
 from netdesign.study.scopes import find_worst, record_assumed
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message
@@ -200,7 +201,7 @@ def gather_study(
         profile=record_profile(standard),
         rows=list(rows),
         range_inputs=list(site.range_inputs),
-        notes=list_site_notes(site, rows, run.creep_law, run.settings.accuracy),
+        notes=list_site_notes(site, rows, run.creep_law),
         provenance=record_provenance(site, run),
         what_if=list(site.what_if),
         left_out=list(site.left_out),
@@ -229,13 +230,13 @@ def judge_row(
 
 def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     row, variants = task.row, gather_variants(task)
-    row_checks = check_row(task, [variant.forces for variant in variants])
-    worst = _find_worst_variant(row_checks, variants)
-    row_checks, model_form = _ask_other_models(worst.task, row_checks)
-    checks, forces, solved = row_checks.checks, worst.forces, worst.task.solved
+    row_checks = check_row(task, variants)
+    forces = _find_worst_variant(row_checks, variants)
+    row_checks, model_form = _ask_other_models(task, forces, row_checks)
+    checks = row_checks.checks
     cases = [record_case(result) for result in task.solved.results]
-    governing = _governing_result(find_worst(checks), worst.task)
-    foot = solved.extremes.get(Member.FOOT_ANCHOR)
+    governing = _governing_result(find_worst(checks), forces)
+    foot = forces.extremes.get(Member.FOOT_ANCHOR)
     return RowStudy(
         id=row.id,
         checks=checks,
@@ -254,42 +255,43 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         notes=list_judged_notes(forces, checks, cases),
         held_sideways=forces.along_row,
         end_guy=forces.at_end,
-        reliability=_find_reliability(worst, row_checks, run),
+        reliability=_find_reliability(task, forces, row_checks, run),
         conditions=merge_conditions(
-            condition for each in variants for condition in list_conditions(each.forces)
+            condition for each in variants for condition in list_conditions(each)
         ),
     )
 
 
-def _find_worst_variant(row_checks: RowChecks, variants: Sequence[Variant]) -> Variant:
+def _find_worst_variant(
+    row_checks: RowChecks, variants: Sequence[RowForces]
+) -> RowForces:
     """Variant of the most used check: its forces and its drawing are those shown."""
     worst = find_worst(row_checks.checks)
-    if worst is None:
-        return variants[0]
-    forces = row_checks.judged[worst.id].forces
-    return next(variant for variant in variants if variant.forces is forces)
+    return row_checks.judged[worst.id].forces if worst else variants[0]
 
 
 def _find_reliability(
-    at: Variant, row_checks: RowChecks, run: CheckRun
+    task: RowToCheck, forces: RowForces, row_checks: RowChecks, run: CheckRun
 ) -> ReliabilityRecord | None:
     if not run.has_reliability:
         return None
     solver = CaseSolver(run.settings, run.creep_law)
     record = addon_table.load("--reliability", addon_table.ROW_RECORDS["reliability"])
-    made: ReliabilityRecord = record(at.task, at.forces, row_checks, solver)
+    on_layout = task.solved.on_layout(forces.row.layout)
+    at = replace(task, row=forces.row, solved=on_layout)
+    made: ReliabilityRecord = record(at, forces, row_checks, solver)
     return made
 
 
 def _ask_other_models(
-    task: RowToCheck, row_checks: RowChecks
+    task: RowToCheck, forces: RowForces, row_checks: RowChecks
 ) -> tuple[RowChecks, ModelFormRecord | None]:
     """Checks of a row, and its governing case by other models.
 
     Where the program fails in one of these solves, no check by its forces passes.
     """
     before = task.count_faults()
-    form = _find_model_form(task, find_worst(row_checks.checks))
+    form = _find_model_form(task, forces, find_worst(row_checks.checks))
     if task.count_faults() > before:
         row_checks = replace(
             row_checks, checks=[distrust(check) for check in row_checks.checks]
@@ -304,16 +306,18 @@ def _name_largest(check: Check) -> str:
     return name_in_panel(check.member) if check.is_by_panel else check.member
 
 
-def _governing_result(worst: Check | None, task: RowToCheck) -> CaseResult | None:
+def _governing_result(worst: Check | None, forces: RowForces) -> CaseResult | None:
     """Case of the worst check on its layout; without any, of the largest foot force."""
     largest = _name_largest(worst) if worst else Member.FOOT_ANCHOR
-    extreme = task.solved.extremes.get(largest)
-    return extreme.governing.stand(task.row.layout) if extreme else None
+    extreme = forces.extremes.get(largest)
+    return extreme.governing.stand(forces.row.layout) if extreme else None
 
 
-def _find_model_form(task: RowToCheck, worst: Check | None) -> ModelFormRecord | None:
+def _find_model_form(
+    task: RowToCheck, forces: RowForces, worst: Check | None
+) -> ModelFormRecord | None:
     if task.solver is None or worst is None:
         return None
     member = _name_largest(worst)
-    governing = task.solved.extremes[member].governing
-    return record_model_form(task.solver, task.row, governing, member, worst)
+    governing = forces.extremes[member].governing
+    return record_model_form(task.solver, forces.row, governing, member, worst)

@@ -95,7 +95,6 @@ def _record(
         pull_low_kN=kilonewton_from_newton(pull.low),
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
-        least_tension_kN=0.0,  # panel/THEORY.md, 6: none is counted on
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
         floor_tension_kN=kilonewton_from_newton(_find_floor_tension(row, floor)),
         **weigh_places(_place_heads(row, heads)),

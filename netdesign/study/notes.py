@@ -19,7 +19,6 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import GUYS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
-from netdesign.study.cases import CLOSEST_GAP
 from netdesign.study.guideline_load import list_assumed
 from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
@@ -30,12 +29,9 @@ from netdesign.words.message import Message, say
 
 
 def list_site_notes(
-    site: Site, rows: Sequence[RowStudy], law: CreepLaw, accuracy: float
+    site: Site, rows: Sequence[RowStudy], law: CreepLaw
 ) -> list[Message]:
-    """Notes of the importer, on the model of the site's snow, on the search.
-
-    ``accuracy`` is the one asked for [-].
-    """
+    """Notes of the importer, and on the model of the site's snow."""
     sheets = site.of_addons
     without_winter = "Monitoring" in sheets and "Winter" not in sheets
     measured = [say("monitoring.needs_winter")] if without_winter else []
@@ -44,17 +40,7 @@ def list_site_notes(
         *_list_law_notes(site, rows, law),
         *_layer_notes(site),
         *measured,
-        *_search_notes(site, accuracy),
     ]
-
-
-def _search_notes(site: Site, accuracy: float) -> list[Message]:
-    """Say where a search ends before the accuracy that its cases have."""
-    axes = [axis for row in site.rows for axis in site.at_row(row).ranges.axes]
-    if not axes or accuracy >= CLOSEST_GAP:
-        return []
-    asked, closest = 100.0 * accuracy, 100.0 * CLOSEST_GAP
-    return [say("note.accuracy_of_cases", asked=asked, closest=closest)]
 
 
 def _list_law_notes(

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from netdesign.calculation.quantity import Quantity
 from netdesign.checks.forces import MemberLoad, Support
+from netdesign.envelope.extremes import Extreme
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.case_records import (
     EndGuyRecord,
@@ -37,6 +38,8 @@ class RowForces(Basis):
         Load along the row at the head, or why nothing holds it.
     tilt : float
         Largest force along the slope at a post's base over that across, (S19) [-].
+    extremes : mapping of str to Extreme
+        Largest solved forces with the states of their cases; empty before any solve.
     end_guy : EndGuyRecord, Message or None
         What the end guy does to the end's support, or why nothing holds that; None
         without a guy whose angle is given.
@@ -51,6 +54,7 @@ class RowForces(Basis):
     floor: FloorRecord | None
     held: HeldSidewaysRecord | Message
     tilt: float
+    extremes: Mapping[str, Extreme] = field(default_factory=dict)
     end_guy: EndGuyRecord | Message | None = None
     pulls: tuple[PullRecord, ...] = ()
     open_cases: Message | None = None

@@ -109,7 +109,6 @@ class Basis:
     site: Site
     row: NetRow
     standard: Standard
-    law: CreepLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,6 +119,7 @@ class RowToCheck(Basis):
     are those worked out so far, by layout and ranges.
     """
 
+    law: CreepLaw
     solved: RowEnvelope
     solver: CaseSolver | None
     floors: dict[tuple[SupportLayout, Ranges], Floor | None] = field(

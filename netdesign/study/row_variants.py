@@ -42,17 +42,12 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import say
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Variant:
-    """A corner of what is assumed of a row's statics, and what its cases tell there."""
+def gather_variants(task: RowToCheck) -> list[RowForces]:
+    """Forces of a row at each corner of what is assumed of its statics.
 
-    task: RowToCheck
-    forces: RowForces
-
-
-def gather_variants(task: RowToCheck) -> list[Variant]:
-    """All variants of a row; those of one layout share what its cases tell there."""
-    variants: list[Variant] = []
+    Those of one layout share what its cases tell there.
+    """
+    variants: list[RowForces] = []
     rows = groupby(list_variants(task.row), key=attrgetter("layout"))
     cases: RowCases | None = None
     for layout, of_layout in rows:
@@ -60,9 +55,8 @@ def gather_variants(task: RowToCheck) -> list[Variant]:
         cases = gather_cases(task, first, solved, cases)
         base = read_cases(cases)
         for row in (first, *others):
-            of_row = replace(cases.task, row=row)
-            forces = place_forces(replace(cases, task=of_row), base)
-            variants.append(Variant(task=of_row, forces=forces))
+            of_row = replace(cases, task=replace(cases.task, row=row))
+            variants.append(place_forces(of_row, base))
     return variants
 
 
@@ -184,8 +178,8 @@ def read_cases(cases: RowCases) -> RowForces:
         site=site,
         row=row,
         standard=standard,
-        law=task.law,
         effects=find_effects(row, standard, site.ranges),
+        extremes=extremes,
         largest={
             k: record_largest(extreme, task.solved) for k, extreme in extremes.items()
         },

@@ -5,9 +5,8 @@ import random
 
 import pytest
 
-from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.study.notes import bear_snow, list_site_notes
-from tests.small_site import RANGES, ROWS, RUN, build_site
+from tests.small_site import ROWS, RUN, build_site
 
 
 def test_force_and_snow_together_use_up_the_resistance():
@@ -31,25 +30,9 @@ def test_snow_by_hand(force, resistance, cosine, snow):
     assert bear_snow(force, resistance, cosine) == pytest.approx(snow)
 
 
-def list_of_accuracy(site, accuracy):
-    notes = list_site_notes(site, (), RUN.creep_law, accuracy)
-    return [one for one in notes if one.key == "note.accuracy_of_cases"]
-
-
-@pytest.mark.parametrize(("accuracy", "count"), [(5e-4, 1), (1e-3, 0), (0.01, 0)])
-def test_an_accuracy_finer_than_the_search_is_told_as_that_of_the_cases(
-    accuracy, count
-):
-    assert len(list_of_accuracy(build_site(*ROWS), accuracy)) == count
-    ends = {name: span.low for name, span in RANGES.intervals}
-    single = Ranges.of(**{k: Interval(low=end, high=end) for k, end in ends.items()})
-    site = build_site(*ROWS, ranges=single)
-    assert list_of_accuracy(site, accuracy) == []  # one case has no gap
-
-
 def test_measured_forces_without_a_winter_say_what_they_need():
     for sheets, count in (({"Monitoring"}, 1), ({"Monitoring", "Winter"}, 0)):
         of_addons = dict.fromkeys(sheets, ("series",))
         site = build_site(*ROWS, of_addons=of_addons)
-        notes = [one.key for one in list_site_notes(site, (), RUN.creep_law, 0.01)]
+        notes = [one.key for one in list_site_notes(site, (), RUN.creep_law)]
         assert notes.count("monitoring.needs_winter") == count

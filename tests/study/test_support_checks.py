@@ -11,7 +11,6 @@ from netdesign.checks import load_standard
 from netdesign.checks.comparison import find_action_factor
 from netdesign.edge.input_files import find_resource
 from netdesign.outcome import Verdict
-from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.study.member_checks import find_type_change
 from netdesign.study.row_to_check import Basis
 from tests.checks.given_pulls import (
@@ -302,7 +301,7 @@ def test_a_type_for_shorter_posts_is_no_remedy():
     standard = load_standard(SWISS)
     for catalogue, found in (((short,), None), ((short, long), "long")):
         stocked = replace(site, catalogue=catalogue)
-        basis = Basis(site=stocked, row=row, standard=standard, law=BOUTILLIER_2004)
+        basis = Basis(site=stocked, row=row, standard=standard)
         change = find_type_change(basis, given, 5.3e3, None)
         assert (change and change.quantity.arguments["type"]) == found
 

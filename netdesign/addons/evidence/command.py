@@ -116,14 +116,9 @@ def _show_hash(what: Message, stored: str, now: str) -> None:
 def _show_comparison(
     study: Study, again: Study, count: int, differences: list[Difference]
 ) -> None:
-    """Print the values that differ; the hash may differ by last digits alone."""
-    from netdesign.study.document import SAME, hash_results, write_document
+    """Print the values that differ."""
+    from netdesign.study.document import SAME, write_document
 
-    stored, now = hash_results(study), hash_results(again)
-    if stored == now or differences:
-        _show_hash(say("verify.results"), stored, now)
-    else:
-        tell(say("verify.last_digits"))
     cases = sum(len(row.cases) for row in again.rows)
     tell(say("verify.compared", cases=cases, values=count))
     for line in show_differences(differences):

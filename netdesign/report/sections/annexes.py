@@ -39,7 +39,6 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord
-from netdesign.study.document import hash_results
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.catalogue import name
 
@@ -97,7 +96,6 @@ def build_provenance(study: Study, words: Words) -> Table:
     made = study.provenance
     pairs = {
         "verify_report": name_verification(study),
-        "results_hash": hash_results(study),
         "program": f"netdesign {made.version}",
         "started": made.started,
         "site_file": made.site_file,

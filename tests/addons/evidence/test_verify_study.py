@@ -63,7 +63,6 @@ def test_a_study_comes_out_again_from_its_site_file(home):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert "site file, SHA-256: equal" in ended.stdout
     assert "limit profile, SHA-256: equal" in ended.stdout
-    assert "results, SHA-256: equal" in ended.stdout
     study = json.loads((home / "netdesign-out" / "study.json").read_text())
     count = len(study["rows"][0]["cases"])
     assert f"{count} cases solved again" in ended.stdout
@@ -167,7 +166,6 @@ def test_the_last_digits_of_another_machine_are_no_difference(verify):
     ended = verify(last_digits)
     assert ended.code == 0
     assert "\nsame numbers, within 1e-06 of each\n" in ended.out
-    assert "results, SHA-256: not equal, by last digits only" in ended.out
 
 
 def test_other_versions_are_told_and_leave_the_study_unproven(verify):

@@ -49,7 +49,6 @@ def add(held, member):
     standard = replace(STANDARD, values=tuple(values))
     forces = RowForces(
         site=None,
-        law=None,
         row=ROW,
         standard=standard,
         effects=find_effects(ROW, standard, RANGES),
