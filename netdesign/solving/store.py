@@ -5,7 +5,7 @@ that of a net row all that decides its record: another version never reads them.
 one transaction in a write-ahead log, so a killed run loses only the cases in its
 workers.
 
-First: names of solver, program and installation. The solver's name is the digest of its
+First: names of solver and program. The solver's name is the digest of its
 code without docstrings, comments and blank lines; a changed constant changes it.
 """
 
@@ -16,7 +16,6 @@ import json
 import os
 import re
 import sqlite3
-import sys
 import zlib
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -42,9 +41,6 @@ _SOLVER_PARTS = (
     "addons/history",
 )
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
-_RESOURCES = ("standards", "templates")  # beside the package
-# Variables by their beginnings: of libraries that compute, and of Python itself.
-_VARIABLES = ("BLIS_", "MKL_", "NPY_", "OMP_", "OPENBLAS_", "PYTHON", "VECLIB_")
 _LONG = r'"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""'
 _SHORT = (
     r"'[^'\\\n]*(?:\\.[^'\\\n]*)*'",
@@ -74,36 +70,14 @@ def identify_solver(package: Path = _PACKAGE) -> str:
 
 
 def identify_program(package: Path = _PACKAGE) -> str:
-    """Version of the whole program, by all its text, as ``identify_solver``."""
-    return _identify(_WHOLE_PROGRAM, package, name_core(), str)
-
-
-def identify_installation() -> str:
-    """Digest of all that is the same for every run here.
-
-    The program and its libraries, profiles and templates beside it, Python, and those
-    variables of the environment that could move a last digit.
-    """
-    digest = hashlib.sha256(identify_program().encode())
-    for folder in map(find_resource, _RESOURCES):
-        for path in sorted(filter(Path.is_file, folder.rglob("*"))):
-            digest.update(path.relative_to(folder).as_posix().encode())
-            digest.update(path.read_bytes())
-    variables = {
-        name: text for name, text in os.environ.items() if name.startswith(_VARIABLES)
-    }
-    place = [sys.version, sys.platform, *_list_installed()]
-    digest.update(json.dumps([place, sorted(variables.items())]).encode())
+    """Digest of the whole program, by all its text, and of the profiles beside it."""
+    whole = _identify(_WHOLE_PROGRAM, package, name_core(), str)
+    digest = hashlib.sha256(whole.encode())
+    folder = find_resource("standards")
+    for path in sorted(filter(Path.is_file, folder.rglob("*"))):
+        digest.update(path.relative_to(folder).as_posix().encode())
+        digest.update(path.read_bytes())
     return digest.hexdigest()
-
-
-def _list_installed() -> list[str]:
-    """Folders of all that is installed, which name versions: ``rich-15.0.0.dist-info``.
-
-    To ask for single versions takes longer, and forgets what those packages need.
-    """
-    folders = (Path(place) for place in sys.path)
-    return sorted({path.name for folder in folders for path in folder.glob("*-info")})
 
 
 @lru_cache

@@ -26,7 +26,7 @@ from netdesign.solving.runner import Counts, Runner
 from netdesign.solving.store import (
     CaseStore,
     StoreError,
-    identify_installation,
+    identify_program,
     write_parts,
 )
 from netdesign.study.cases import list_alike, search_site
@@ -77,7 +77,7 @@ def name_rows(
     settings = [run.settings, run.creep_law, run.has_reliability]
     names = {}
     with suppress(TypeError):
-        shared = write_parts([identify_installation(), settings, list(standards)])
+        shared = write_parts([identify_program(), settings, list(standards)])
         types = write_parts(list(site.catalogue))
         for row in site.rows:
             part = write_parts(replace(cut_site(site, row), catalogue=()))
@@ -86,25 +86,12 @@ def name_rows(
     return names
 
 
-def find_rows(
-    names: Mapping[str, str], runner: Runner, count: int
-) -> dict[str, Studies]:
-    """Rows that the store knows, by their ids, under so many profiles each.
-
-    A damaged record is told and left out.
-    """
-    by_row = {}
-    for row_id, name in names.items():
-        texts = runner.find_row(name)
-        if texts is None:
-            continue
-        try:
-            pairs = zip(texts, range(count), strict=True)
-            by_row[row_id] = [restore_row(text) for text, _ in pairs]
-        except ValueError:
-            path = str(runner.store.path if runner.store else "")
-            runner.tell(say("store.row_damaged", path=path, name=name[:12]))
-    return by_row
+def find_rows(names: Mapping[str, str], runner: Runner) -> dict[str, Studies]:
+    """Rows that the store knows, by their ids."""
+    texts = {row_id: runner.find_row(name) for row_id, name in names.items()}
+    return {
+        row_id: list(map(restore_row, each)) for row_id, each in texts.items() if each
+    }
 
 
 def keep_rows(
@@ -323,7 +310,7 @@ def check_site(
     runner, watch = runner or Runner(), watch or _SILENT
     on_row = on_row or _keep_silent
     names = name_rows(site, standards, run) if runner.store else {}
-    by_row = find_rows(names, runner, len(standards))
+    by_row = find_rows(names, runner)
     for studies in by_row.values():
         on_row(studies)
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
@@ -24,7 +23,6 @@ from netdesign.structure.head import (
 )
 from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
-from netdesign.structure.row_position import LoadedWidth
 from netdesign.structure.splay import (
     EndHead,
     hold_end_guy,
@@ -127,44 +125,25 @@ def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
 _INCLINATIONS = 8  # parts of their range: what the guy brings changes smoothly
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EndShare:
-    """Load on the head at a row's end.
-
-    Attributes
-    ----------
-    end : LoadedWidth
-        Of the support.
-    along : float
-        H, largest pull of the ridge rope along the row [N].
-    factor : float
-        By which the guideline's load raises the pulls on the head [-].
-    """
-
-    end: LoadedWidth
-    along: float
-    factor: float
-
-
 def find_end_guy(
-    task: RowToCheck, load: EndShare, heads: HeadPulls
-) -> EndGuyRecord | Message | None:
+    task: RowToCheck, end: RowEnd, heads: HeadPulls, *, along: float, scale: float
+) -> EndGuyRecord | Message:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
-
-    None of a row without an end.
 
     Parameters
     ----------
     task : RowToCheck
-        Row with its end, cases and largest forces.
-    load : EndShare
-        On the head there.
+        Row with its cases and largest forces.
+    end : RowEnd
+        Of the row.
     heads : HeadPulls
         States of all its cases.
+    along : float
+        H, largest pull of the ridge rope along the row [N].
+    scale : float
+        Pull on the head there over that inside the row, with the guideline's load [-].
     """
     row, span = task.row, task.site.ranges["inclination"]
-    if row.row_end is None:
-        return None
     places = place_over(row, span)
     held = [hold_end_guy(place) for place in places]
     failed = [support for support in held if isinstance(support, FailedSupport)]
@@ -173,7 +152,7 @@ def find_end_guy(
     forces = [support for support in held if isinstance(support, HeadForces)]
     posts = [head.post_compression for head in forces]
     upright = [place.head[1] / place.post_length for place in places]
-    tensions = _share_end(task, row.row_end, load, heads)
+    tensions = _share_end(task, end, heads, along, scale)
     if isinstance(tensions, Message):
         return tensions
     return EndGuyRecord(
@@ -194,7 +173,7 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, end: RowEnd, load: EndShare, states: HeadPulls
+    task: RowToCheck, end: RowEnd, states: HeadPulls, along: float, scale: float
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
@@ -217,10 +196,10 @@ def _share_end(
         ),
         default=0.0,
     )
-    scale = load.end.width / row.layout.post_spacing * load.factor * hidden
+    scale *= hidden
     places = _place_heads(row, states)
     heads = [
-        EndHead(points=places[k], pull=(scale * x, scale * y), along=load.along)
+        EndHead(points=places[k], pull=(scale * x, scale * y), along=along)
         for k, (x, y) in states.outermost
     ]
     ways = end.stiffnesses

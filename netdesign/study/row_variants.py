@@ -27,7 +27,6 @@ from netdesign.study.anchor_pulls import list_pulls
 from netdesign.study.case_records import LargestForce, record_largest
 from netdesign.study.guideline_load import find_effects, find_row_floors, record_floor
 from netdesign.study.load_along_row import (
-    EndShare,
     find_end_guy,
     find_held_sideways,
     find_tilt,
@@ -201,11 +200,13 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
     share, one_way = forces.effects.lateral_share, find_one_way_pull(forces)
     pulls = list_pulls(task, cases.feet, share, head, one_way)
     forces = replace(forces, pulls=tuple(pulls))
-    along = find_end_pull(forces)
-    if along is None:
+    end, along = task.row.row_end, find_end_pull(forces)
+    if end is None or along is None:
         return forces
     factors = cases.factors
     if factors.ridge < factors.head:  # all panels are raised as the least one
         along *= factors.head / factors.ridge
-    load = EndShare(end=forces.effects.supports[-1], along=along, factor=factors.head)
-    return replace(forces, end_guy=find_end_guy(task, load, cases.heads))
+    wider = forces.effects.supports[-1].width / task.row.layout.post_spacing
+    scale = wider * factors.head
+    end_guy = find_end_guy(task, end, cases.heads, along=along, scale=scale)
+    return replace(forces, end_guy=end_guy)

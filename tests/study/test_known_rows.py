@@ -62,7 +62,7 @@ def judged(monkeypatch):
 
 @pytest.fixture
 def quick_names(monkeypatch):
-    monkeypatch.setattr(use_case, "identify_installation", lambda: "here")
+    monkeypatch.setattr(use_case, "identify_program", lambda: "here")
 
 
 def check(site, store, standards=STANDARDS[:1], **changes):
@@ -220,7 +220,7 @@ def test_a_row_with_a_value_of_no_known_kind_is_judged_every_time():
 def test_another_code_is_not_answered_by_this_one(store, judged, monkeypatch):
     site = build_site(*ROWS)
     check(site, store)
-    monkeypatch.setattr(use_case, "identify_installation", lambda: "9.9+feed")
+    monkeypatch.setattr(use_case, "identify_program", lambda: "9.9+feed")
     check(site, store)
     assert judged == ["R1", "R2"] * 2
 
@@ -237,18 +237,6 @@ def test_a_damaged_record_is_told_and_the_row_is_judged_again(store, judged, tol
     assert [one.key for one in told] == ["store.row_damaged"]
     assert check(site, store) == first
     assert judged == ["R1"]
-
-
-@pytest.mark.parametrize("texts", [["{}", "{}"], ["x", "y"], ["{}"], []])
-def test_a_sealed_record_that_is_none_is_told_and_left_out(store, judged, texts):
-    """Somebody else's store."""
-    site, said = build_site(*ROWS[:1]), []
-    store.keep_row(name_rows(site, STANDARDS[:1], RUN)["R1"], texts)
-    runner = Runner(store=store, tell=said.append)
-    (study,) = check_site(site, STANDARDS[:1], RUN, runner)
-    assert judged == ["R1"]
-    assert [one.key for one in said] == ["store.row_damaged"]
-    assert study.rows[0].id == "R1"
 
 
 @pytest.mark.parametrize("kind", ["fault", "lost"])
