@@ -13,7 +13,7 @@ from netdesign.checks import Standard
 from netdesign.checks.check import Check
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.outcome import ModelError
+from netdesign.outcome import SENTENCE, ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.snow.ground import (
@@ -290,12 +290,10 @@ def _ask_other_models(
 
     Where the program fails in one of these solves, no check by its forces passes.
     """
-    before = task.count_faults()
     form = _find_model_form(task, forces, find_worst(row_checks.checks))
-    if task.count_faults() > before:
-        row_checks = replace(
-            row_checks, checks=[distrust(check) for check in row_checks.checks]
-        )
+    if form and any(variant.reason == SENTENCE for variant in form.variants):
+        checks = [distrust(check) for check in row_checks.checks]
+        row_checks = replace(row_checks, checks=checks)
     return row_checks, form
 
 

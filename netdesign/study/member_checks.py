@@ -62,9 +62,6 @@ UNBOUNDED = (
     *("post_bending.too_much", "wedge.slab", "direction.rope_beyond"),
     LOOSE_LIFTS.key,
 )
-
-
-WORSE = (Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL)
 # What stands behind the id of a check, by the support that it is of.
 AT_SUPPORT: Mapping[Position, str] = {
     "intermediate": "",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 from dataclasses import fields, replace
-from datetime import UTC, datetime
 from functools import cache
 from typing import Any, cast, get_args
 
@@ -26,7 +25,7 @@ from netdesign.study.document import Difference, compare_listed, list_values
 from netdesign.study.guideline_load import load_glide_limits
 from netdesign.study.records import ProfileRecord, Provenance, Study
 from netdesign.study.row_to_check import CheckRun
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 
@@ -187,22 +186,6 @@ def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]
     """
     old, new = (list_values(_leave_out_versions(study)) for study in (stored, again))
     return len(old | new), compare_listed(old, new)
-
-
-def list_versions(study: Study) -> dict[str, str]:
-    """Program and libraries that made a study."""
-    made = study.provenance
-    return {"netdesign": made.version, **made.libraries}
-
-
-def find_time_fault(study: Study) -> Message | None:
-    """Fault of the time of a run: it has no zone, or lies in the future."""
-    started = study.provenance.started
-    time = datetime.fromisoformat(started or "1980-01-01T00:00+00:00")
-    if time.tzinfo is None:
-        return say("verify.no_zone", time=started)
-    is_past = time <= datetime.now(UTC)
-    return None if is_past else say("verify.in_future", time=started)
 
 
 def _leave_out_versions(study: Study) -> Study:

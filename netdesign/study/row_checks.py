@@ -17,7 +17,7 @@ from netdesign.checks.comparison import compare, leave_open
 from netdesign.checks.geometry import MODE, check_approval
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import Ranges
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.site.model import NetRow
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
@@ -32,7 +32,6 @@ from netdesign.study.guideline_load import (
     list_corners,
 )
 from netdesign.study.member_checks import (
-    WORSE,
     MemberCheck,
     find_open,
     list_remedies,
@@ -282,7 +281,7 @@ def _place_anchors(row: NetRow) -> tuple[SupportLayout, Guys, float | None]:
 def _take_gravest(checks: Iterable[Check]) -> Check:
     """Check of the gravest verdict; one that does not fail everywhere is not proven."""
     every = list(checks)
-    gravest = max(every, key=lambda check: WORSE.index(check.verdict))
+    gravest = min(every, key=lambda check: SEVERITY.index(check.verdict))
     if all(check.verdict is gravest.verdict for check in every):
         return gravest
     is_fail = gravest.verdict is Verdict.FAIL

@@ -126,10 +126,6 @@ class RowToCheck(Basis):
         default_factory=dict
     )
 
-    def count_faults(self) -> int:
-        """Faults of the program in the solves so far."""
-        return self.solver.faults if self.solver else 0
-
 
 def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
     """Scene of one case of a net row, with what ranges as the case has it.
@@ -191,7 +187,6 @@ class CaseSolver:
         """Without a ``runner`` cases are solved in this process and kept nowhere."""
         self.law = law
         self.count = 0
-        self.faults = 0  # of the program, in what was asked for
         self._settings = settings
         self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str], CaseResult] = {}
@@ -215,7 +210,6 @@ class CaseSolver:
         results_asked = [self._known[key] for key in keys]
         for (row, *_), result in zip(keys, results_asked, strict=True):
             self._runner.keep_fault(result.fault, row.id)
-            self.faults += result.fault is not None
         return results_asked
 
 

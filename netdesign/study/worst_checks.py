@@ -11,14 +11,13 @@ from dataclasses import replace
 from functools import partial
 
 from netdesign.checks import Rating
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import CONNECTED, EndMember, Member, NetPart
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.anchor_pulls import check_direction, find_pull
 from netdesign.study.member_checks import (
     AT_SUPPORT,
-    WORSE,
     MemberCheck,
     find_open,
     rate_at,
@@ -152,7 +151,7 @@ def find_least(rating: Rating) -> float:
 def _weigh(rating: Rating) -> tuple[int, float, float]:
     high = -1.0 if rating.high is None else rating.high
     used = math.inf if rating.is_unbounded else high
-    return WORSE.index(rating.verdict), used, rating.demand or 0.0
+    return -SEVERITY.index(rating.verdict), used, rating.demand or 0.0
 
 
 def _judge_directions(
@@ -241,10 +240,10 @@ def _rate_load(member_check: MemberCheck) -> float:
 
 def _is_no_worse(member_check: MemberCheck, other: MemberCheck) -> bool:
     """Whether a check has no larger use, no larger load and no worse verdict."""
-    verdicts = [WORSE.index(each.check.verdict) for each in (member_check, other)]
+    ranks = [SEVERITY.index(each.check.verdict) for each in (member_check, other)]
     loads = [each.check.read_band("E_d")[1] or 0.0 for each in (member_check, other)]
     is_less = member_check.ratio <= other.ratio and loads[0] <= loads[1]
-    return is_less and verdicts[0] <= verdicts[1]
+    return is_less and ranks[0] >= ranks[1]
 
 
 def _is_covered(

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from netdesign.addons.evidence.command import find_time_fault, list_versions
 from netdesign.checks import Check, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.outcome import StudyError
@@ -15,9 +16,7 @@ from netdesign.study.check_site import check_site
 from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.record_provenance import (
     build_run,
-    find_time_fault,
     list_differences,
-    list_versions,
     read_text_format,
     record_provenance,
 )

@@ -85,7 +85,7 @@ def _run_pack(asked: Mapping[str, Any]) -> int:
 def _verify_study(path: Path, asked: Mapping[str, Any]) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.study.document import load_study
-    from netdesign.study.record_provenance import find_time_fault, list_differences
+    from netdesign.study.record_provenance import list_differences
 
     study = load_study(path)
     inputs = find_inputs(study, path, asked)
@@ -129,10 +129,26 @@ def _show_comparison(
         tell(say("verify.same_bytes") if is_equal else same)
 
 
+def list_versions(study: Study) -> dict[str, str]:
+    """Program and libraries that made a study."""
+    made = study.provenance
+    return {"netdesign": made.version, **made.libraries}
+
+
+def find_time_fault(study: Study) -> Message | None:
+    """Fault of the time of a run: it has no zone, or lies in the future."""
+    from datetime import UTC, datetime
+
+    started = study.provenance.started
+    time = datetime.fromisoformat(started or "1980-01-01T00:00+00:00")
+    if time.tzinfo is None:
+        return say("verify.no_zone", time=started)
+    is_past = time <= datetime.now(UTC)
+    return None if is_past else say("verify.in_future", time=started)
+
+
 def _show_unverified(study: Study, again: Study) -> bool:
     """Print what a new solve cannot verify; True if versions or missing rows do it."""
-    from netdesign.study.record_provenance import list_versions
-
     old, new = list_versions(study), list_versions(again)
     others = [name for name in old | new if old.get(name) != new.get(name)]
     for name in others:
