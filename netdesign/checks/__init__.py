@@ -5,9 +5,7 @@ from netdesign.checks.comparison import RatedForce as RatedForce
 from netdesign.checks.comparison import find_resistance as find_resistance
 from netdesign.checks.comparison import rate_member as rate_member
 from netdesign.checks.geometry import Approval as Approval
-from netdesign.checks.geometry import RowGeometry as RowGeometry
 from netdesign.checks.geometry import StatedValue as StatedValue
-from netdesign.checks.geometry import check_geometry as check_geometry
 from netdesign.checks.inputs import Band as Band
 from netdesign.checks.inputs import Declaration as Declaration
 from netdesign.checks.inputs import GivenResistance as GivenResistance

@@ -26,49 +26,6 @@ from netdesign.units import degree_from_radian, radian_from_percent
 from netdesign.words.message import Message, say
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowGeometry:
-    """Geometry of a net row.
-
-    Attributes
-    ----------
-    inclination_low, inclination_high : float
-        Range of the angle between net and slope normal [rad].
-    slope_angle : float
-        psi [rad].
-    snow_thickness, net_height : float
-        Both normal to the slope [m].
-    upslope_length : float
-        To the next row, along the slope [m].
-    gap : float
-        To the next work in the row [m]; infinite where none is given.
-    """
-
-    inclination_low: float
-    inclination_high: float
-    slope_angle: float
-    snow_thickness: float
-    net_height: float
-    upslope_length: float
-    gap: float
-
-
-def check_geometry(row: RowGeometry, standard: Standard) -> list[Check]:
-    """Check a row against every limit of geometry that the profile has.
-
-    Theory: checks/THEORY.md. The inclination and the slope are checked under every
-    profile: without limits, or a plausible range, they are not proven.
-    """
-    checks = (
-        check_inclination(row.inclination_low, row.inclination_high, standard),
-        check_slope(row.slope_angle, standard),
-        check_height(row.net_height, row.snow_thickness, standard),
-        check_row_spacing(row, standard),
-        check_gap(row.gap, standard),
-    )
-    return [check for check in checks if check is not None]
-
-
 def _compare(
     mode: str,
     limit: StandardValue | None,
@@ -202,17 +159,29 @@ def read_reach(standard: Standard) -> Callable[[float, float], float] | None:
     return find_reach
 
 
-def check_row_spacing(row: RowGeometry, standard: Standard) -> Check | None:
+def check_row_spacing(
+    slope_angle: float, net_height: float, length: float, standard: Standard
+) -> Check | None:
     """Check the distance of the rows; None where the profile has no formula.
 
     Nothing is proven beyond the profile's cap on f_L, nor without one.
+
+    Parameters
+    ----------
+    slope_angle : float
+        psi [rad].
+    net_height : float
+        D_K, normal to the slope [m].
+    length : float
+        To the next row, along the slope [m].
+    standard : Standard
+        Profile that gives the limits.
     """
     friction, cap = standard.find(GROUND_FRICTION), standard.find(SPACING_CAP)
     if friction is None:
         return None
-    most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
-    proven = cap.value * row.net_height / math.cos(row.slope_angle) if cap else 0.0
-    length = row.upslope_length
+    most = compute_largest_row_spacing(slope_angle, net_height, friction.value)
+    proven = cap.value * net_height / math.cos(slope_angle) if cap else 0.0
     check = _compare("spacing", friction, (length, length), (0.0, most))
     if most == math.inf and check.verdict is Verdict.PASS:
         check = compare("spacing", Verdict.PASS, say("geometry.spacing_any"), friction)

@@ -9,12 +9,18 @@ from netdesign.checks import (
     Check,
     Open,
     OpenKind,
-    RowGeometry,
     Standard,
-    check_geometry,
 )
 from netdesign.checks.comparison import compare, leave_open
-from netdesign.checks.geometry import MODE, check_approval
+from netdesign.checks.geometry import (
+    MODE,
+    check_approval,
+    check_gap,
+    check_height,
+    check_inclination,
+    check_row_spacing,
+    check_slope,
+)
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import SEVERITY, Verdict
@@ -189,15 +195,24 @@ _SPACING, _UPSLOPE = "spacing", "upslope_length"
 
 
 def check_row_geometry(basis: Basis) -> list[Check]:
-    """Checks of a row that no force enters."""
+    """Checks of a row that no force enters.
+
+    Inclination and slope are checked under every profile: without limits, or a
+    plausible range, they are not proven. Theory: checks/THEORY.md.
+    """
     row, standard, ranges = basis.row, basis.standard, basis.site.ranges
-    geometry = check_geometry(read_geometry(row, ranges), standard)
-    ends = check_ends(find_effects(row, standard, ranges))
-    return [
-        *(_leave_assumed_open(row, check) for check in geometry),
-        *([ends] if ends else []),
-        *_list_asked(row, standard),
-    ]
+    span, slope, height = ranges["inclination"], row.slope_angle, row.net_height
+    checks = (
+        check_inclination(span.low, span.high, standard),
+        check_slope(slope, standard),
+        check_height(height, row.snow_thickness, standard),
+        check_row_spacing(slope, height, row.upslope_length, standard),
+        check_gap(row.gap, standard),
+        check_ends(find_effects(row, standard, ranges)),
+    )
+    present = [check for check in checks if check is not None]
+    asked = _list_asked(row, standard)
+    return [*(_leave_assumed_open(row, check) for check in present), *asked]
 
 
 def _leave_assumed_open(row: NetRow, check: Check) -> Check:
@@ -221,19 +236,6 @@ def _list_asked(row: NetRow, standard: Standard) -> Iterator[Check]:
         asked = compare("plausible", Verdict.NOT_PROVEN, finding)
         asked = asked.with_open(OpenKind.VALUE_ASKED, *row.questions)
         yield replace(asked, id="inputs.plausible")
-
-
-def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
-    """Input of a row's checks of geometry."""
-    return RowGeometry(
-        inclination_low=ranges["inclination"].low,
-        inclination_high=ranges["inclination"].high,
-        slope_angle=row.slope_angle,
-        snow_thickness=row.snow_thickness,
-        net_height=row.net_height,
-        upslope_length=row.upslope_length,
-        gap=row.gap,
-    )
 
 
 def _check_sideways(forces: RowForces, open_cases: Message | None) -> Check:

@@ -8,8 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from netdesign.checks import (
-    RowGeometry,
-    check_geometry,
     list_standards,
     load_standard,
 )
@@ -18,6 +16,7 @@ from netdesign.checks.rating import OpenKind
 from netdesign.checks.schema import SPACING_CAP
 from netdesign.edge.json_text import write_json
 from netdesign.outcome import Verdict
+from tests.checks.row_geometry import RowGeometry, check_geometry
 from tests.each import each
 
 SWISS = load_standard("swiss-guideline-2007")

@@ -13,15 +13,14 @@ from hypothesis import strategies as st
 
 from netdesign.checks import (
     Band,
-    RowGeometry,
     Standard,
-    check_geometry,
     load_standard,
 )
 from netdesign.checks.rating import Open, OpenKind, judge, merge_open
 from netdesign.outcome import Verdict
 from netdesign.words.catalogue import as_given
 from tests.checks.entries import a_force, a_resistance, a_value, no_force, unsolved
+from tests.checks.row_geometry import RowGeometry, check_geometry
 from tests.read_check import check_member
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
