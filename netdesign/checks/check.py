@@ -76,7 +76,6 @@ class TestSeries:
     least_kN: float
     mean_kN: float
     singles: Items[SingleTest]  # empty where each is not given
-    proof_factor: float | None  # proof load over design force
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -234,13 +234,12 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
     forces = _find_worst_variant(row_checks, variants)
     row_checks, model_form = _ask_other_models(task, forces, row_checks)
     checks = row_checks.checks
-    cases = [record_case(result) for result in task.solved.results]
     governing = _governing_result(find_worst(checks), forces)
     foot = forces.extremes.get(Member.FOOT_ANCHOR)
     return RowStudy(
         id=row.id,
         checks=checks,
-        cases=cases,
+        cases=list(map(record_case, task.solved.results)),
         inputs=list(row.inputs),
         parts=list_parts(forces.row),
         drawing=record_drawing(forces.row, governing),
@@ -252,7 +251,7 @@ def _record_row(task: RowToCheck, run: CheckRun) -> RowStudy:
         guideline=record_guideline(forces.row, foot, task.standard),
         floor=forces.floor,
         model_form=model_form,
-        notes=list_judged_notes(forces, checks, cases),
+        notes=list_judged_notes(forces, checks),
         held_sideways=forces.along_row,
         end_guy=forces.at_end,
         reliability=_find_reliability(task, forces, row_checks, run),

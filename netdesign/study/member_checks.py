@@ -18,7 +18,6 @@ from netdesign.checks import (
     OpenKind,
     RatedForce,
     Rating,
-    Standard,
     find_resistance,
     rate_member,
 )
@@ -26,7 +25,6 @@ from netdesign.checks.check import Change, SingleTest, TestSeries
 from netdesign.checks.comparison import (
     find_missing_force,
     find_partial_factor,
-    find_proof_factor,
 )
 from netdesign.outcome import Verdict
 from netdesign.resistance.ground import SingleTest as PullOutTest
@@ -127,7 +125,7 @@ class MemberCheck:
             load_case=least.load_case if least else "",
             load_inclination_deg=least.inclination_deg if least else None,
             resistance_derivation=resistance.derivation,
-            tests=_record_tests(resistance, forces.standard),
+            tests=_record_tests(resistance),
             proof_limit_kN=kilonewton_if_known(resistance.proof_limit),
         )
 
@@ -223,7 +221,7 @@ def _rate(
     return rated.with_open(OpenKind.FAILS, lack) if lack and is_unbounded else rated
 
 
-def _record_tests(resistance: Resistance, standard: Standard) -> TestSeries | None:
+def _record_tests(resistance: Resistance) -> TestSeries | None:
     tests = resistance.tests
     if tests is None or resistance.value is not None:
         return None
@@ -232,7 +230,6 @@ def _record_tests(resistance: Resistance, standard: Standard) -> TestSeries | No
         least_kN=kilonewton_from_newton(tests.least),
         mean_kN=kilonewton_from_newton(tests.mean),
         singles=[_record_single(test) for test in tests.singles],
-        proof_factor=find_proof_factor(standard),
     )
 
 

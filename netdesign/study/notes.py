@@ -12,13 +12,11 @@ from netdesign.checks import Standard
 from netdesign.checks.check import Check
 from netdesign.checks.comparison import find_action_factor
 from netdesign.checks.schema import ACCEPTANCE_TEST
-from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.ranges import Ranges
 from netdesign.outcome import ModelError
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import GUYS, EndMember, Member
-from netdesign.study.case_records import CaseRecord
 from netdesign.study.guideline_load import list_assumed
 from netdesign.study.load_along_row import place_row
 from netdesign.study.member_force import RowForces
@@ -122,12 +120,8 @@ def _layer_notes(site: Site) -> list[Message]:
     ]
 
 
-def list_judged_notes(
-    forces: RowForces,
-    checks: Sequence[Check],
-    cases: Sequence[CaseRecord],
-) -> list[Message]:
-    """Notes of a row by its inputs, checks and cases."""
+def list_judged_notes(forces: RowForces, checks: Sequence[Check]) -> list[Message]:
+    """Notes of a row by its inputs and checks."""
     row, ranges, standard = forces.row, forces.site.ranges, forces.standard
     return [
         *list_row_notes(forces),
@@ -135,7 +129,6 @@ def list_judged_notes(
         *list_one_anchor_notes(checks),
         *_list_tube_notes(checks),
         *list_guy_notes(row, ranges, checks, standard),
-        *list_case_notes(cases),
     ]
 
 
@@ -214,14 +207,6 @@ def list_one_anchor_notes(checks: Sequence[Check]) -> list[Message]:
     if foot is None or along is None:
         return []
     return [say("row.one_anchor", both=math.hypot(foot, along))]
-
-
-def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
-    """Note on cases that were solved with released contact."""
-    released = sum(case.reason == RELEASED for case in cases)
-    if not released:
-        return []
-    return [say("row.in_cases", count=released, all=len(cases), what=RELEASED)]
 
 
 def list_guy_notes(

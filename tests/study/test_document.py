@@ -146,7 +146,7 @@ def test_a_message_without_its_text_or_arguments_is_refused(document):
     for key, arguments in (
         ("no.such_text", {}),
         ("text.as_given", {}),
-        ("row.in_cases", {"count": 1, "all": 2, "what": {"key": "no.such_text"}}),
+        ("row.guy_in_snow", {"member": {"key": "no.such_text"}, "width": 1.0}),
         ("geometry.gap_pass", {"low": "wide", "most": 2.0}),
     ):
         reason.update(key=key, arguments=arguments)

@@ -327,9 +327,8 @@ def _list_lines(study: Study, words: Words) -> Iterator[tuple[Cell, ...]]:
         tests = checks[0].tests
         ends = [check.read_band("E_d")[1] for check in checks]
         known = [end for end in ends if end is not None]
-        whole = tests is not None and len(known) == len(ends)
-        factor = tests.proof_factor if tests and whole else None
-        wanted = None if factor is None else factor * max(known)
+        factor, is_whole = study.profile.proof_factor, len(known) == len(ends)
+        wanted = factor * max(known) if factor is not None and is_whole else None
         for test in tests.singles if tests else ():
             yield _show_single(checks, test, wanted, words)
 
