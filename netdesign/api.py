@@ -96,7 +96,6 @@ def check(
     profile = _choose_profile(standard, chosen)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
-        jobs=jobs or 1,
         started=datetime.now(UTC).isoformat(timespec="seconds"),
         has_reliability=reliability,
     )
@@ -105,7 +104,7 @@ def check(
     watch = RunProgress(phases, show_stages(lambda standing: tell(str(standing.line))))
     with open_runner(
         executor="",
-        processes=run.jobs,
+        processes=jobs or 1,
         store=find_store(),
         tell=_LOG.warning,
         expected=sum(phase.cases for phase in phases),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -65,7 +64,6 @@ def check(site_file: Path | None, **asked: Any) -> None:
         return
     run = CheckRun(
         settings=SolverSettings(accuracy=asked["accuracy"]),
-        jobs=asked["jobs"] or os.cpu_count() or 1,
         started=format_time(),
         has_reliability=asked["reliability"],
     )

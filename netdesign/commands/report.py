@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -252,8 +251,9 @@ def solve_again(study: Study, inputs: Inputs, asked: Mapping[str, Any]) -> Study
     from netdesign.study.check_site import check_site
     from netdesign.study.record_provenance import build_run
 
-    run = build_run(study, asked.get("jobs") or os.cpu_count() or 1)
-    solving = {"jobs": run.jobs, "executor": "", "cache": False, "quiet": False}
+    run = build_run(study)
+    jobs = asked.get("jobs")
+    solving = {"jobs": jobs, "executor": "", "cache": False, "quiet": False}
     with open_run(inputs.site, solving) as (runner, watch):
         (again,) = check_site(inputs.site, [inputs.profile], run, runner, watch)
     if failed := print_faults(runner.faults):

@@ -133,15 +133,8 @@ def read_text_format(made: Provenance) -> TextFormat:
     return TextFormat(delimiter=sign if is_sign else "", decimal_mark=mark)
 
 
-def build_run(study: Study, jobs: int) -> CheckRun:
-    """Settings with which a study was made; its time is taken over.
-
-    Parameters
-    ----------
-    study : Study
-        As stored.
-    jobs : int
-        Processes; they change nothing.
+def build_run(study: Study) -> CheckRun:
+    """Settings with which a stored study was made; its time is taken over.
 
     Raises
     ------
@@ -152,7 +145,6 @@ def build_run(study: Study, jobs: int) -> CheckRun:
     try:
         run = CheckRun(
             settings=SolverSettings(accuracy=float(settings["accuracy"])),
-            jobs=jobs,
             started=made.started,
             has_reliability=any(row.reliability for row in study.rows),
         )

@@ -222,6 +222,5 @@ class CheckRun:
 
     settings: SolverSettings
     creep_law: CreepLaw = BOUTILLIER_2004
-    jobs: int = 1
     started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
     has_reliability: bool = False

@@ -51,7 +51,7 @@ def list_found(document, site, fresh):
     """All that `verify` tells of a study, against a new solve of its inputs."""
     try:
         study = read_document(json.dumps(document))
-        run = build_run(study, 1)
+        run = build_run(study)
     except StudyError as error:
         return [error]
     again = replace(fresh, provenance=record_provenance(site, run))
@@ -71,7 +71,7 @@ def test_the_study_itself_comes_out_again(solved, text):
 def test_a_study_names_the_form_of_text_that_took_effect(solved, declared):
     """Not the words of a command: what made the study may have had none."""
     site, study = solved
-    run = build_run(study, 1)
+    run = build_run(study)
     made = record_provenance(replace(site, text_format=declared), run)
     assert read_text_format(made) == declared
     for sign in ("", "ab", '"', "x"):
