@@ -52,14 +52,6 @@ def test_a_whole_is_no_better_than_its_parts(length):
         assert merge_verdicts(parts) is merge_verdicts(iter(parts)) is worst
 
 
-def test_merging_by_groups_gives_the_same():
-    """Checks merge to rows and rows to a study: the grouping must not matter."""
-    for parts in product(Verdict, repeat=4):
-        whole = merge_verdicts(parts)
-        groups = [merge_verdicts(parts[:2]), merge_verdicts(parts[2:])]
-        assert merge_verdicts(groups) is whole
-
-
 def test_words_are_those_of_the_interface():
     words = ["pass", "fail", "not_proven", "declared"]
     assert [verdict.value for verdict in Verdict] == words
@@ -148,10 +140,6 @@ def test_what_is_meant_is_no_fault(error):
     with pytest.raises(type(error)) as caught:
         catch_fault(partial(raise_one, error), "")
     assert caught.value is error
-
-
-def test_a_result_comes_through():
-    assert catch_fault(lambda: 7, "") == 7
 
 
 def test_the_place_is_the_line_of_the_package_that_was_at_work():

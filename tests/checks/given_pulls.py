@@ -17,7 +17,7 @@ from netdesign.structure.members import Member, NetPart
 from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import CheckRun
 from tests.grid import build_cases, wrap_results
-from tests.make import read_tables
+from tests.make import load_tables, read_tables
 
 
 def find_second(gap):
@@ -28,51 +28,9 @@ def find_second(gap):
     return 1.0 + 0.85 * gap * (0.3 * gap) ** 2 / (2.0 * 3.5**2)
 
 
-ROW = {
-    "id": "R",
-    "slope_angle": 35,
-    "snow": 2.8,
-    "upslope_length": 18,
-    "glide_factor": 1.0,
-    "post_count": 12,
-    "net_type": "N",
-    "post_spacing": 3.5,
-    "foot_anchor": "A",
-    "uphill_anchor": "A",
-    "downhill_anchor": "A",
-    "ground": "till",
-}
-NET = {
-    "id": "N",
-    "net_height": 3.0,
-    "net_stiffness": 10000,
-    "slack": 5,
-    "post_tilt": 15,
-    "guy_count": 2,
-    "guy_splay": 30,
-    "uphill_anchor_distance": 3.0,
-    "downhill_anchor_distance": 3.0,
-    "guy_anchors": "own",
-    "mesh_strength": 300,
-    "uphill_guy": "G",
-    "downhill_guy": "G",
-    "post": "P",
-}
-ROPE = {"id": "G", "rope": 252.048, "termination": "clips"}  # 0.356 * 20^2 * 1.77
-POST = {
-    "id": "P",
-    "area": 34.0,
-    "second_moment": 318.0,
-    "buckling_length": 3.1,
-    "yield_strength": 235,
-    "buckling_curve": "c",
-    "bearing": 271.23,
-    "post_width": 120,
-    "section_modulus": 144,
-    "head_eccentricity": 0,
-    "base_friction": 0.6,  # of the site
-}
-ANCHOR = {"id": "A", "ground": "till", "protection": "cover", "drilled_length": 5.5}
+GIVEN = load_tables("given_row")
+(ROW,), (NET,), (ANCHOR,) = (GIVEN[x] for x in ("rows", "net_types", "anchor_types"))
+(ROPE,), (POST,) = GIVEN["ropes"], GIVEN["posts"]
 
 
 def judge_row(profile, **changes):
@@ -152,13 +110,12 @@ def build_tables(*, anchor, post=POST, tests=(), **row):
     of_row = {key: value for key, value in row.items() if key in own}
     of_net = {key: value for key, value in row.items() if key not in own}
     post = dict(post)
-    project = {"density": 380, "friction_angle": 30, "inclination": 30}
-    project |= {"design_life": 50, "base_friction": post.pop("base_friction", None)}
+    project = {"base_friction": post.pop("base_friction", None)}
     keys = ("force", "result", "proof_load")
     of_test = {"type": "A", "ground": kind["ground"]}
     link = {"link": "eye", "force": 900, "meaning": "strength"}
     return {
-        "project": [project],
+        "project": [GIVEN["project"][0] | project],
         "rows": [ROW | {"ground": kind["ground"]} | of_row],
         "net_types": [NET | of_net | {"post": post["id"]}],
         "anchor_types": [kind],

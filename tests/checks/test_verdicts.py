@@ -145,26 +145,6 @@ def test_judge_proves_only_what_comparisons_hold(low, high, least, most):
         assert not (is_band and (inside or low > most or high < least))
 
 
-@given(NO_NUMBER, st.floats(0.0, 2.0))
-@settings(max_examples=50)
-def test_what_is_no_number_is_not_proven(bad, good):
-    for low, high in ((bad, good), (good, bad), (bad, bad)):
-        assert judge(low, high, least=0.0, most=1.0) is OPEN
-
-
-@given(st.floats(0.0, 2.0), st.floats(0.0, 2.0), st.floats(0.0, 1.0))
-@settings(max_examples=200)
-def test_less_certainty_never_makes_a_verdict_better(low, high, more):
-    """Of a wider band: a pass stays one or is lost."""
-    low, high = sorted((low, high))
-    known = judge(low, high, least=0.0, most=1.0)
-    for worse in (
-        judge(low - more, high + more, least=-9.0, most=1.0),
-        judge(low, high + more, least=0.0, most=1.0),
-    ):
-        assert worse is known or worse is OPEN
-
-
 @given(bands(), FACTORS, FORCES, FACTORS, st.floats(1.0, 3.0))
 @settings(max_examples=200)
 def test_more_load_or_less_strength_never_makes_a_verdict_better(

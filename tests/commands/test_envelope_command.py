@@ -135,7 +135,7 @@ def outputs(folder):
 
 @pytest.mark.long
 def test_a_killed_run_continues_to_the_same_bytes(scene, tmp_path):
-    """Killed twice; ``test_killed_study.py`` kills more, and at random moments."""
+    """Killed twice; ``tests/faults/kill_runs.py`` kills at random moments."""
     whole = start(scene, tmp_path / "whole.sqlite", tmp_path / "whole")
     assert whole.wait(timeout=120) == 0
     whole.communicate()

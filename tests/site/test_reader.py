@@ -161,6 +161,12 @@ def test_two_units_for_one_column_are_refused(book):
     assert str(finding.rule).startswith("is not the unit")
 
 
+def test_two_columns_of_one_heading_are_refused(book):
+    book["Rows"][HEADINGS].append("SLOPE ψ [%]")
+    (finding,) = book.refuse()
+    assert (finding.cell, finding.rule.key) == ("K1", "heading.twice")
+
+
 @pytest.mark.parametrize("heading", ["post spacingg b [m]", "post spacing (m) [cm]"])
 def test_a_needed_heading_nearly_right_is_refused(book, heading):
     book["Rows"][HEADINGS][6] = heading
@@ -215,10 +221,11 @@ def test_more_net_rows_than_a_report_holds_are_refused(book, monkeypatch):
     assert str(finding.accepted) == "at most 37 in one site: divide it"
 
 
-def test_empty_lines_between_others_are_passed_over(book):
-    book["Rows"][SECOND:SECOND] = [[None], [None]]
+def test_empty_lines_and_names_of_parts_are_passed_over(book):
+    book["Rows"][SECOND:SECOND] = [[None], [None], ["Secteur Nord"]]
     site = book.read()
-    assert (site.findings, len(site.rows)) == ((), 2)
+    assert [one.rule.key for one in site.findings] == ["table.note"]
+    assert len(site.rows) == 2
 
 
 def test_merged_cells_are_refused_below_the_headings_only(book):

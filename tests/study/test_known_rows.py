@@ -2,8 +2,6 @@
 
 import math
 import random
-import sqlite3
-from contextlib import closing
 from dataclasses import dataclass, replace
 
 import pytest

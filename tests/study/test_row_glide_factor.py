@@ -22,10 +22,8 @@ from netdesign.study.guideline_load import (
     find_solved_ground,
     load_glide_limits,
 )
-from netdesign.study.judge import judge_site
 from netdesign.study.row_to_check import build_scene
-from tests.grid import solve_site
-from tests.small_site import RUN, build_row, build_site
+from tests.small_site import RUN, build_row
 
 SLIDING = GroundLaw(kind="sliding", slip_length=7.3)
 ONE_CASE = Ranges.of(
@@ -127,10 +125,3 @@ def test_other_creep_laws_have_the_slip_of_their_own_table():
         known = law.name if law.name in load_glide_tables() else DEFAULT_CREEP_LAW
         expected = build_ground_from_glide_factor(1.2, 2.0, known)
         assert find_solved_ground(row, law) == expected
-
-
-def study(glide_factor):
-    """A row on ground whose slip length belongs to another factor, at one case."""
-    site = build_site(a_row(glide_factor=glide_factor), ranges=ONE_CASE)
-    standard = load_standard("swiss-guideline-2007")
-    return judge_site(site, solve_site(site, RUN), standard, RUN, None).rows[0]
