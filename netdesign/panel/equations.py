@@ -106,7 +106,7 @@ def measure_lengths(shear: Floats, stiffness: Floats, along: Floats) -> RopeLeng
 
     Verified by
     -----------
-    tests/panel/test_ropes.py
+    tests/verification/test_panel.py
     """
     square = np.einsum("rcg,rcg->rg", shear, shear) / along[:, None] ** 2
     excess = _exceed(square)  # w - 1

@@ -54,7 +54,7 @@ def test_with_the_decimal_mark_declared_every_number_is_taken(typed_number):
     assert parse_number(typed, mark) == float(truth)
 
 
-@settings(max_examples=1000)
+@settings(max_examples=300)
 @given(typed_numbers())
 def test_without_it_only_what_has_two_readings_is_refused(typed_number):
     typed, _, _ = typed_number

@@ -195,7 +195,7 @@ OF = {
 }
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(first=GIVEN, second=GIVEN)
 def test_a_scope_depends_on_its_own_inputs_alone(judge, first, second):
     row = _judge_given(judge, first)

@@ -107,7 +107,7 @@ def test_the_guideline_decides_where_the_profile_says_so(judge):
         assert one.steps[-1].symbol == "μ"
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(factor=st.floats(0.3, 3.0), of_maker=st.floats(0.01, 3.0))
 def test_the_smaller_demand_decides_on_nothing_but_the_models_part(
     judge, factor, of_maker

@@ -35,10 +35,10 @@ def judge(path):
 
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory):
-    """A built study; a drawn site with splayed guys and ends; rows of the example."""
+    """A built study; a drawn site with splayed guys and ends; a row of the example."""
     folder = tmp_path_factory.mktemp("sites")
     write_site(folder / "drawn.xlsx", draw_tables(SEED))
-    write_rows(folder / "example.xlsx", ["R6", "R7"])
+    write_rows(folder / "example.xlsx", ["R7"])
     judged = {name: judge(folder / f"{name}.xlsx") for name in ("drawn", "example")}
     return {"built": STUDY, **judged}
 

@@ -49,7 +49,7 @@ def strike(path, cells):
     book.save(path)
 
 
-@each("seed", range(12))
+@each("seed", range(6))
 def test_every_cell_that_is_struck_out_is_asked_about(path, seed):
     draw = random.Random(seed)
     cells = draw.sample(list_filled(path), draw.randint(1, 4))
@@ -133,7 +133,7 @@ def draw_formula(draw):
     )
 
 
-@each("seed", range(20))
+@each("seed", range(8))
 def test_a_stored_result_that_its_formula_does_not_give_is_asked_about(path, seed):
     draw = random.Random(seed)
     formula, value = draw_formula(draw)
