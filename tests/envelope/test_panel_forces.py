@@ -11,7 +11,6 @@ from netdesign.envelope import run as running
 from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.result_reader import POST_PULLS
 from netdesign.envelope.rows import refine_settings
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.envelope.search import run_grid, search_rows
@@ -44,11 +43,6 @@ def found(runner):
     return one
 
 
-@pytest.fixture(scope="module")
-def grid(runner):
-    return run_grid(TASK, {"density": 6, "friction_angle": 7}, runner)[0]
-
-
 @pytest.mark.parametrize("mid", [False, True])
 def test_a_case_has_both_sets_and_the_panel_carries_the_same_load(mid):
     result = solve(
@@ -79,20 +73,6 @@ def test_bands_hold_the_forces_on_finer_meshes(seed):
     for name in (NetPart.MESH, *PANEL_QUANTITIES):
         band, value = coarse.member_forces[name], fine.member_forces[name].value
         assert band.low <= value <= band.high, name
-
-
-def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
-    assert found.gap is None
-    assert set(PANEL_QUANTITIES) - {*POST_PULLS} <= set(found.members)
-    assert not found.lifted
-    for result in grid:
-        for member, band in result.member_forces.items():
-            assert band.value <= found.extremes[member].widened.high
-            if member in POST_PULLS:
-                continue
-            place = found.members.index(member)
-            bound = found.maxima.upper_bound[place]
-            assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
 
 
 @pytest.fixture

@@ -1,14 +1,10 @@
 """Assembly: exact on fields that the elements hold. Against forms: test_forms.py."""
 
-import math
-
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import kernel
 from netdesign.snow.placed_mesh import build_placed_mesh
-from tests.each import each
 
 SHAPES = [(0.0, 0.0), (0.0, 0.1), (30.0, 0.0), (30.0, 0.15)]
 
@@ -22,24 +18,6 @@ def mesh(request, a_mesh):
 def linear_velocity(mesh, gradient):
     """Nodal velocities, node axes, of v = gradient x + a translation."""
     return mesh.to_node_axes(gradient @ mesh.nodes + np.array([[0.3], [-0.7]]))
-
-
-@each("size", MESH_LEVELS)
-@each("inclination", [0.0, 30.0])
-@each("sag", [0.0, 0.1])
-def test_total_load_is_the_weight(a_mesh, size, inclination, sag):
-    """d L, the wedge d^2 tan(theta) / 2, and the segment (2/3) chord sag."""
-    mesh = a_mesh(inclination_deg=inclination, sag=sag, size=size)
-    theta = math.radians(inclination)
-    # placed at its fractions the parabola is exact in parabolic edges
-    weight = 5.0 + math.tan(theta) / 2 + 2 / 3 * sag / math.cos(theta)
-    assert mesh.load.sum() == pytest.approx(weight, rel=1e-12)
-    assert mesh.area == pytest.approx(weight, rel=1e-12)
-
-
-def test_net_normals_point_out_of_the_snow(mesh):
-    np.testing.assert_allclose(np.hypot(*mesh.net_normal), 1.0, rtol=1e-14)
-    assert (mesh.net_normal[0] > 0.0).all()
 
 
 def test_unit_shear_on_the_ground(a_mesh):
