@@ -15,8 +15,6 @@ from netdesign.snow.flow_step import compute_residual, remove_rounding
 from netdesign.snow.law import (
     STRESS_FLOOR,
     Material,
-    linearise_creep,
-    linearise_sliding,
 )
 from netdesign.snow.placed_mesh import build_placed_mesh
 from tests.each import each
@@ -55,56 +53,6 @@ def inclined(a_mesh):
 # --- law ---------------------------------------------------------------------
 
 
-def test_metric_is_that_of_the_theory(a_flow_problem):
-    """(N7): k = r - 2/3."""
-    metric = material(a_flow_problem(bulk_ratio=5 / 3)).stiffness
-    np.testing.assert_allclose(
-        metric, [[3.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 1.0]], rtol=1e-15
-    )
-
-
-def strain_rate(law, stress):
-    """(N8), written out."""
-    compliance = np.linalg.inv(material(law).stiffness)
-    size = stress @ compliance @ stress + STRESS_FLOOR**2
-    return size ** ((law.exponent - 1.0) / 2.0) * compliance @ stress
-
-
-@each("exponent", [1.0, 2.0, 3.0])
-@each("size", [1.0, 1e-3])
-def test_tangent_is_the_derivative_of_the_law(a_flow_problem, exponent, size):
-    law = a_flow_problem(exponent=exponent)
-    stress = size * np.array([0.7, -0.4, 0.9])
-    step = 1e-6 * size
-    slopes = np.array(
-        [
-            (strain_rate(law, stress + e) - strain_rate(law, stress - e)) / (2 * step)
-            for e in step * np.eye(3)
-        ]
-    )
-    moduli, intercept = linearise_creep(law, material(law), stress)
-    np.testing.assert_allclose(moduli @ slopes, np.eye(3), atol=1e-8)
-    # (N10): what the tangent keeps is sigma - C eps(sigma)
-    expected = stress - moduli @ strain_rate(law, stress)
-    np.testing.assert_allclose(intercept, expected, atol=1e-14 * size)
-
-
-def test_tangent_of_the_sliding_ground(a_flow_problem):
-    law = a_flow_problem(ground="sliding", slip_ratio=0.3)
-    shear = np.array([-0.8, 1e-3, 0.2])
-
-    def velocity(tau):
-        return 0.3 * (tau**2 + STRESS_FLOOR**2) * tau
-
-    step = 1e-6
-    slope = (velocity(shear + step) - velocity(shear - step)) / (2 * step)
-    tangent = linearise_sliding(law, shear)
-    # second order in a step of 1e-3 of the smallest shear
-    np.testing.assert_allclose(tangent.modulus * slope, 1.0, rtol=2e-6)
-    expected = shear - tangent.modulus * velocity(shear)
-    np.testing.assert_allclose(tangent.intercept, expected, atol=1e-14)
-
-
 @pytest.mark.parametrize("exponent", [1.0, 3.0])
 def test_converged_stress_and_velocity_obey_the_law(inclined, a_flow_problem, exponent):
     law = a_flow_problem(exponent=exponent)
@@ -131,16 +79,6 @@ def test_equilibrium_where_nothing_holds(inclined, a_flow_problem, ground, slip_
     free[2 * inclined.template.net + 1] = False
     np.testing.assert_allclose(residual[free], 0.0, atol=1e-11)
     np.testing.assert_allclose(residual, state.reaction, atol=1e-8)
-
-
-def test_sliding_ground_obeys_its_law(inclined, a_flow_problem):
-    """(N12): v_x = slip length |tau|^(n-1) tau, shear resisting the motion."""
-    law = a_flow_problem(ground="sliding", slip_ratio=0.5)
-    state = solve(law, inclined)
-    tau = state.base_shear
-    expected = 0.5 * (tau**2 + STRESS_FLOOR**2) * tau
-    found = kernel.compute_base_velocity(inclined, state.unknowns)
-    np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
 
 
 # --- contact -----------------------------------------------------------------
