@@ -14,7 +14,6 @@ from netdesign.snow.snowpack import (
     compute_mean_density,
     compute_thickness,
 )
-from netdesign.words.catalogue import LANGUAGES, render
 from tests.each import each
 
 SOUND = {
@@ -100,7 +99,5 @@ def test_layers_that_are_not_the_snowpack(changes, both):
     """Both figures are told with their unit, and never as the same figure."""
     with pytest.raises(ModelError) as refused:
         a_pack(layers=LAYERS, **changes)
-    for language in LANGUAGES:
-        told = render(refused.value.message, language)
-        figures = tuple(re.findall(r"[\d.,]+ (?:m|kg/m3)\b", told))
-        assert tuple(one.replace(",", ".") for one in figures) == both
+    told = str(refused.value.message)
+    assert tuple(re.findall(r"[\d.]+ (?:m|kg/m3)\b", told)) == both

@@ -2,15 +2,13 @@
 
 from dataclasses import replace
 
-import pytest
-
 from netdesign.outcome import Verdict
 from netdesign.report.sections.basis import (
     anchor_rows,
     name_rows,
 )
 from netdesign.report.sections.decision import ALTITUDE, list_assumed
-from netdesign.report.words import Words
+from netdesign.report.words import ENGLISH
 from netdesign.site.model import InputEcho
 from tests.report.build_study import build_study
 from tests.turn import turn_row
@@ -23,32 +21,30 @@ def with_altitude(value, text=""):
     return replace(study, rows=rows)
 
 
-@pytest.mark.parametrize("language", ["en", "de", "fr"])
-def test_altitude_that_is_not_given_is_an_assumption(language):
-    words, study = Words(language), with_altitude("")
-    altitude = words.show(ALTITUDE)
-    (line,) = [one for one in list_assumed(study, words) if one.name == altitude]
-    assert line.value == words("show.largest_altitude_factor")
+def test_altitude_that_is_not_given_is_an_assumption():
+    study, altitude = with_altitude(""), ENGLISH.show(ALTITUDE)
+    (line,) = [one for one in list_assumed(study, ENGLISH) if one.name == altitude]
+    assert line.value == ENGLISH("show.largest_altitude_factor")
     assert line.rows == ()  # all of them
-    given = list_assumed(with_altitude(1873.0, "1873"), words)
+    given = list_assumed(with_altitude(1873.0, "1873"), ENGLISH)
     assert not any(one.name == altitude for one in given)
 
 
-def name_of(missing, language, rows=23):
+def name_of(missing, rows=23):
     """Names of all rows of a site but some."""
     (row,) = build_study(rows=1).rows
     ids = [f"W{number}" for number in range(rows)]
     study = replace(build_study(rows=1), rows=[replace(row, id=one) for one in ids])
     named = [one for number, one in enumerate(ids) if number not in missing]
-    return name_rows(named, study, Words(language)), named
+    return name_rows(named, study, ENGLISH), named
 
 
 def test_each_row_is_named_where_a_phrase_would_not_be_shorter():
     """Of few rows, and where many are left out: no name is lost."""
-    few, named = name_of((3,), "en", rows=8)
+    few, named = name_of((3,), rows=8)
     assert few.split(", ") == named
-    assert name_of((), "en", rows=8)[0] == "all 8 net rows"
-    half, named = name_of(range(0, 23, 2), "en")
+    assert name_of((), rows=8)[0] == "all 8 net rows"
+    half, named = name_of(range(0, 23, 2))
     assert half.split(", ") == named
 
 
