@@ -2,6 +2,8 @@
 
 import math
 import random
+import sqlite3
+from contextlib import closing
 from dataclasses import dataclass, replace
 
 import pytest
