@@ -45,10 +45,9 @@ class CasePoint:
 
 @dataclass(frozen=True, kw_only=True)
 class Change:
-    """The smallest change of one quantity that flips a check."""
+    """The smallest change of one resistance that flips a check [kN]."""
 
     quantity: Text  # "characteristic resistance", "type B of the workbook"
-    unit: str
     now: float | None
     bound: float
     sense: Literal["at least", "has"]
@@ -163,7 +162,7 @@ class Check:
     @property
     def needed_kN(self) -> float | None:
         """Least characteristic resistance with which it passes; None if none does."""
-        wanted = (x for x in self.changes if x.unit == "kN" and x.sense == "at least")
+        wanted = (x for x in self.changes if x.sense == "at least")
         return next((force.bound for force in wanted), None)
 
     @property

@@ -322,7 +322,6 @@ def _list_resistance_remedies(basis: Basis, member_check: MemberCheck) -> list[C
         return []
     change = Change(
         quantity=say("change.characteristic_resistance"),
-        unit="kN",
         now=check.read("R_k"),
         bound=math.ceil(demand * factor * 10.0 - 1e-9) / 10.0,
         sense="at least",
@@ -381,7 +380,6 @@ def find_type_change(
         return None
     return Change(
         quantity=say("change.type_of_workbook", type=weakest.type_id),
-        unit="kN",
         now=kilonewton_if_known(resistance.value),
         bound=math.floor(weakest.value * 10.0) / 10.0,
         sense="has",

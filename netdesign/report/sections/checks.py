@@ -161,12 +161,12 @@ def list_flips(check: Check, words: Words) -> tuple[str, ...]:
 
 def _describe_flip(change: Change, words: Words) -> str:
     quantity = words.show(change.quantity)
-    bound = words.show_quantity(change.bound, change.unit)  # rounded by the search
+    bound = words.show_quantity(change.bound, "kN")  # rounded by the search
     if change.sense == "at least":
         bound = append_unit(words.show_minimum(change.bound), "kN")
     text = words(_SENSES[change.sense], quantity=quantity, bound=bound)
     if change.now is not None:
-        shown = words.show_quantity(change.now, change.unit)
+        shown = words.show_quantity(change.now, "kN")
         text = words("show.change_now", change=text, now=shown)
     if change.note is not None:
         text = words("show.with_note", text=text, note=words.show(change.note))

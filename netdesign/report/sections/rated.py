@@ -163,17 +163,9 @@ def find_worked(row: RowStudy) -> Check | None:
     return find_highest(own or forces)
 
 
-def find_needed(check: Check) -> float | None:
-    """Least characteristic resistance with which a check passes [kN]."""
-    return next(
-        (x.bound for x in check.changes if x.unit == "kN" and x.sense == "at least"),
-        None,
-    )
-
-
 def show_need(check: Check, words: Words) -> str:
     """``needs R_k ≥ 231 kN``; "" of a check that nothing of that kind turns."""
-    needed = find_needed(check)
+    needed = check.needed_kN
     if needed is None or check.verdict in (Verdict.PASS, Verdict.DECLARED):
         return ""
     return words("rated.needs", least=words.show_minimum(needed))

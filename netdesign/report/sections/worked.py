@@ -31,7 +31,7 @@ from netdesign.report.sections.checks import (
     name_case,
     name_checks,
 )
-from netdesign.report.sections.rated import find_needed, find_worked
+from netdesign.report.sections.rated import find_worked
 from netdesign.report.words import (
     MISSING,
     UNBOUNDED,
@@ -131,7 +131,7 @@ def _show_result(shown: str) -> Cell:
 
 def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Least resistance with which a check without one passes."""
-    needed = find_needed(check)
+    needed = check.needed_kN
     if needed is not None and check.resistance_kN is None:
         upper = words.show_digits(check.read_band("E_d")[1])
         yield (
