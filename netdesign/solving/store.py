@@ -46,6 +46,7 @@ _SHORT = (
     r"'[^'\\\n]*(?:\\.[^'\\\n]*)*'",
     r'"[^"\\\n]*(?:\\.[^"\\\n]*)*"',
 )
+_VARIABLES = ("BLIS_", "MKL_", "NPY_", "OMP_", "OPENBLAS_", "VECLIB_")  # by beginnings
 # Strings are found so that what looks like a comment inside them is kept.
 _STRINGS = re.compile("|".join((_LONG, *_SHORT, r"#[^\n]*")), re.DOTALL)
 _DOCSTRING = re.compile(rf":[ \t]*\n\s*r?{_LONG}", re.DOTALL)
@@ -70,13 +71,19 @@ def identify_solver(package: Path = _PACKAGE) -> str:
 
 
 def identify_program(package: Path = _PACKAGE) -> str:
-    """Digest of the whole program, by all its text, and of the profiles beside it."""
+    """Digest of the whole program, by all its text, and of the profiles beside it.
+
+    Variables of the environment that move last digits are in it, too: with another
+    digit a search takes another case.
+    """
     whole = _identify(_WHOLE_PROGRAM, package, name_core(), str)
     digest = hashlib.sha256(whole.encode())
     folder = find_resource("standards")
     for path in sorted(filter(Path.is_file, folder.rglob("*"))):
         digest.update(path.relative_to(folder).as_posix().encode())
         digest.update(path.read_bytes())
+    variables = [each for each in os.environ.items() if each[0].startswith(_VARIABLES)]
+    digest.update(json.dumps(sorted(variables)).encode())
     return digest.hexdigest()
 
 

@@ -1,5 +1,7 @@
 """The program's name: another one for all of its text, and for the profiles."""
 
+import pytest
+
 from netdesign.solving import store as module
 from netdesign.solving.store import identify_program
 
@@ -14,6 +16,14 @@ def test_a_changed_profile_is_another_program(tmp_path, monkeypatch):
     after = identify_program()
     place.rename(place.with_name("other.txt"))
     assert len({before, after, identify_program()}) == 3
+
+
+@pytest.mark.parametrize("variable", ["OPENBLAS_CORETYPE", "OMP_NUM_THREADS"])
+def test_a_variable_that_moves_a_digit_counts(monkeypatch, variable):
+    monkeypatch.delenv(variable, raising=False)
+    before = identify_program()
+    monkeypatch.setenv(variable, "7")
+    assert identify_program() != before
 
 
 def test_the_text_of_every_module_counts(tmp_path):
