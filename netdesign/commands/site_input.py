@@ -104,7 +104,7 @@ def choose_rows(site: Site, ids: Sequence[str]) -> Site:
 def build_text_format(asked: Mapping[str, Any]) -> TextFormat:
     """Declared form of a file's text, by the options of a command."""
     from netdesign.site.cells.cells import TextFormat
-    from netdesign.site.titles import MARKS
+    from netdesign.site.lists.list_map import MARKS
 
     mark = MARKS[asked.get("decimal_mark") or ""]
     return TextFormat(delimiter=asked.get("delimiter") or "", decimal_mark=mark)
@@ -236,8 +236,8 @@ def map_headings(site_file: Path, **asked: Any) -> None:
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.site.lists.ask import is_own_list, write_list_map
+    from netdesign.site.lists.list_map import name_map
     from netdesign.site.reader import read_cells
-    from netdesign.site.titles import name_map
 
     if asked["out"] is not None:
         _rewrite(site_file, asked["out"], asked)

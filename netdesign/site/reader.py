@@ -28,7 +28,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.office import is_heading, load_plan
 from netdesign.site.declared_sheet import read_declared, replace_cells
 from netdesign.site.frames import Change, Frames, build_workbook, change_values
-from netdesign.site.headings import find_columns, find_headings
+from netdesign.site.headings import find_columns, find_headings, list_meant
 from netdesign.site.lines import Lines
 from netdesign.site.lists.join import join_list
 from netdesign.site.lists.list_map import (
@@ -42,7 +42,6 @@ from netdesign.site.office.sheets import find_office_tables, is_old, is_read
 from netdesign.site.plausible import ask_about_numbers
 from netdesign.site.snow_sheets import check_layers
 from netdesign.site.support_types import list_catalogue
-from netdesign.site.titles import list_meant
 from netdesign.site.type_lines import read_links
 from netdesign.words.message import say
 

@@ -10,7 +10,14 @@ from netdesign.site.cells.cells import Cell, Workbook
 from netdesign.site.cells.findings import Finding
 from netdesign.site.columns.all_tables import IGNORE, load_file
 from netdesign.site.columns.fields import Field, SheetPlan, find_item, normalise
-from netdesign.site.headings import Table, find_columns, find_headings
+from netdesign.site.headings import (
+    Table,
+    find_columns,
+    find_headings,
+    find_near,
+    list_meant,
+    list_near,
+)
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -18,7 +25,6 @@ from netdesign.site.readings import (
     read_nothing,
     refuse,
 )
-from netdesign.site.titles import find_near, list_meant, list_near
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import Message, say
 

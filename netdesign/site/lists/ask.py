@@ -35,6 +35,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, split_heading
 from netdesign.site.columns.office import load_columns, load_plan
+from netdesign.site.headings import find_own_unit
 from netdesign.site.lists.join import (
     find_list_unit,
     find_units,
@@ -58,7 +59,6 @@ from netdesign.site.lists.targets import (
     read_answer,
 )
 from netdesign.site.readings import knows_word
-from netdesign.site.titles import find_own_unit
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 

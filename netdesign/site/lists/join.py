@@ -15,12 +15,19 @@ from netdesign.site.columns.fields import (
     split_heading,
 )
 from netdesign.site.columns.office import TABLES, load_plan
-from netdesign.site.headings import Column, Table, Title, is_numbering
+from netdesign.site.headings import (
+    Column,
+    Table,
+    Title,
+    find_heading_unit,
+    is_numbering,
+    is_unit,
+    read_unit,
+)
 from netdesign.site.lists.list_map import ListMap, ListTable
 from netdesign.site.lists.targets import Target, read_answer
 from netdesign.site.office.sheets import OfficeTables, read_tables
 from netdesign.site.tables import complete_table, judge_missing
-from netdesign.site.titles import find_heading_unit, is_unit, read_unit
 from netdesign.words.message import say
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "end_anchor")

@@ -24,9 +24,9 @@ from netdesign.site.cells.findings import Finding, fold_findings, quote, refuse_
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.office import is_heading
 from netdesign.site.lists.targets import find_table, is_unanswered, read_answer
-from netdesign.site.titles import MARKS, name_map
 from netdesign.words.message import say
 
+MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 SCHEMA: Final = "netdesign.map/2"
 _SHAPE = {"extra": "forbid"}
 
@@ -74,6 +74,15 @@ class ListMap:
     tables: dict[str, ListTable]
     file: str = ""
     sha256: str = ""
+
+
+def name_map(site_file: Path) -> Path:
+    """Place of the answers to a list.
+
+    >>> name_map(Path("site.xlsx")).name
+    'site.map.toml'
+    """
+    return site_file.with_name(f"{site_file.stem}.map.toml")
 
 
 def read_list_map(site_file: Path) -> ListMap | None:

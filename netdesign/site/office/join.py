@@ -75,14 +75,10 @@ def read_office(
         Net types and parts of another workbook.
     """
     typed = _read_typed(tables, findings)
-    by_key = dict(tables.tables)
     if library:
         typed = add_lines(typed, _read_typed(library.tables, findings), findings)
-        others = library.tables.tables
-        by_key |= {key: table or others.get(key) for key, table in by_key.items()}
-        tables = replace(tables, tables=by_key)
     typed = _settle_all(typed)
-    project = read_lines(by_key["project"], typed["project"], findings)
+    project = read_lines(tables.tables["project"], typed["project"], findings)
     lines = _join(workbook, tables, typed, project, findings)
     return replace(
         lines, library=(library.file, library.sha256) if library else ("", "")
@@ -123,7 +119,6 @@ def _join(
     findings: list[Finding],
 ) -> Lines:
     """Lines of net rows and their types, of the lines of all sheets."""
-    by_key = tables.tables
     rows = _join_net_types(typed, project, findings)
     layers = order_layers(typed["layers"], findings)
     anchors = join_anchors(typed, project, findings)
@@ -132,15 +127,13 @@ def _join(
     for rope in typed["ropes"]:
         check_ends(rope, findings)
     joined = _join_types(typed, rows, anchors, project, findings)
-    types = {
-        key: _index(joined[key], findings) if by_key[key] else {} for key in joined
-    }
+    types = {key: _index(of_sheet, findings) for key, of_sheet in joined.items()}
     named, cells = build_project(project)
     lines = Lines(
         workbook=workbook,
         project=named,
         project_cells=cells,
-        table=by_key["rows"],
+        table=tables.tables["rows"],
         rows=placed,
         ends={row["id"].word: end for row, end in zip(rows, ends, strict=True)},
         snow=layers,

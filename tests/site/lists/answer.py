@@ -6,8 +6,8 @@ import tomllib
 
 from netdesign.site.cells.cells import UNDECLARED
 from netdesign.site.lists.ask import write_list_map
+from netdesign.site.lists.list_map import name_map
 from netdesign.site.lists.targets import find_table, list_targets
-from netdesign.site.titles import name_map
 
 ALWAYS = {"de": "kleinster Versuch", "fr": "minimum d'essais", "en": "least of tests"}
 WORDS = {"câble": "ancrage à câble"}  # as the input workbook says it

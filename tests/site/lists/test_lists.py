@@ -10,10 +10,9 @@ import pytest
 from netdesign.outcome import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, name_column
 from netdesign.site.lists.ask import is_own_list, write_list_map
-from netdesign.site.lists.list_map import read_list_map
+from netdesign.site.lists.list_map import name_map, read_list_map
 from netdesign.site.reader import read_site
 from netdesign.site.template.office_workbook import write_site_workbook
-from netdesign.site.titles import name_map
 from tests.site.lists.answer import answer_list
 from tests.site.lists.offices import CONSULTANT, OFFICES, TYROL, VALAIS
 
