@@ -197,13 +197,17 @@ def _find_end_types(
     rows: Sequence[Row], typed: Mapping[str, Sequence[Row]]
 ) -> list[Row]:
     """Cells that name the types at the end of each row, with the row's ground."""
-    at_end = {
-        name: other
-        for table in TYPES
-        for name, other in list_end_types(typed[table]).items()
-    }
+    at_end: dict[tuple[str, str], Reading] = {}
+    for table in TYPES:
+        for line in typed[table]:
+            if line["at_end"].word:
+                at_end.setdefault((table, line["id"].word), line["at_end"])
     return [
-        {key: at_end[row[key].word] for key in TYPE_COLUMNS if row[key].word in at_end}
+        {
+            key: at_end[cell.field.refers_to, cell.word]
+            for key, cell in ((key, row[key]) for key in TYPE_COLUMNS)
+            if (cell.field.refers_to, cell.word) in at_end
+        }
         | {"ground": row["ground"]}
         for row in rows
     ]
@@ -330,15 +334,6 @@ def measure_links(lines: Iterable[Row]) -> list[Row]:
         else line
         for line in lines
     ]
-
-
-def list_end_types(lines: Iterable[Row]) -> Mapping[str, Reading]:
-    """Types at the row's end, by the types that they replace there."""
-    end_types: dict[str, Reading] = {}
-    for line in lines:
-        if line["at_end"].word:
-            end_types.setdefault(line["id"].word, line["at_end"])
-    return end_types
 
 
 _TABLES = ("net_types", "ropes", "posts", "links")
