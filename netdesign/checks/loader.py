@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TypeVar
 
@@ -43,7 +43,7 @@ _ACCEPTED = (*_FILES, "model.toml", "tables.toml", "choices.toml")
 _HASHED_SUFFIXES = (".toml", ".md")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
@@ -94,7 +94,11 @@ class Standard:
 
     def find(self, value_id: str) -> StandardValue | None:
         """Value of that id, or None if the profile has none."""
-        return next((v for v in self.values if v.id == value_id), None)
+        return self._by_id.get(value_id)
+
+    @cached_property
+    def _by_id(self) -> Mapping[str, StandardValue]:
+        return {value.id: value for value in self.values}
 
     def find_table(self, table_id: str) -> StandardTable | None:
         """Table of that id, or None if the profile has none."""

@@ -21,8 +21,6 @@ from netdesign.guideline.load_cases import (
 )
 from netdesign.guideline.load_model import (
     LoadModel,
-    NetPull,
-    SnowLoad,
     compute_creep_factor,
 )
 from netdesign.numerics.arrays import Floats, Ints, measure_length
@@ -84,16 +82,15 @@ class FloorForce:
         That it is largest on, with its own inclination, snow, stiffness and slack.
     case : LoadCase
         That brings it.
-    load, pull : SnowLoad, NetPull
-        From which it follows, for each metre of width.
+    glide_factor : float
+        N with which that brings it [-].
     """
 
     member: str
     force: float
     net: NetGeometry[float]
     case: LoadCase[float]
-    load: SnowLoad[float]
-    pull: NetPull[float]
+    glide_factor: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,26 +188,17 @@ def _take_floor(
     scan: _Scan, layout: int, points: Floats, largest: Floats, own: Ints, tried: Tried
 ) -> Floor:
     """Floor on one layout, from the points at which its forces are largest."""
-    # members are often largest at the same place
-    solve = cache(scan.solve_one)
+    place = cache(scan.place_one)  # members are often largest at the same place
     forces: list[FloorForce] = []
     for member in _LOADED:
         sizes = np.broadcast_to(tried[member], tried[Member.POST].shape)[layout]
         sizes = sizes[..., own]
-        case, end, place = np.unravel_index(sizes.argmax(), sizes.shape)
-        point = tuple(points[:, own[place]].tolist())
-        net, result = solve(point, int(case), int(end), layout)
-        if result.load is None or result.pull is None or result.anchors is None:
-            return Floor(reason=_explain(net, result))
-        of_members = result.anchors.member_forces
-        of_members[NetPart.MESH] = result.pull.largest_tension
+        case, end, index = np.unravel_index(sizes.argmax(), sizes.shape)
+        point = tuple(points[:, own[index]].tolist())
+        net, snow, glide = place(point, int(case), int(end), layout)
+        size = float(sizes[case, end, index])
         force = FloorForce(
-            member=member,
-            force=of_members[member],
-            net=net,
-            case=result.case,
-            load=result.load,
-            pull=result.pull,
+            member=member, force=size, net=net, case=snow, glide_factor=glide
         )
         forces.append(force)
     return Floor(forces=tuple(forces), head=_measure_head(largest))
@@ -359,10 +347,10 @@ class _Scan:
         points: Floats = least + share * (largest - least)
         return points
 
-    def solve_one(
+    def place_one(
         self, point: tuple[float, ...], case: int, end: int, layout: int
-    ) -> tuple[NetGeometry[float], GuidelineResult]:
-        """One net on one layout, under one load case as everywhere else."""
+    ) -> tuple[NetGeometry[float], LoadCase[float], float]:
+        """One net on one layout, its load case and its N."""
         inclination, thickness, share = point
         stiffness, slack = _list_ends(self.ranges)[end]
         net = replace(
@@ -376,8 +364,7 @@ class _Scan:
         snow = list_load_cases(self.model, net, self.altitude)[case]
         depth = thickness if snow.creep_factor is None else net.net_height
         glide = float(self._find_glide(np.array([depth]), np.array([share]))[0])
-        result = solve_load_case(self.model, net, snow, glide)
-        return replace(net, snow_thickness=depth), result
+        return replace(net, snow_thickness=depth), snow, glide
 
     def _find_failed(self, points: Floats) -> _FailedAtError:
         """First of the points at which a load case fails, and why."""
@@ -385,7 +372,8 @@ class _Scan:
         ends, layouts = _list_ends(self.ranges), self.layouts
         places = product(*(range(len(each)) for each in (cases, ends, layouts)))
         for point, place in product(points.T.tolist(), places):
-            net, result = self.solve_one(tuple(point), *place)
+            net, snow, glide = self.place_one(tuple(point), *place)
+            result = solve_load_case(self.model, net, snow, glide)
             if result.anchors is None:
                 return _FailedAtError(_explain(net, result))
         raise AssertionError  # what fails for many fails for one of them

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import chain, product
+
+import numpy as np
 
 from netdesign.checks import Check, OpenKind
 from netdesign.checks.comparison import compare, lack_factor, leave_open
@@ -59,15 +60,19 @@ def check_anchor_distance(
         return leave_open("anchors", OpenKind.RESISTANCE_MISSING, reason)
     ends = ranges["inclination"]
     places = [place_row(row, inclination) for inclination in (ends.low, ends.high)]
-    pairs = (
-        _list_nearest(each, ranges, place, pulls)
+    nearest = (
+        _find_nearest(each, ranges, place, pulls)
         for place in places
         for each in _list_sharings(row)
     )
     # of equal distances the first: a millionth is rounding
-    least, anchors = min(chain(*pairs), key=lambda pair: round(pair[0], 6))
+    least, members, is_above = min(nearest, key=lambda pair: round(pair[0], 6))
     is_apart = least >= limit.value
     key = "bores.apart" if is_apart else "bores.near"
+    first, second = members if is_above else sorted(members)
+    anchors = (name_member(first), name_member(second))
+    if is_above:
+        anchors = (anchors[0], say("bores.of_row_above", anchor=anchors[1]))
     named = tuple(dict.fromkeys(anchors))
     reason = say(key, least=least, limit=limit.value, anchors=named)
     if open_cases is None and is_apart:
@@ -82,25 +87,23 @@ def _list_sharings(row: NetRow) -> list[NetRow]:
     return [replace(row, guys=replace(row.guys, are_shared=way)) for way in ways]
 
 
-def _list_nearest(
+def _find_nearest(
     row: NetRow, ranges: Ranges, points: SupportPoints, pulls: Sequence[PullRecord]
-) -> Iterator[tuple[float, tuple[Message, Message]]]:
-    """Least distances of two kinds of anchors [m], in the row and to a row above."""
+) -> tuple[float, tuple[str, str], bool]:
+    """Least distance of two anchors [m], whose it is, and whether to the row above."""
     upslope = row.upslope_length
     if "upslope_length" in ranges.further:
         upslope = ranges["upslope_length"].low
     members, bores = zip(*_list_beside(row, points, pulls), strict=True)
-    places: dict[str, list[int]] = {}
-    for place, member in enumerate(members):
-        places.setdefault(member, []).append(place)
-    apart, above = measure_in_row(bores), measure_to_row_above(bores, upslope)
-    for (member, own), (other, others) in product(places.items(), repeat=2):
-        named = (name_member(member), name_member(other))
-        if member <= other:
-            yield float(apart[own][:, others].min()), named
-        if row.has_row_above:
-            there = say("bores.of_row_above", anchor=named[1])
-            yield float(above[own][:, others].min()), (named[0], there)
+    distances = [(False, measure_in_row(bores))]
+    if row.has_row_above:
+        distances.append((True, measure_to_row_above(bores, upslope)))
+    nearest = []
+    for is_above, apart in distances:
+        first, second = np.unravel_index(apart.round(6).argmin(), apart.shape)
+        of_members = (members[first], members[second])
+        nearest.append((float(apart[first, second]), of_members, is_above))
+    return min(nearest, key=lambda pair: round(pair[0], 6))
 
 
 def _list_beside(

@@ -60,7 +60,6 @@ from netdesign.units import (
     kilonewton_from_newton,
     newton_from_kilonewton,
 )
-from netdesign.words.message import say
 
 # Weights of the load along the row in the guys of each side.
 PARTS: Mapping[str, str] = {
@@ -95,8 +94,8 @@ _SHARED = {
 
 def find_cell(row: NetRow, column: str) -> str:
     """Cell of a column of a row or of its net type; "" where it has none."""
-    labels = [say(f"column.{table}.{column}") for table in ("rows", "net_types")]
-    return next((echo.cell for echo in row.inputs if echo.label in labels), "")
+    keys = [f"column.{table}.{column}" for table in ("rows", "net_types")]
+    return next((echo.cell for echo in row.inputs if echo.label.key in keys), "")
 
 
 def solve_for(record: LargestForce, symbol: str) -> Quantity:
@@ -169,8 +168,8 @@ class _MemberAt:
             guideline=guideline,
             by_truss=by_truss,
             support=self.support,
-            load=self._find_load(),
-            push=self._find_push(),
+            load=self.load,
+            push=self.push,
             pressing=action if is_sliding else None,
             solved=(section,) if panel is None else (section, panel),
             largest=panel if panel is not None and is_by_panel else section,
@@ -209,11 +208,21 @@ class _MemberAt:
         if least is None:
             return None
         inside = _solved(f"{letter}_g0", least.force_kN, "kN", source)
-        return self._bring(f"{letter}_g", inside, "_g")
+        load, push = self._find_load("_g"), self._find_push("_g")
+        return bring_to_support(f"{letter}_g", inside, load, self.support, push)
 
-    def _bring(self, symbol: str, inside: Quantity, mark: str = "") -> Quantity:
-        load, push = self._find_load(mark), self._find_push(mark)
-        return bring_to_support(symbol, inside, load, self.support, push)
+    def _bring(self, symbol: str, inside: Quantity) -> Quantity:
+        return bring_to_support(symbol, inside, self.load, self.support, self.push)
+
+    @cached_property
+    def load(self) -> MemberLoad:
+        """Way from the section's solved force to the member's."""
+        return self._find_load("")
+
+    @cached_property
+    def push(self) -> Quantity | None:
+        """What the ropes' pull along the row adds to the solved force."""
+        return self._find_push("")
 
     @cached_property
     def support(self) -> Support:
@@ -282,7 +291,7 @@ class _MemberAt:
     def _is_at_foot(self) -> bool:
         return self.member in self.forces.row.layout.anchors_at_foot
 
-    def _find_load(self, mark: str = "") -> MemberLoad:
+    def _find_load(self, mark: str) -> MemberLoad:
         """Way from the section's force to the member's, with the load along the row."""
         along = self._list_along(mark)
         if self._is_at_foot:
@@ -334,7 +343,7 @@ class _MemberAt:
             return None
         return _solved("E_t", truss, "kN", "truss")
 
-    def _find_push(self, mark: str = "") -> Quantity | None:
+    def _find_push(self, mark: str) -> Quantity | None:
         """Find what the ropes' pull along the row adds at its end, or beside it."""
         rope, support, along = self._rope, self.support, self._list_along(mark)
         if rope is None:

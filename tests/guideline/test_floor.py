@@ -333,8 +333,7 @@ def test_largest_force_is_that_of_its_own_case_inclination_and_net():
             net = one.net
             cases = list_load_cases(MODEL, net, 2130.0)
             again = [
-                solve_load_case(MODEL, net, case, one.load.glide_factor)
-                for case in cases
+                solve_load_case(MODEL, net, case, one.glide_factor) for case in cases
             ]
             forces = [
                 {
@@ -343,16 +342,15 @@ def test_largest_force_is_that_of_its_own_case_inclination_and_net():
                 }[one.member]
                 for k in again
             ]
-            assert forces[cases.index(one.case)] == one.force == max(forces)
-            assert one.case in cases
-            own = again[cases.index(one.case)]
-            assert (own.load, own.pull) == (one.load, one.pull)
+            of_case = forces[cases.index(one.case)]
+            assert of_case == pytest.approx(one.force, rel=1e-12)
+            assert max(forces) <= of_case * (1.0 + 1e-12)
             low, high = ranges.inclinations
             assert low <= net.inclination <= high
             assert net.slack in ranges.slacks
             assert net.stiffness in ranges.stiffnesses
             least, most = ranges.find_glide_factors(np.array(net.snow_thickness))
-            assert least - 1e-12 <= one.load.glide_factor <= most + 1e-12
+            assert least - 1e-12 <= one.glide_factor <= most + 1e-12
 
 
 def test_least_tension_is_none_where_either_guy_may_work():

@@ -23,7 +23,7 @@ LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
 def make_floor(foot, head):
     """Floor that pulls so much on foot and head [N]."""
     force = FloorForce(
-        member=Member.FOOT_ANCHOR, force=foot, net=None, case=None, load=None, pull=None
+        member=Member.FOOT_ANCHOR, force=foot, net=None, case=None, glide_factor=1.0
     )
     span = HeadSpan(pull=head, least_tension=0.0, foot_least=0.0, foot_largest=0.0)
     return Floor(forces=(force,), head=span)

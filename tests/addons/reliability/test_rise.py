@@ -58,7 +58,7 @@ def add(held, member):
         tilt=0.0,
     )
     at = _MemberAt(forces=forces, member=member, width=forces.effects.supports[0])
-    return at._find_load().added.high, _find_rise(forces, member)
+    return at.load.added.high, _find_rise(forces, member)
 
 
 def grow(held, growth):
