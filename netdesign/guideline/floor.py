@@ -33,7 +33,7 @@ from netdesign.structure.splay import find_ways
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried first, and parts of each other range.
-SCAN_STEP = math.radians(0.25)
+SCAN_STEP = math.radians(1.0)
 SCAN_PARTS = 8
 _LOADED = (*CARRYING_MEMBERS, NetPart.MESH)
 _HEAD, _TURN = "head_pull", "foot_turn"

@@ -222,9 +222,9 @@ def test_foot_of_a_short_snowpack_by_hand():
     assert max(expected) == expected[-1] > 1.05 * expected[-2]
 
 
-@pytest.mark.parametrize(("degrees", "count"), [(11.81, 49), (0.1, 3), (0.0, 1)])
+@pytest.mark.parametrize(("degrees", "count"), [(11.81, 13), (0.1, 3), (0.0, 1)])
 def test_grid_has_the_distances_that_theory_tells(degrees, count):
-    """A quarter of a degree at most, eight parts of the others."""
+    """A degree at most, eight parts of the others."""
     tried, glides = [], [1.3, 2.7]
 
     def find_glide_factors(d):
@@ -252,7 +252,7 @@ def test_grid_has_the_distances_that_theory_tells(degrees, count):
 
 
 def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
-    """Sixteen times as many inclinations find no force that is larger by 1e-5.
+    """Sixty-four times as many inclinations find no force that is larger by 1e-5.
 
     Over wide ranges, so that some forces are largest inside them.
     """
@@ -263,7 +263,7 @@ def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
         ranges = build_ranges(draw_net(draw), draw.uniform(1.2, 3.2), inclinations=ends)
         floor = find(ranges, 1873.0)
         assert floor.reason is None
-        fine = math.ceil(16.0 * (ends[1] - ends[0]) / SCAN_STEP)
+        fine = math.ceil(64.0 * (ends[1] - ends[0]) / SCAN_STEP)
         require_largest(floor, solve_dense(ranges, 1873.0, (fine + 1, 1, 1), 1), 1e-5)
         places = {one.net.inclination for one in floor.forces if one.force > 0.0}
         inside += len(places - set(ends))
