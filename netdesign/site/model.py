@@ -356,12 +356,6 @@ class Site:
         )
         return tuple(finding.message for finding in questions)
 
-    @property
-    def ranges_sheet(self) -> str:
-        """Sheet of the ranges, by the name that the workbook has for it."""
-        cells = (echo.cell for echo in self.range_inputs if "!" in echo.cell)
-        return next(cells, "Ranges").rpartition("!")[0] or "Ranges"
-
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:

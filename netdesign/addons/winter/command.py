@@ -59,7 +59,7 @@ def winter(site_file: Path | None, **asked: Any) -> None:
 
     Daily snow heights become layers, each day's snow is solved at rest: forces against
     date, the governing day, annual maxima of many winters, and a range of density that
-    sheet Ranges may use. Exit code 4 if a winter may be the largest and has no proven
+    sheet Project may use. Exit code 4 if a winter may be the largest and has no proven
     maximum.
     """
     from netdesign.addons.winter.document import write_winter_document

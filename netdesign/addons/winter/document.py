@@ -138,7 +138,7 @@ def write_winter_document(run: WinterRun) -> dict[str, Any]:
         "model": run.rows[0].model if run.rows else "",
         "accuracy": run.accuracy,
         "check_density_kg_m3": [density.low, density.high],
-        "ranges_sheet": run.site.ranges_sheet,
+        "ranges_sheet": str(say("sheet.project")),
         "notes": [str(note) for note in station.notes],
         "air_temperatures_C": _write_temperatures(station),
         "rows": [_write_row(row, run) | _write_measured(row, run) for row in run.rows],
