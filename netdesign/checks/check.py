@@ -260,8 +260,15 @@ class Check:
             return ()
         messages = dict.fromkeys(self._open_messages)
         if not messages and self.rating.by_numbers is Verdict.NOT_PROVEN:
-            return (say("check.band_spans_resistance"),)
+            return (self._tell_span(),)
         return tuple(messages)
+
+    def _tell_span(self) -> Message:
+        """Why its utilisation is on both sides of 1: what is assumed, or the error."""
+        low, high = self.rating.low, self.rating.high
+        if self.eased_low is None or low is None or high is None or low <= 1.0:
+            return say("check.band_spans_resistance")
+        return say("check.assumed_together", used=high, least=self.eased_low)
 
     @property
     def _open_messages(self) -> list[Message]:

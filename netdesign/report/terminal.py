@@ -61,6 +61,11 @@ _HEADINGS = (
     *("terminal.structure", "terminal.siting", "terminal.assumed"),
     "terminal.governing",
 )
+_LACKS = {  # short
+    "outside": "terminal.outside",
+    "unsure": "terminal.unsure",
+    "nothing_given": "terminal.nothing_given",
+}
 # Columns of a terminal, and of its parts.
 _WIDE = 100  # has room for the utilisation by the guideline
 _ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 8, 12, 13, 2
@@ -103,7 +108,7 @@ class Matrix:
         anchors = (rate(list_anchor(row, group)) for group in ANCHORS.values())
         contents = [
             *(show_rated(rated, words) for rated in anchors),
-            show_structure(row, words),
+            show_structure(row, words, _LACKS),
             (sign(scopes[Scope.SITING].verdict, words),),
         ]
         fitted = zip(contents, self._widths[1:], strict=False)

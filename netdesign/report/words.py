@@ -135,9 +135,21 @@ class Words:
         return MISSING if value is None else self.write(f"{value:.3g}")
 
     def show_quantity(self, value: float | str, unit: str) -> str:
-        """Chosen value, with its unit if it has one."""
-        text = value if isinstance(value, str) else self.show_given(value)
-        return show_text(append_unit(text, unit))
+        """Chosen value, with its unit if it has one; a force to three digits.
+
+        Examples
+        --------
+        >>> ENGLISH.show_quantity(356.67, "kN"), ENGLISH.show_quantity(100.0, "a")
+        ('357 kN', '100 years')
+        """
+        if isinstance(value, str):
+            text = value
+        elif unit == "kN":
+            text = self.show_number("max_kN", value)
+        else:
+            text = self.show_given(value)
+        named = self("unit.years") if unit == "a" else unit
+        return show_text(append_unit(text, named))
 
     def show_with_unit(self, key: str, value: float | None) -> str:
         """Number and unit; the sign of a missing number has no unit."""

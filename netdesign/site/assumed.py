@@ -88,7 +88,9 @@ class Assumed:
         if self.key in _SAGS:
             return say("assumed.range", low=100.0 * low, high=100.0 * high, unit=" %")
         if self.low == self.high:
-            return say("assumed.value", value=low, unit=self._unit)
+            return say(
+                _OF_UNIT.get(self.unit, "assumed.value"), value=low, unit=self._unit
+            )
         return say("assumed.range", low=low, high=high, unit=self._unit)
 
     @property
@@ -103,6 +105,7 @@ class Assumed:
 
 _SAGS = ("ridge_sag", "lower_sag")  # makers state them in percent
 MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
+_OF_UNIT = {"m": "assumed.length", "a": "assumed.years"}  # texts of one value
 _SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from netdesign.checks.check import Check
 from netdesign.checks.rating import Open, OpenKind
 from netdesign.outcome import SEVERITY, Verdict
+from netdesign.site.columns.office import TABLES, load_columns
 from netdesign.study.conditions import Who
 from netdesign.study.records import RowStudy, Study
 from netdesign.study.scopes import STRUCTURE, is_of_structure
@@ -21,9 +22,17 @@ from netdesign.words.message import Message, say
 WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
 MOST_LINES = 10
 _LOWERS = "check.assumed_lowers"  # neither end of a range passes
+_TOGETHER = "check.assumed_together"  # the best ends of all ranges pass
 _HEAD = "direction.no_head"  # says what the head has to take
 _SHORT = ("post_bending.too_much_shortly",)
 
+# Who answers for a column of the input workbook: a survey is made on the site.
+_OF_COLUMN: Mapping[str, Who] = {
+    "office": "office",
+    "supplier": "supplier",
+    "ground": "ground",
+    "survey": "site",
+}
 # Who answers for what a member can fail by.
 _OF_MODE: Mapping[str, Who] = {
     **dict.fromkeys(("pull_out", "wedge", "bearing", "sliding", "cover"), "ground"),
@@ -126,15 +135,15 @@ def _sort(
     of a force of the row says the same.
     """
     if point is None:
-        if not check.is_of_force:
-            return "office", "open", check.plain_reason.key
-        return "office", "fails", check.verdict, check.member
+        return _sort_by_numbers(check)
     who, message = _OF_MODE.get(check.mode, "office"), point.message
     is_missing = point.kind is OpenKind.RESISTANCE_MISSING
     if point.kind is OpenKind.ASSUMED_DECIDES:
+        deciding = _name_deciding(message)
+        holder = _find_holder(deciding) or "supplier"
         if message.key == _LOWERS:
-            return "supplier", "lowers"
-        return "supplier", "decides", _name_deciding(message)
+            return holder, "lowers"
+        return holder, "decides", deciding
     if is_missing and check.mode == "connection":
         return "supplier", "links"
     if message.key == _HEAD:
@@ -145,15 +154,41 @@ def _sort(
     if point.proof is not None:
         return who, "proof", str(point.proof.document)
     is_asked = point.kind in (OpenKind.UNSOLVED, OpenKind.VALUE_ASKED)
-    named = "office" if is_asked or message.key == "bores.no_type" else who
+    named = who
+    if is_asked or message.key == "bores.no_type":
+        named = _find_holder(_name_asked(message)) or "office"
     is_whole = check.is_of_force or message in of_forces
     return named, "open", str(message) if is_whole else message.key
+
+
+def _sort_by_numbers(check: Check) -> tuple[Who, *tuple[str, ...]]:
+    """The same of a check that fails, or spans its limit, without an open point."""
+    if not check.is_of_force:
+        return "office", "open", check.plain_reason.key
+    if _TOGETHER in [reason.key for reason in check.open_reasons]:
+        return "supplier", "together", check.member
+    return "office", "fails", check.verdict, check.member
 
 
 def _name_deciding(message: Message) -> str:
     """Name of the assumed value that decides, or of what is assumed of ropes."""
     name = message.arguments.get("name")
     return name.key if isinstance(name, Message) else message.key
+
+
+def _name_asked(message: Message) -> str:
+    """Name of the first value that a message asks for; "" of none."""
+    names = message.arguments.get("names")
+    first = names[0] if isinstance(names, tuple) and names else ""
+    return first.key if isinstance(first, Message) else ""
+
+
+def _find_holder(name: str) -> Who | None:
+    """Who has the value of a column, as the input workbook says; None of others."""
+    table, _, key = name.removeprefix("column.").rpartition(".")
+    columns = load_columns(table) if table in TABLES else ()
+    has = next((column.has for column in columns if column.field.key == key), "")
+    return _OF_COLUMN.get(has)
 
 
 def _sum_up(group: Sequence[_Point]) -> ToDo:
@@ -173,7 +208,7 @@ def _find_demand(point: _Point) -> float:
 def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     check, kind = worst.check, worst.key[0]
     others = (point.check for point in group if point is not worst)
-    checks = _name_checks([check, *others])
+    checks = name_few_checks([check, *others])
     if kind == "fails" and check.verdict is Verdict.FAIL:
         return _describe_failed(check, checks)
     if kind == "needs":
@@ -185,6 +220,9 @@ def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     if kind == "proof":
         return say("to_do.proof", checks=checks, proof=worst.key[1])
     if worst.point is None:
+        if kind == "together":
+            ends = {"least": check.eased_low or 0.0, "used": check.used or 0.0}
+            return say("to_do.together", checks=checks, **ends)
         if check.is_of_force:
             return say("to_do.spans", checks=checks)
         return _describe_open(checks, shorten_reason(check.plain_reason))
@@ -247,7 +285,7 @@ def _describe_needed(checks: Sequence[Check]) -> Message:
 _FEW = 2  # checks or members that a line names
 
 
-def _name_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
+def name_few_checks(checks: Iterable[Check]) -> tuple[Message, ...]:
     """Titles of one or two checks of a line; of more their members, each once."""
     every = list(checks)
     titles = list(

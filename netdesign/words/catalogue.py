@@ -99,6 +99,7 @@ def write_day(day: str, language: Language) -> str:
 FORCE_ENDS = (99.95, 9.995)  # below each a force has one decimal more
 _LAST_BITS = 1e-12  # relative; of a force that is a round number but for them
 _CLAUSE, _DATE, _ONE_OR_MANY = "clause", "date", "|"
+_ZEROS = ("+0", "-0")  # a change of nothing has no sign
 _FORCE, _MINIMUM = "force", "minimum"
 _GAP = re.compile(r"(\{[^{}]*\})")
 _TABLE = re.compile(r"^\[([\w-]+)", re.MULTILINE)  # first name in its heading
@@ -171,6 +172,8 @@ def _fill(value: Any, form: str, language: Language) -> str:
     if form.endswith(_FORCE):
         form = f"{form.removesuffix(_FORCE)}.{count_force_decimals(value)}f"
     text = format(value, form)
+    if text in _ZEROS:
+        return "0"
     return set_marks(text, language) if isinstance(value, int | float) else text
 
 

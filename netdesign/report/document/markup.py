@@ -36,6 +36,7 @@ _PART = "xxxxx"  # of a word of a heading that may stand alone
 _BESIDE = "beside"
 _SMALL_PIECES = (SMALL, _BESIDE)
 _BOLD = ("strong", "name", "ratio", "figure", "hidden")
+_SAYS, _SAYS_PT = "says", 11.5  # of a heading, what stands behind its name
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
 
@@ -86,6 +87,8 @@ def write_runs(
     written = ""
     for piece in runs:
         look = "<w:b/>" if is_bold or piece.look in _BOLD else ""
+        if piece.look == _SAYS:
+            look += f'<w:b w:val="0"/><w:sz w:val="{round(2 * _SAYS_PT)}"/>'
         if is_small or (is_small is None and piece.look in _SMALL_PIECES):
             look += f'<w:sz w:val="{round(2 * SMALLEST_PT)}"/>'
         lowered = look + '<w:vertAlign w:val="subscript"/>'

@@ -174,10 +174,19 @@ class Writer:
 
     def _write_part(self, block: Part) -> None:
         self.begins_page = self.begins_page or _SHEET in block.look.split()
-        for inner in block.blocks:
-            self.keeps = block.look in _KEPT or self.keeps
-            self._write_block(inner)
+        begins = not self.keeps and (block.look in _KEPT or _is_worked(block))
+        self.keeps = self.keeps or begins
+        self.write(block.blocks)
+        if begins:
+            self._end_kept()
+
+    def _end_kept(self) -> None:
+        """Let the last lines of a kept part stand apart from what follows."""
         self.keeps = False
+        last = self.document.element.body.sectPr.getprevious()
+        line = last.findall(".//w:tr", last.nsmap)[-1] if _is_table(last) else last
+        for kept in line.findall(".//w:keepNext", line.nsmap):
+            kept.getparent().remove(kept)
 
     def _write_items(self, block: Items) -> None:
         for item in block.items:
@@ -200,7 +209,7 @@ class Writer:
             text = " · ".join(text.split("\n"))
         runs = write_runs(list_runs(text), is_small=is_small)
         style = _STYLES.get(block.look, styles.TEXT)
-        look = KEEP if self.keeps and block.look == "meta" else ""
+        look = KEEP if self.keeps else ""
         self._add(write_paragraph(runs, self._ids[style], look))
 
     def _write_table(self, table: Table) -> None:
@@ -242,16 +251,27 @@ class Writer:
         self.document.element.body.sectPr.addprevious(parse(markup))
 
     def _add_paragraph(self, runs: Runs, style: str) -> None:
-        self._add(write_paragraph(write_runs(runs), self._ids[style]))
+        look = KEEP if self.keeps else ""
+        self._add(write_paragraph(write_runs(runs), self._ids[style], look))
 
     def _add_grid(self, caption: Runs, grid: Grid) -> None:
         """Table below its caption; tables never touch, or a reader would join them."""
         last = self.document.element.body.sectPr.getprevious()
-        is_table = last is not None and last.tag.endswith("}tbl")
-        if is_table or any(piece.text for piece in caption):
+        if (last is not None and _is_table(last)) or any(
+            piece.text for piece in caption
+        ):
             self._add_paragraph(caption or (Piece("\u00a0"),), styles.CAPTION)
         both = (self._ids[styles.TABLE], self._ids[styles.CELL])
         self._add(write_table(grid, both, self.width_pt, keeps=self.keeps))
+
+
+def _is_worked(block: Part) -> bool:
+    """A check that is worked out stands on one page."""
+    return bool(block.id and block.id.startswith("worked-"))
+
+
+def _is_table(element: Any) -> bool:
+    return bool(element.tag.endswith("}tbl"))
 
 
 def _list_pairs(block: Pairs) -> Grid:

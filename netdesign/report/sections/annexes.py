@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from netdesign.checks.check import CasePoint
 from netdesign.outcome import EXIT_CODES, Outcome
@@ -41,6 +41,7 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.records import ModelFormRecord, RowStudy, Study
 from netdesign.words.catalogue import name
+from netdesign.words.message import Message
 
 _NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?(e[+-]?[0-9]+)?")
 
@@ -152,13 +153,44 @@ def show_quality(study: Study, words: Words) -> Part:
 
 def _tell_information(study: Study, words: Words) -> Iterator[str]:
     """What decides nothing: why the guideline's forces differ, and notes of a row."""
+    yield from _list_causes(study, words)
     for row in study.rows:
-        messages = [note for note in row.notes if not basis.is_of_row(note)]
-        if row.guideline is not None:
-            messages.insert(0, row.guideline.sentence)
-        for message in messages:
-            text = words.show(message)
-            yield words("show.label", label=show_text(row.id), text=text)
+        for note in row.notes:
+            if not basis.is_of_row(note):
+                text = words.show(note)
+                yield words("show.label", label=show_text(row.id), text=text)
+
+
+_DENSITY = "guideline.other_density"  # a cause of which each row has its own numbers
+
+
+def _list_causes(study: Study, words: Words) -> list[str]:
+    """Why the guideline's forces differ: each cause once, with its net rows."""
+    rows: dict[str, list[str]] = {}
+    densities: dict[str, list[Message]] = {}
+    for row in study.rows:
+        sentence = row.guideline.sentence if row.guideline else None
+        causes = sentence.arguments.get("causes", (sentence,)) if sentence else ()
+        for cause in causes if isinstance(causes, tuple) else ():
+            if isinstance(cause, Message) and cause.key == _DENSITY:
+                densities.setdefault(row.id, []).append(cause)
+            elif isinstance(cause, Message):
+                rows.setdefault(words.show(cause), []).append(row.id)
+    if densities:
+        known = [cause for causes in densities.values() for cause in causes]
+        text = words(_DENSITY, **{x: _show_span(known, x, words) for x in _LOADS})
+        rows = {text: list(densities), **rows}
+    return label_rows(rows, study, words)
+
+
+_LOADS = ("guideline", "coupled")
+
+
+def _show_span(messages: Sequence[Message], name: str, words: Words) -> str:
+    """Least and largest of a number that messages have, in whole ones."""
+    numbers = [float(str(message.arguments[name])) for message in messages]
+    low, high = (words.show_fixed(x, 0) for x in (min(numbers), max(numbers)))
+    return low if low == high else words("show.from_to", low=low, high=high)
 
 
 def explain_case(case: CaseRecord, words: Words) -> Cell:
@@ -175,28 +207,35 @@ def explain_case(case: CaseRecord, words: Words) -> Cell:
 
 
 def build_cases(row: RowStudy, words: Words) -> Table:
-    """Every case of a row with its forces or the reason why there are none."""
+    """Every case of a row with its forces or the reason why there are none.
+
+    How each ended is said where one ended otherwise than converged.
+    """
     keys = [f"{member}_kN" for member in REPORTED_MEMBERS]
     keys += ["error_percent", "balance_residual"]
     caption, name = words("caption.cases"), show_text(row.id)
+    odd = any(x.reason or x.outcome is not Outcome.CONVERGED for x in row.cases)
     return Table(
         caption=words("show.label", label=name, text=caption),
         columns=(
             *list_case_columns(words, row),
             *(quantity_column(words, key) for key in keys),
-            *key_columns(words, "heading.", ("outcome", "reason")),
+            *(key_columns(words, "heading.", ("outcome", "reason")) if odd else ()),
         ),
         rows=tuple(
             (
                 *_show_case(case.case, words),
                 *(number_cell(words, key, getattr(case, key)) for key in keys),
-                text_cell(words(f"ended.{case.outcome}")),
-                explain_case(case, words),
+                *(_tell_end(case, words) if odd else ()),
             )
             for case in row.cases
         ),
         empty=words("show.none"),
     )
+
+
+def _tell_end(case: CaseRecord, words: Words) -> tuple[Cell, ...]:
+    return text_cell(words(f"ended.{case.outcome}")), explain_case(case, words)
 
 
 def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:

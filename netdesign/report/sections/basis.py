@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from netdesign.checks.check import Check
 from netdesign.outcome import Outcome
 from netdesign.report.blocks import (
     Block,
@@ -88,13 +90,15 @@ def _share_cells(ids: Sequence[str], cells: Mapping[str, Cell]) -> list[Cell]:
 
 def _input_cell(echo: InputEcho, words: Words) -> Cell:
     cell = given_cell(words, understand(echo, words))
-    typed = show_text(echo.text)
+    typed = words.write_formula(show_text(echo.text))
     note = words.show(echo.derivation) if echo.derivation else ""
-    if cell.number is None or not echo.text or words.write(typed) == cell.text:
+    is_same = _PLAIN.fullmatch(typed) and float(typed.replace(",", ".")) == cell.number
+    if cell.number is None or not echo.text or is_same or typed == cell.text:
         return replace(cell, note=note)
-    return Cell(text=f"{typed} → {cell.text}", note=note)
+    return Cell(text=f"{typed} → {words.show_share(cell.number)}", note=note)
 
 
+_PLAIN = re.compile(r"-?\d+([.,]\d+)?")  # number of a cell, whose text may be ours
 _ASSUMED = "assumed"  # status of a value that is not confirmed
 
 
@@ -175,9 +179,9 @@ _FEW_ROWS, _TWO = 8, 2
 
 def show_basis(study: Study, words: Words) -> Part:
     """Statements that hold for all rows: limits of the report, profile, tests."""
-    evidence = (note for note in study.notes if note.key.startswith(_EVIDENCE))
+    others = (note for note in study.notes if not note.key.startswith(_LIMIT))
     notes = (
-        *(words.show(note) for note in evidence),
+        *(words.show(note) for note in others),
         *label_rows(share_notes(study, words), study, words),
     )
     blocks: tuple[Block, ...] = (
@@ -271,10 +275,16 @@ def _count_by_floor(study: Study, words: Words) -> str:
         is_own = not study.profile.is_floor_overruled
         return words("floor.none" if is_own else "floor.none_chosen")
     checks = [check for row in study.rows for check in row.checks if check.is_of_force]
-    governed = sum(check.governs == "guideline" for check in checks)
+    governed = sum(map(_is_by_guideline, checks))
     profiles = {row.floor.profile for row in study.rows if row.floor}
     named = show_text(", ".join(sorted(profiles)))
     return words("floor.told", profile=named, count=governed, all=len(checks))
+
+
+def _is_by_guideline(check: Check) -> bool:
+    """The guideline's load governs; of a rope it may have raised the pull."""
+    is_raised = "φ_g" in check.step_of and "E_c" not in check.step_of
+    return check.governs == "guideline" or is_raised
 
 
 def name_law(study: Study) -> str:
@@ -282,13 +292,12 @@ def name_law(study: Study) -> str:
     return study.provenance.settings.get("creep_law", "").partition(" ")[0]
 
 
-_EVIDENCE = "evidence."  # keys of notes that say what supports a creep law
+_LIMIT = "note."  # of notes on the model; others say what was read, or supports a law
 
 
 def list_limits(study: Study, words: Words) -> list[str]:
     """Notes on the whole study for the first page: where its creep law was used."""
-    notes = (note for note in study.notes if not note.key.startswith(_EVIDENCE))
-    return [words.show(note) for note in notes]
+    return [words.show(note) for note in study.notes if note.key.startswith(_LIMIT)]
 
 
 def list_notes(study: Study, words: Words) -> list[str]:

@@ -26,8 +26,6 @@ from netdesign.study.to_do import shorten_reason
 from netdesign.words.catalogue import name
 from netdesign.words.message import Message, say
 
-_FEW = 4  # checks that share a reason and are named
-
 
 def describe_resistance(check: Check, words: Words) -> str:
     """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
@@ -135,12 +133,6 @@ def name_checks(checks: Sequence[Check], words: Words) -> str:
         words.join(dict.fromkeys(show_check(words, check) for check in checks))
         or MISSING
     )
-
-
-def name_few(checks: Sequence[Check], words: Words) -> str:
-    """Names of checks that share something; of many the first, and how many more."""
-    few, rest = name_checks(checks[:_FEW], words), len(checks) - _FEW
-    return words("todo.and_more", names=few, count=rest) if rest > 0 else few
 
 
 _LOADS = ("coupled", "panel", "truss", "guideline", "maker")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from netdesign.checks.check import Check
@@ -67,6 +67,7 @@ from netdesign.words.catalogue import name, name_check
 from netdesign.words.message import Message, say
 
 _NO_BREAK = "\u00a0"
+_APART = f"{3 * _NO_BREAK} "  # between the groups of a line
 _SHOWN = (0.95, 0.54)  # utilisations of the legend
 
 
@@ -133,7 +134,7 @@ def _name_rows_by_state(study: Study, words: Words) -> Content:
             named = show_text(name_rows(ids, study, words))
             state = words("show.label", label=words(f"verdict.{verdict}"), text="")
             texts.append((sign(verdict, words), Piece(state), *strong(named)))
-    return tuple(piece for content in texts for piece in (*content, Piece("   ")))
+    return tuple(piece for content in texts for piece in (*content, Piece(_APART)))
 
 
 def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
@@ -151,7 +152,7 @@ def _show_matrix(study: Study, words: Words) -> Iterator[Block]:
             for verdict in (*SEVERITY[::-1],)
             for piece in (
                 sign(verdict, words),
-                Piece(f"{words(f'verdict.{verdict}').lower()} "),
+                Piece(f"{words(f'verdict.{verdict}').lower()}{_APART}"),
             )
         ),
     )
@@ -189,24 +190,43 @@ def _list_row(row: RowStudy, anchor: str, words: Words) -> tuple[Cell, ...]:
     )
 
 
-def show_structure(row: RowStudy, words: Words) -> Content:
-    """Utilisation of the structure; the document that proves all of it."""
+LACKS = {
+    "outside": "rated.outside",
+    "unsure": "rated.unsure",
+    "nothing_given": "rated.nothing_given",
+}
+
+
+def show_structure(
+    row: RowStudy, words: Words, lacks: Mapping[str, str] = LACKS
+) -> Content:
+    """Utilisation of the structure; the document that proves all of it.
+
+    Parameters
+    ----------
+    row : RowStudy
+        Whose structure it is.
+    words : Words
+        Of the language.
+    lacks : mapping of str to str
+        Texts that say why no document proves it.
+    """
     line = find_structure(row)
     if line is None:
         return show_rated(rate_scope(row, Scope.STRUCTURE), words)
     first = sign(row.scopes[Scope.STRUCTURE].verdict, words)
     if line.declared is None:
-        return (first, Piece(_say_without_proof(row, line, words), "beside"))
+        return (first, Piece(words(lacks[_find_lack(row, line)]), "beside"))
     return (first, Piece(show_text(line.declared.document), "beside"))
 
 
-def _say_without_proof(row: RowStudy, line: Check, words: Words) -> str:
+def _find_lack(row: RowStudy, line: Check) -> str:
     """Why no document proves the structure: none is there, or it may not hold."""
     if line.mode != "approval":
-        return words("rated.nothing_given")
+        return "nothing_given"
     limits = (check for check in row.checks if check.mode == line.mode)
     is_outside = any(check.verdict is Verdict.FAIL for check in limits)
-    return words("rated.outside" if is_outside else "rated.unsure")
+    return "outside" if is_outside else "unsure"
 
 
 def _describe_row(row: RowStudy, words: Words) -> str:

@@ -80,10 +80,11 @@ def rate(checks: Sequence[Check]) -> Rated | None:
         return None
     verdict = min((check.verdict for check in checks), key=SEVERITY.index)
     forces = [check for check in checks if check.is_of_force]
-    pool = [force for force in forces if force.verdict is verdict]
+    own = [force for force in forces if not _is_of_head(force)]
+    pool = [force for force in own if force.verdict is verdict]
     if verdict is Verdict.DECLARED:
         pool = [force for force in forces if force.used is not None] or pool
-    shown = max(pool or forces or checks, key=_rank)
+    shown = max(pool or own or forces or checks, key=_rank)
     by_guideline = [force.utilisation_by_guideline for force in forces]
     return Rated(
         verdict=verdict,
@@ -93,12 +94,14 @@ def rate(checks: Sequence[Check]) -> Rated | None:
 
 
 def _rank(check: Check) -> tuple[bool, float, float]:
-    """A check without a utilisation before all others: its force alone is known.
-
-    Not that of a direction: the anchor's own resistances are known beside it.
-    """
-    is_alone = check.used is None and check.mode != "direction"
+    """A check without a utilisation before all others: its force alone is known."""
+    is_alone = check.used is None and not _is_of_head(check)
     return is_alone, check.used or 0.0, check.demand_kN or 0.0
+
+
+def _is_of_head(check: Check) -> bool:
+    """Only what the head takes is not known: the anchor's own resistances are."""
+    return check.mode == "direction" and check.used is None
 
 
 def list_anchor(row: RowStudy, members: Sequence[str]) -> list[Check]:
@@ -189,7 +192,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         return (Piece(MISSING, "dash"),)
     first = sign(rated.verdict, words)
     if rated.used is not None:
-        shown = Piece(_show_used(rated.check, rated.used, words), "ratio")
+        shown = Piece(show_used(rated.check, rated.used, words), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
         if rated.by_guideline is not None and rated.used < _HAS_ROOM:
@@ -205,7 +208,7 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
     return (first, Piece(force, "ratio"), lack)
 
 
-def _show_used(check: Check, used: float, words: Words) -> str:
+def show_used(check: Check, used: float, words: Words) -> str:
     """Utilisation; one far beyond 1 by what is assumed with that at the best ends."""
     if not is_span(check):
         return words.show_number("utilisation", used)

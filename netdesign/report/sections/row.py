@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from netdesign.checks.check import Check
-from netdesign.outcome import Verdict
+from netdesign.outcome import SEVERITY, Verdict
 from netdesign.report.blocks import (
     Badge,
     Block,
@@ -37,7 +37,6 @@ from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.sections.checks import (
     describe_cause,
     list_flips,
-    name_few,
 )
 from netdesign.report.sections.rated import (
     ANCHOR_MEMBERS,
@@ -51,6 +50,7 @@ from netdesign.report.sections.rated import (
     list_part,
     rate,
     show_answer,
+    show_used,
 )
 from netdesign.report.words import (
     MISSING,
@@ -64,8 +64,9 @@ from netdesign.report.words import (
 )
 from netdesign.study.records import RowStudy, find_input
 from netdesign.study.scopes import STRUCTURE, is_of_structure
+from netdesign.study.to_do import name_few_checks
 from netdesign.words.catalogue import name_check, name_mode
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _MOST_REASONS = 4  # of the points of a row that its page has room for
 _DRAWN = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
@@ -124,9 +125,9 @@ class RowPage:
         if shown.used is None and shown.declared:
             document = show_text(shown.declared.document)
             return t("row_page.by_document", document=document)
-        used = t.show_number("utilisation", shown.used)
-        if shown.used is None:
-            used = t.show_with_unit("demand_kN", shown.demand_kN)
+        used = t.show_with_unit("demand_kN", shown.demand_kN)
+        if shown.used is not None:
+            used = show_used(shown, shown.used, t)
         named = t.show(name_check(shown.member, shown.mode))
         if used == MISSING:
             used = describe_cause(shown, t)
@@ -185,9 +186,9 @@ class RowPage:
             force, rated = find_demand(checks), rate(checks)
             if force is not None and rated is not None:
                 shown = self.words.show_with_unit("demand_kN", force)
-                used = self.words.show_number("utilisation", rated.used)
-                if rated.used is None or rated.verdict is Verdict.DECLARED:
-                    used = show_verdict(rated.verdict, self.words).symbol
+                used = show_verdict(rated.verdict, self.words).symbol
+                if rated.used is not None and rated.verdict is not Verdict.DECLARED:
+                    used = show_used(rated.check, rated.used, self.words)
                 forces[member] = (force, f"{shown} · {used}")
         return forces
 
@@ -275,18 +276,15 @@ class RowPage:
         Of an approval that is kept its limits stand beside the values of the row.
         """
         t = self.words
-        others: dict[tuple[Verdict, str], list[Check]] = {}
+        others: dict[tuple[object, ...], list[Check]] = {}
         for check in checks:
             if check.verdict is not Verdict.PASS:
-                reason = "" if _says_all(check) else t.show(check.plain_reason)
-                others.setdefault((check.verdict, reason), []).append(check)
+                key = (check.verdict, *_name_reasons(check))
+                others.setdefault(key, []).append(check)
         texts: list[Content] = []
-        for (verdict, reason), shared in list(others.items())[:_MOST_REASONS]:
-            named = name_few(shared, t)
-            text = t("show.label", label=named, text=reason) if reason else named
-            if not reason:
-                text = self._name_used(shared)
-            texts.append((Badge(show_verdict(verdict, t), "sign"), Piece(text)))
+        for shared in sorted(others.values(), key=_rank)[:_MOST_REASONS]:
+            badge = Badge(show_verdict(shared[0].verdict, t), "sign")
+            texts.append((badge, Piece(self._tell_shared(shared))))
         rest = len(others) - len(texts)
         met = [check for check in checks if check.verdict is Verdict.PASS]
         for check in within:
@@ -300,11 +298,23 @@ class RowPage:
         if met:
             yield Paragraph(text=t("row_page.met", count=len(met)), look="small")
 
+    def _tell_shared(self, checks: Sequence[Check]) -> str:
+        """Names of checks that are open alike, with the reason of the worst of them."""
+        t, worst = self.words, max(checks, key=lambda check: check.used or 0.0)
+        if _says_all(worst):
+            return self._name_used(checks)
+        is_open = worst.verdict is Verdict.NOT_PROVEN  # as its sign says
+        reasons = (worst.open_reasons if is_open else ()) or (worst.plain_reason,)
+        named = t.join(map(t.show, name_few_checks(checks)))
+        if len(checks) == 1:
+            named = show_check(t, worst)
+        return t("show.label", label=named, text=t.join(map(t.show, reasons)))
+
     def _name_used(self, checks: Sequence[Check]) -> str:
         """Checks that say no more than their utilisations, with these."""
         t = self.words
         texts = [
-            f"{show_check(t, x)} {t.show_number('utilisation', x.used)}"
+            f"{show_check(t, x)} {show_used(x, x.used or 0.0, t)}"
             for x in checks[:_MOST_REASONS]
         ]
         rest = len(checks) - len(texts)
@@ -328,11 +338,34 @@ class RowPage:
             yield Items(items=tuple(lines), look="reasons")
 
 
+def _rank(checks: Sequence[Check]) -> tuple[int, float]:
+    """Order of the points of a row: the worst verdict, then the most used."""
+    verdict = min(SEVERITY.index(check.verdict) for check in checks)
+    return verdict, -max(check.used or 0.0 for check in checks)
+
+
 def _says_all(check: Check) -> bool:
     """The numbers of a check are all that it says."""
     if check.verdict is Verdict.PASS:
         return True
     return check.used is not None and not (check.open or check.open_reasons)
+
+
+# Open points of which several checks of a row differ by their numbers alone.
+_BY_NUMBERS = (
+    *("assumed.by_ropes", "assumed.by_stiffness", "check.assumed_together"),
+    "direction.no_head",
+)
+
+
+def _name_reasons(check: Check) -> Iterator[str]:
+    """What is open of a check but for its numbers: those of the worst are told."""
+    if _says_all(check):
+        return
+    for message in check.open_reasons or (check.plain_reason,):
+        name = message.arguments.get("name")
+        is_alike = message.key in _BY_NUMBERS or isinstance(name, Message)
+        yield f"{message.key} {name}" if is_alike else str(message)
 
 
 def _find_height(row: RowStudy) -> float | None:

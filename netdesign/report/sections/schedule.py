@@ -103,13 +103,14 @@ def _build_line(
     limits = [x.proof_limit_kN for x in pulled if x.proof_limit_kN is not None]
     dips = tuple(dict.fromkeys(round(pull.dip_deg, 1) for pull in pulls))
     limit = min(limits, default=None)
+    count = sum(counts) if counts and len(counts) == len(parts) else None
     return AnchorLine(
         row=row.id,
         member=member,
         type_id=type_id,
         rated=rated,
         demand_kN=find_demand(forces),
-        count=sum(counts) if counts and len(counts) == len(parts) else None,
+        count=count,
         length_m=next((part.size for part in parts if part.size is not None), None),
         dips_deg=dips,
         proof_kN=proof,
@@ -118,6 +119,7 @@ def _build_line(
             *_list_notes(rated, pulled, dips),
             *(("tendon",) if limit is not None and (proof or 0.0) > limit else ()),
             *(("weak",) if type_id in _find_weak(row) else ()),
+            *(("uncounted",) if count is None and type_id else ()),
         ),
     )
 
@@ -266,7 +268,7 @@ def _tabulate_order(lines: Sequence[AnchorLine], study: Study, words: Words) -> 
             for kind, of_type in sorted(orders.items())
         ),
         empty=words("show.none"),
-        look="order",
+        look="order cards",
         symbols="headings",
     )
 
@@ -312,7 +314,7 @@ def show_tests(study: Study, words: Words) -> Iterator[Table]:
             caption=words("tests.caption"),
             columns=key_columns(words, "tests.", keys, numbers=numbers),
             rows=lines,
-            look="tests",
+            look="tests cards",
             symbols="headings",
         )
 
@@ -330,21 +332,20 @@ def _list_lines(study: Study, words: Words) -> Iterator[tuple[Cell, ...]]:
         factor, is_whole = study.profile.proof_factor, len(known) == len(ends)
         wanted = factor * max(known) if factor is not None and is_whole else None
         for test in tests.singles if tests else ():
-            yield _show_single(checks, test, wanted, words)
+            yield _show_single(checks[0].resistance_type, test, wanted, words)
 
 
 def _show_single(
-    checks: Sequence[Check], test: SingleTest, wanted: float | None, words: Words
+    kind: str, test: SingleTest, wanted: float | None, words: Words
 ) -> tuple[Cell, ...]:
-    limits = [x.proof_limit_kN for x in checks if x.proof_limit_kN is not None]
     return (
-        text_cell(checks[0].resistance_type),
+        text_cell(kind),
         text_cell(test.cell),
         force_cell(words, test.load_kN),
         force_cell(words, test.proof_load_kN),
         text_cell(words.show_fixed(test.displacement_mm, 1)),
         text_cell(words(f"tests.{_OUTCOMES[test.is_held]}")),
-        cap_proof_load(wanted, min(limits, default=None), words),
+        cap_proof_load(wanted, None, words),
         text_cell(words(f"tests.{_judge(test, wanted)}")),
     )
 

@@ -133,7 +133,7 @@ def _list_beside(check: Check, words: Words) -> Iterator[tuple[Cell, ...]]:
     """Least resistance with which a check without one passes."""
     needed = check.needed_kN
     if needed is not None and check.resistance_kN is None:
-        upper = words.show_digits(check.read_band("E_d")[1])
+        upper = _show_digits(check.read_band("E_d")[1], words)
         yield (
             text_cell(words("worked.needed")),
             Cell(content=symbols("R_k ≥ γ_R · E_d")),

@@ -42,20 +42,21 @@ from netdesign.words.message import Message
 
 FIRST_LINE = 4  # of the first check, zero-based; the headings are one above
 _WIDTHS = {
-    "net_row": 5,
-    "check": 35,
-    "verdict": 17,
-    "symbol": 8,
-    "name": 20,
-    "formula": 16,
+    "net_row": 7,
+    "check": 44,
+    "verdict": 22,
+    "symbol": 9,
+    "name": 13,
+    "formula": 14,
     "low": 6,
     "value": 6,
     "high": 6,
-    "unit": 5,
-    "source": 22,
+    "unit": 7,
+    "source": 30,
 }
 _PLACES = {name: place for place, name in enumerate(_WIDTHS)}
 _ENDS = {-1: "low", 0: "value", 1: "high"}
+_HEADINGS = {"net_row": "anchors.row"}  # which is short
 _FORCES = {"E_d": ("symbol", "name"), "R_d": ("formula", "formula")}  # columns
 _REASON = ("check", "source")
 _FORMATS = {"kN": "0.00", "m": "0.000", "-": "0.0000"}
@@ -79,8 +80,8 @@ def add_check_sheet(book: Book, study: Study) -> list[int]:
     book.link_back(sheet)
     book.write_wide(sheet, (2, 0), words("caption.calculations"), widths, italic=True)
     heads = [
-        Column(heading=words(f"heading.{name}"), is_number=name in _ENDS.values())
-        for name in _WIDTHS
+        Column(heading=words(_HEADINGS.get(name, f"heading.{name}")), is_number=is_end)
+        for name, is_end in ((x, x in _ENDS.values()) for x in _WIDTHS)
     ]
     book.write_head(sheet, FIRST_LINE - 1, heads, widths)
     for place, width in enumerate(widths):
@@ -140,7 +141,7 @@ def _write_check(book: Book, sheet: Any, line: int, row: str, check: Check) -> N
 def _tell_reason(check: Check, words: Words) -> str:
     """Clause, case and reason of a check; the worst come first."""
     texts = (
-        words.show(check.reason),
+        words.show(check.reason).rstrip("."),
         describe_eased(check, words),
         check.clause,
         name_case(check, words),

@@ -28,7 +28,6 @@ from netdesign.report.blocks import (
 from netdesign.report.sections.annexes import build_provenance
 from netdesign.report.sections.basis import (
     build_inputs,
-    list_limits,
     list_row_notes,
     name_cases,
     share_notes,
@@ -197,8 +196,7 @@ def _add_part(book: Book, name: str, blocks: Sequence[Block]) -> None:
 def _add_notes(book: Book, study: Study) -> None:
     """Sheet of what the report rests on: limits, documents, tests, notes, origin."""
     words, shared = book.words, share_notes(study, book.words)
-    notes = list_limits(study, words)
-    notes += [
+    notes = [
         words("show.label", label=show_text(row.id), text=text)
         for row in study.rows
         for text in list_row_notes(row, study, words)
