@@ -278,12 +278,12 @@ def _guess(
     question = HeadingGuess(
         answer=UNANSWERED, how=say("list_map.unknown"), ranked=" · ".join(shown)
     )
-    if is_allowable(text):
-        return replace(question, how=say("list_map.allowable"))
     names = {split_heading(text)[0], normalise(text)}
     possible = [
         target for target in targets if not names.isdisjoint(target.field.names)
     ]
+    if is_allowable(text) and not possible:  # "Zulassung" is a column's own name
+        return replace(question, how=say("list_map.allowable"))
     how = say("list_map.known")
     if not possible and alike is not None:
         possible = [alike]
