@@ -61,7 +61,7 @@ def test_a_missing_resistance_says_how_much_is_needed(bound):
     row = study.rows[2]
     (check,) = [one for one in row.checks if one.has_open(OpenKind.RESISTANCE_MISSING)]
     (change, *others) = check.changes
-    least = replace(change, sense="at least", unit="kN", bound=bound)
+    least = replace(change, sense="at least", bound=bound)
     changed = replace(check, changes=[*([least] if bound else []), *others])
     checks = [changed if one is check else one for one in row.checks]
     lines = list_to_do(replace(study, rows=[replace(row, checks=checks)]))
