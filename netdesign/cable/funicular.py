@@ -128,8 +128,7 @@ def linearise_curve(
         Moved component and node, loaded component and node.
     """
     count = forces.shape[1]
-    bend = -0.75 * forces[:, 1::2]
-    vector = cable.pull[:, None, None] + tension_offsets(forces, bend)
+    vector = cable.pull[:, None, None] + tension_offsets(forces)
     size = np.hypot(*vector)
     direction = vector / size
     unit = np.eye(2)[:, :, None, None]
@@ -150,24 +149,40 @@ def linearise_curve(
 def _offset_units(count: int) -> Floats:
     """Offsets of a unit force at each node, shape (2 n_nodes, 2, 2, n_elements)."""
     loads = np.eye(2 * count).reshape(2 * count, 2, count)
-    return freeze(tension_offsets(loads, -0.75 * loads[..., 1::2]))
+    return freeze(tension_offsets(loads))
 
 
-def tension_offsets(forces: Floats, bend: Floats) -> Floats:
+def find_bends(forces: Floats) -> Floats:
+    """Half the change of tension over each element, b_e of (C3).
+
+    Parameters
+    ----------
+    forces : ndarray, shape (.., 2, 2 n + 1)
+        Nodal forces, any unit.
+
+    Returns
+    -------
+    ndarray, shape (.., 2, n)
+        In that unit.
+    """
+    bends: Floats = -0.75 * forces[..., 1::2]
+    return bends
+
+
+def tension_offsets(forces: Floats) -> Floats:
     """Tension vectors at the Gauss points less the pull, (C3).
 
     Parameters
     ----------
     forces : ndarray, shape (.., 2, 2 n + 1)
         Nodal forces, any unit.
-    bend : ndarray, shape (.., 2, n)
-        Half the change of tension over each element, same unit.
 
     Returns
     -------
     ndarray, shape (.., 2, 2, n)
         Component, Gauss point, element; in that unit.
     """
+    bend = find_bends(forces)
     steps = 2.0 / 3.0 * (bend[..., :-1] + bend[..., 1:]) - forces[..., 2:-1:2]
     middle = _sum_from_zero(steps)
     turn = bend * _GAUSS
@@ -265,12 +280,11 @@ def build_alike(forces: Floats, shares: Floats, stiffness: float) -> AlikeCables
     stiffness : float
         ES, in the unit of the forces.
     """
-    bend = -0.75 * forces[:, 1::2]
     return AlikeCables(
-        offsets=tension_offsets(forces, bend).reshape(2, -1),
+        offsets=tension_offsets(forces).reshape(2, -1),
         weights=np.concatenate([shares, shares]) / 2.0,
         stiffness=stiffness,
-        to_foot=forces[:, 0] - 2.0 / 3.0 * bend[:, 0],
+        to_foot=forces[:, 0] - 2.0 / 3.0 * find_bends(forces)[:, 0],
         load=forces.sum(axis=1),
     )
 
@@ -412,7 +426,7 @@ def find_part_lengths(
     -----------
     tests/cable/test_parted.py
     """
-    offsets = tension_offsets(forces, -0.75 * forces[:, 1::2])
+    offsets = tension_offsets(forces)
 
     def evaluate(pull: Floats) -> _Lengths:
         return _evaluate(

@@ -17,6 +17,7 @@ from netdesign.cable.funicular import (
     AlikeCables,
     build_alike,
     draw_curves,
+    find_bends,
     tension_offsets,
 )
 from netdesign.cable.net import Net
@@ -211,9 +212,8 @@ def build_strip(net: Net, curve: Floats, forces: Floats, foot: EndPull) -> Strip
     above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
     forces = np.concatenate([forces, above], axis=1)
     foot_pull = np.array([foot.x, foot.y])
-    bend = -0.75 * forces[:, 1::2]
-    pull = foot_pull + 2.0 / 3.0 * bend[:, 0] - forces[:, 0]  # (C5)
-    tension = pull[:, None, None] + tension_offsets(forces, bend)
+    pull = foot_pull + 2.0 / 3.0 * find_bends(forces)[:, 0] - forces[:, 0]  # (C5)
+    tension = pull[:, None, None] + tension_offsets(forces)
     give = 1.0 / np.hypot(*tension) + 1.0 / net.stiffness_per_m
     reach = (tension * give).mean(axis=1)  # of an element, over its length
     lengths = np.hypot(*np.diff(curve[:, ::2])) / np.hypot(*reach)
