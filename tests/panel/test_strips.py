@@ -12,7 +12,7 @@ from netdesign.outcome import ModelError, Outcome
 from netdesign.panel.equations import build_problem
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solve import solve_strips
-from netdesign.panel.strips import build_stations, draw_strips, take_strip
+from netdesign.panel.strips import build_stations, cut_strips, draw_strips, take_strip
 from netdesign.snow.snowpack import Layer, Snowpack
 from tests.each import each
 
@@ -101,3 +101,22 @@ def test_only_a_net_at_rest_has_strips(solved):
     history = replace(solved(inclination_deg=30.0), method="transient")
     with pytest.raises(ModelError, match="steady state of a net, not on a history"):
         take_strip(history)
+
+
+@each("mid", [False, True])
+def test_a_fitted_net_is_cut_to_the_parabolas_of_its_ropes(mid):
+    """A rope that is held in mid-panel too has the sag of half the span, (P4)."""
+    panel = Panel(
+        post_spacing=3.7,
+        upper=Rope(stiffness=2e7, sag=0.083),
+        lower=Rope(stiffness=3e7, sag=0.061),
+        cut="fitted",
+        has_mid_anchors=mid,
+    )
+    stations = build_stations(5, has_mid_anchors=mid)
+    place = np.append(stations.xi, 0.0) * 1.85  # from mid-panel [m]
+    ridge = 0.083 * 3.7 * (1.0 - (place / 1.85) ** 2)
+    lower = 0.061 * 3.7 * (1.0 - (place / 1.85) ** 2)
+    if mid:
+        lower = 0.061 * 1.85 * (1.0 - ((place - 0.925) / 0.925) ** 2)
+    np.testing.assert_allclose(cut_strips(panel, stations), ridge + lower, rtol=1e-12)

@@ -5,6 +5,7 @@ import random
 import pytest
 
 from netdesign.outcome import SiteDataError
+from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.numbers import (
     find_format_unit,
     show_percent,
@@ -12,6 +13,7 @@ from netdesign.site.cells.numbers import (
 from netdesign.site.columns.fields import KNOWN_UNITS, convert_unit, normalise_unit
 from netdesign.site.columns.office import load_plan
 from netdesign.site.reader import read_site
+from netdesign.site.readings import read_cell
 from tests.each import each
 from tests.site.conftest import SOUND
 from tests.site.csv_folder import write_csv_folder
@@ -123,6 +125,13 @@ def test_a_share_may_be_typed_in_percent(tmp_path, sign, slack):
     assert row.slack == pytest.approx(slack, rel=2e-15)
     echo = next(one for one in row.inputs if f"{one.label} [" in SLACK)
     assert echo.text.count("%") == 1
+
+
+def test_a_percentage_under_a_plain_number_is_a_share():
+    (field,) = (one for one in load_plan("rows").fields if one.key == "glide_factor")
+    cell, findings = Cell(file="", sheet="", row=3, column=4, value="182.5 %"), []
+    assert read_cell(cell, field, "-", findings).value == 1.825
+    assert not findings
 
 
 @pytest.mark.parametrize("text", ["65%", "65 %", "65,3%", "0.65 %"])
