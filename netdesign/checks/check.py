@@ -193,8 +193,12 @@ class Check:
 
     @property
     def utilisation_by_guideline(self) -> float | None:
-        """Utilisation by the guideline's load alone [-]; None where not known."""
-        return self.utilisation if "φ_g" in self.step_of else self._rate("g")
+        """Utilisation by the guideline's load alone [-]; None where not known.
+
+        That raises the pull of a border rope, which has no load of its own.
+        """
+        is_raised = "φ_g" in self.step_of and "E_c" not in self.step_of
+        return self.utilisation if is_raised else self._rate("g")
 
     @property
     def exceeds_by_model(self) -> bool:

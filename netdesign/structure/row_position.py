@@ -330,6 +330,15 @@ def measure_to_row_above(bores: Sequence[Bore], upslope: float) -> Floats:
     return measure_distances(here, above)
 
 
+def find_nearest(distances: Floats) -> tuple[int, int]:
+    """Places of the two anchors that are nearest; a millionth [m] is rounding.
+
+    Of equal distances the first counts.
+    """
+    first, second = np.unravel_index(distances.round(6).argmin(), distances.shape)
+    return int(first), int(second)
+
+
 def _flatten(bore: Bore) -> Bore:
     """Anchor as it is seen along the row."""
     (x, y, _), (along, out, _) = bore.start, bore.direction

@@ -7,8 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-import numpy as np
-
 from netdesign.checks import Check, OpenKind
 from netdesign.checks.comparison import compare, lack_factor, leave_open
 from netdesign.checks.schema import ANCHOR_DISTANCE, SOIL_COHESION, SOIL_FRICTION
@@ -28,6 +26,7 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import END_ANCHORS, EndMember, Member
 from netdesign.structure.row_position import (
     Bore,
+    find_nearest,
     measure_in_row,
     measure_to_row_above,
 )
@@ -100,7 +99,7 @@ def _find_nearest(
         distances.append((True, measure_to_row_above(bores, upslope)))
     nearest = []
     for is_above, apart in distances:
-        first, second = np.unravel_index(apart.round(6).argmin(), apart.shape)
+        first, second = find_nearest(apart)
         of_members = (members[first], members[second])
         nearest.append((float(apart[first, second]), of_members, is_above))
     return min(nearest, key=lambda pair: round(pair[0], 6))

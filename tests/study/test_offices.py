@@ -75,8 +75,15 @@ def assert_answered(site, study):
 
 
 def assert_plausible(row):
-    """Inside a row the coupled force is of the guideline's size on its anchors."""
+    """Inside a row the coupled force is of the guideline's size on its anchors.
+
+    What is shown by the guideline alone is its force over the resistance, also where
+    its load raises the pull of a rope that comes to the coupled force.
+    """
     for one in row.checks:
+        if one.read("E_g") is not None and one.read("R_d"):
+            used = one.read("γ_E") * one.read("E_g") / one.read("R_d")
+            assert one.utilisation_by_guideline == pytest.approx(used), one.id
         if one.member in IN_ROW and one.mode == "tendon" and one.position == INSIDE:
             by_guideline, demand = one.read("E_g"), one.read("E_k")
             assert 0.9 * by_guideline <= demand <= 2.0 * by_guideline, one.id
