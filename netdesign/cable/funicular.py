@@ -153,17 +153,9 @@ def _offset_units(count: int) -> Floats:
 
 
 def find_bends(forces: Floats) -> Floats:
-    """Half the change of tension over each element, b_e of (C3).
+    """Half the change of tension over each of n elements, b_e of (C3), (.., 2, n).
 
-    Parameters
-    ----------
-    forces : ndarray, shape (.., 2, 2 n + 1)
-        Nodal forces, any unit.
-
-    Returns
-    -------
-    ndarray, shape (.., 2, n)
-        In that unit.
+    In the unit of the nodal forces, (.., 2, 2 n + 1).
     """
     bends: Floats = -0.75 * forces[..., 1::2]
     return bends

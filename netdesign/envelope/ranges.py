@@ -216,8 +216,17 @@ class Ranges:
     is_even: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse contradicting names, and keep one order."""
+        """Refuse unknown, repeated and contradicting names, and keep one order."""
         names = [name for name, _ in self.intervals]
+        ordered = [name for name in PARAMETERS if name in names]
+        if sorted(names) != sorted(ordered):
+            raise ModelError(
+                say(
+                    "envelope.unknown_ranges",
+                    names=tuple(names),
+                    known=tuple(PARAMETERS),
+                )
+            )
         for first, second in ONE_QUANTITY:
             if first in names and second in names:
                 labels = {

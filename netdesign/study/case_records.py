@@ -213,10 +213,9 @@ class HeldSidewaysRecord:
 
     share: float
     splay_deg: float
-    # largest pull on a head, over the cases; 0 before any solve
-    pull_low_kN: float = 0.0
-    pull_kN: float = 0.0
-    pull_high_kN: float = 0.0
+    pull_low_kN: float  # largest pull on a head, over the cases
+    pull_kN: float
+    pull_high_kN: float
     # over the cases: none is counted on, panel/THEORY.md, 6
     least_tension_kN: float = 0.0
     uphill_part: float  # c of the uphill guy

@@ -231,6 +231,9 @@ def _hold_sideways(
     return HeldSidewaysRecord(
         share=share,
         splay_deg=degree_from_radian(splay),
+        pull_low_kN=pull,
+        pull_kN=pull,
+        pull_high_kN=pull,
         floor_pull_kN=pull,
         **weigh_places(places),
     )

@@ -129,3 +129,10 @@ def test_corners_are_met_exactly_and_single_values_are_no_axis():
         "density": 250.0, "friction_angle": 0.7, "inclination": 0.1,
     }  # fmt: skip
     assert ranges.place((0.5, 0.5))["density"] == 350.0
+
+
+@pytest.mark.parametrize("names", [["denisty"], ["slack", "slack"]])
+def test_names_that_no_parameter_has_or_that_stand_twice_are_refused(names):
+    span = Interval(low=0.03, high=0.07)
+    with pytest.raises(ModelError, match=f"{names[0]}.*accepted are density"):
+        Ranges(intervals=tuple((name, span) for name in names))
