@@ -100,23 +100,19 @@ def build_what_if(study: Study, words: Words) -> Table:
 
 def describe_sized(cell: SizedCell, words: Words) -> str:
     """Line on the smallest type that was found, or that none was."""
-    place = {"row": show_text(cell.row_id), "member": show_member(words, cell.column)}
+    place = {
+        "row": show_text(cell.row_id),
+        "member": show_member(words, cell.column),
+        "cell": cell.cell,
+        "was": cell.was or MISSING,
+    }
     if not cell.cell:
         return words("what_if.no_cell", **place)
     if not cell.now:
-        text = words(
-            "what_if.no_type", **place, cell=cell.cell, was=cell.was, count=cell.tried
-        )
+        text = words("what_if.no_type", **place, count=cell.tried)
         if not cell.left_out:
             return text
         left_out = words("what_if.other_ground", count=cell.left_out)
         return words.join((text, left_out))
     used = words.show_number("utilisation", cell.used)
-    return words(
-        "what_if.type",
-        **place,
-        cell=cell.cell,
-        was=cell.was or MISSING,
-        now=cell.now,
-        used=used,
-    )
+    return words("what_if.type", **place, now=cell.now, used=used)
